@@ -1,0 +1,18 @@
+//! Drivers: one file for each way to follow a loading.
+
+pub mod elastic;
+mod recorder;
+pub mod stepped;
+
+pub use recorder::{LoadPoint, Outcome};
+
+/// A problem: bonds, supports and loads, and what to read off.
+#[derive(Clone, Copy)]
+pub struct Problem<'a> {
+    /// The bond system.
+    pub system: &'a ligament_model::BondSystem,
+    /// Supports and loads.
+    pub boundary: &'a crate::boundary::Boundary,
+    /// Probes.
+    pub probes: &'a [crate::probe::Probe],
+}

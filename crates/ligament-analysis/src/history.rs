@@ -1,0 +1,230 @@
+//! What a run reports while it goes on, and how it ends.
+
+use ligament_model::BondSystem;
+use thiserror::Error;
+
+use crate::boundary::Boundary;
+use crate::connectivity::Fragments;
+use crate::equilibrium::{Balanced, Costs, Unbalanced};
+use crate::state::State;
+use crate::unknowns::COMPONENTS;
+
+/// One load step at rest (or where the run was stopped).
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepRecord {
+    /// Number of the step; 0 is the unloaded body.
+    pub step: usize,
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacement of the control load along its direction, m.
+    pub displacement: f64,
+    /// Force of the control load along its direction, N.
+    pub reaction: f64,
+    /// Energy stored in the bonds, J.
+    pub stored_energy: f64,
+    /// Energy released by all breakages so far, J.
+    pub released_energy: f64,
+    /// Work done by supports and loads so far, J.
+    pub external_work: f64,
+    /// Broken bonds so far.
+    pub broken_bonds: usize,
+    /// Bonds broken in this step.
+    pub broken_in_step: usize,
+    /// Largest s/s_0 of an intact bond.
+    pub largest_ratio: f64,
+    /// Rounds of breaking in this step.
+    pub rounds: usize,
+    /// Solves with a factor in this step.
+    pub solves: usize,
+    /// Connected parts of the body.
+    pub fragments: usize,
+    /// Whether no bond was left to break.
+    pub at_rest: bool,
+    /// Resultant of supports and loads on each group of the boundary: force along x and y, and moments of its points.
+    pub group_forces: Vec<[f64; COMPONENTS]>,
+    /// Values of the probes.
+    pub probes: Vec<f64>,
+}
+
+impl StepRecord {
+    /// (external work - stored - released energy) / external work: what the energy balance misses; 0 without work.
+    pub fn energy_error(&self) -> f64 {
+        let missing = self.external_work - self.stored_energy - self.released_energy;
+        if self.external_work == 0.0 { 0.0 } else { missing / self.external_work }
+    }
+}
+
+/// One bond that broke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BreakRecord {
+    /// Place in the order of all breakages, from 1.
+    pub order: usize,
+    /// Load step.
+    pub step: usize,
+    /// Round of breaking in the step, from 1.
+    pub round: usize,
+    /// Load factor.
+    pub load_factor: f64,
+    /// Bond.
+    pub bond: u32,
+    /// s/s_0 when it broke.
+    pub ratio: f64,
+}
+
+/// Something that a user should know.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Notice {
+    /// Points came loose, and rigid motions of theirs are held.
+    #[error("step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})")]
+    CameLoose {
+        /// Load step; 0 before loading.
+        step: usize,
+        /// Points of the loose parts.
+        points: usize,
+        /// Motions held.
+        motions: usize,
+        /// First point of the first loose part.
+        first: u32,
+    },
+    /// Points without stiffness in some direction are held there.
+    #[error("step {step}: {} mechanism(s) held, first at point {}", degrees_of_freedom.len(), degrees_of_freedom[0] / COMPONENTS)]
+    Mechanisms {
+        /// Load step.
+        step: usize,
+        /// Degrees of freedom held.
+        degrees_of_freedom: Vec<usize>,
+    },
+    /// The intact model has more negative eigenvalues than its rotations explain.
+    #[error(
+        "the intact model is unstable: {negative} negative eigenvalues where {expected} are expected; \
+         results are not to be trusted (Poisson's ratio too large for this horizon factor)"
+    )]
+    Unstable {
+        /// Negative eigenvalues.
+        negative: usize,
+        /// Expected ones.
+        expected: usize,
+    },
+}
+
+/// A state in equilibrium, for observers that want fields.
+pub struct View<'a> {
+    /// The system.
+    pub system: &'a BondSystem,
+    /// Its state.
+    pub state: &'a State,
+    /// Deformations and forces.
+    pub balanced: &'a Balanced,
+    /// Supports and loads.
+    pub boundary: &'a Boundary,
+    /// Critical stretches, shape (n_bonds); empty in an elastic analysis.
+    pub critical_stretch: &'a [f64],
+    /// Connected parts.
+    pub fragments: &'a Fragments,
+    /// What the equations have cost so far.
+    pub costs: &'a Costs,
+    /// Whether the run ends with this state.
+    pub is_last: bool,
+}
+
+/// Failure of an observer.
+#[derive(Debug, Error)]
+#[error(transparent)]
+pub struct ObserverError(#[from] pub Box<dyn std::error::Error + Send + Sync>);
+
+/// Watches a run. All methods but [`Observer::step`] may be left as they are.
+pub trait Observer {
+    /// A Newton-Raphson iteration was done.
+    fn iteration(&mut self, _iteration: usize, _residual: f64, _stored_energy: f64) -> Result<(), ObserverError> {
+        Ok(())
+    }
+
+    /// The driver enters a round: later iterations belong to it.
+    fn round(&mut self, _step: usize, _round: usize, _load_factor: f64, _broken: usize) -> Result<(), ObserverError> {
+        Ok(())
+    }
+
+    /// Bonds broke.
+    fn broke(&mut self, _records: &[BreakRecord]) -> Result<(), ObserverError> {
+        Ok(())
+    }
+
+    /// Something happened that a user should know.
+    fn notice(&mut self, _notice: &Notice) -> Result<(), ObserverError> {
+        Ok(())
+    }
+
+    /// A load step ended.
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError>;
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Termination {
+    /// All load steps were done.
+    #[error("all load steps were done")]
+    StepsDone,
+    /// The load fell to the given fraction of its peak.
+    #[error("the load fell to {fraction} of its peak")]
+    LoadFraction {
+        /// Fraction asked for.
+        fraction: f64,
+    },
+    /// The displacement asked for was reached.
+    #[error("the displacement {displacement} m was reached")]
+    DisplacementReached {
+        /// Displacement asked for, m.
+        displacement: f64,
+    },
+    /// The number of broken bonds asked for was reached.
+    #[error("{bonds} bonds were broken")]
+    BondsBroken {
+        /// Bonds asked for.
+        bonds: usize,
+    },
+    /// The time allowed was used up.
+    #[error("the time of {seconds} s was used up")]
+    WallTime {
+        /// Time allowed, s.
+        seconds: f64,
+    },
+    /// The body no longer carries the load: it fell apart.
+    #[error("the body fell apart: it carries no load any more")]
+    FellApart,
+    /// What the load acts on came loose.
+    #[error("the body collapsed: the loaded part came loose")]
+    Collapsed,
+    /// A load step needed more rounds of breaking than allowed.
+    #[error("load step {step} did not come to rest in {rounds} rounds of breaking")]
+    NotAtRest {
+        /// Load step.
+        step: usize,
+        /// Rounds allowed.
+        rounds: usize,
+    },
+    /// No equilibrium was found.
+    #[error("no equilibrium in load step {step}: {reason}")]
+    NoEquilibrium {
+        /// Load step.
+        step: usize,
+        /// Why.
+        reason: Unbalanced,
+    },
+}
+
+impl Termination {
+    /// Short name for files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::StepsDone => "steps-done",
+            Self::LoadFraction { .. } => "load-fraction",
+            Self::DisplacementReached { .. } => "displacement-reached",
+            Self::BondsBroken { .. } => "bonds-broken",
+            Self::WallTime { .. } => "wall-time",
+            Self::FellApart => "fell-apart",
+            Self::Collapsed => "collapsed",
+            Self::NotAtRest { .. } => "not-at-rest",
+            Self::NoEquilibrium { .. } => "no-equilibrium",
+        }
+    }
+}

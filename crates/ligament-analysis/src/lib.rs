@@ -1,0 +1,25 @@
+//! Equations and algorithms: unknowns, assembly, equilibrium and the drivers that follow a loading.
+//!
+//! A [`Boundary`] on a bond system makes a problem; [`driver::elastic`] solves it once, [`driver::stepped`] follows the
+//! loading while bonds break, one ordered handful after another. What happens on the way goes to an [`Observer`]; how it
+//! ended is a [`Termination`], never an error. No files and no printing here.
+
+pub mod assembly;
+pub mod boundary;
+pub mod breaking;
+pub mod connectivity;
+pub mod driver;
+pub mod equilibrium;
+pub mod fields;
+pub mod history;
+pub mod internal;
+pub mod probe;
+pub mod state;
+pub mod unknowns;
+
+pub use boundary::{Boundary, BoundaryError, Control, ControlKind};
+pub use equilibrium::{Equilibrium, SetupError};
+pub use history::{Observer, ObserverError, Termination};
+pub use probe::Probe;
+pub use state::State;
+pub use unknowns::{COMPONENTS, Component, Unknowns};

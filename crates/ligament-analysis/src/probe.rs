@@ -1,0 +1,99 @@
+//! Probes: numbers read off the body at every load step.
+
+use ligament_model::BondSystem;
+use ligament_model::bonds::precrack::PreCrack;
+
+use crate::equilibrium::Balanced;
+use crate::fields;
+use crate::state::State;
+use crate::unknowns::{COMPONENTS, Component};
+
+/// A column of the history.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe {
+    /// Name of the column.
+    pub name: String,
+    /// What it reads.
+    pub reading: Reading,
+}
+
+/// What a probe reads.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reading {
+    /// Motion of the second point minus that of the first (crack mouth opening, strain gauge), m or rad.
+    RelativeDisplacement {
+        /// The two points.
+        points: [u32; 2],
+        /// Component.
+        component: Component,
+    },
+    /// A field at a point.
+    Field {
+        /// Point.
+        point: u32,
+        /// Field.
+        field: PointField,
+    },
+    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N.
+    SectionForce {
+        /// Bonds that cross the line, and whether their first end lies on the left.
+        bonds: Vec<(u32, bool)>,
+        /// Component: x or y.
+        component: Component,
+    },
+}
+
+/// Fields that a probe can read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PointField {
+    /// Damage phi.
+    Damage,
+    /// A displacement or the rotation, m or rad.
+    Motion(Component),
+    /// Strain energy density, J/m^3.
+    StrainEnergyDensity,
+}
+
+impl Reading {
+    /// The force through the straight line from `start` to `end` (mesh-file coordinates): all bonds that cross it, by the
+    /// rule of pre-cracks.
+    pub fn section(system: &BondSystem, start: [f64; 2], end: [f64; 2], component: Component) -> Self {
+        let line = PreCrack { points: vec![start, end] }.in_local_coordinates(&system.cloud);
+        let position = |point: u32| system.cloud.positions[point as usize];
+        let bonds = system
+            .bonds
+            .ends
+            .iter()
+            .enumerate()
+            .filter(|(_, ends)| line.cuts(position(ends[0]), position(ends[1])))
+            .map(|(bond, ends)| (bond as u32, line.starts_on_the_left(position(ends[0]))))
+            .collect();
+        Self::SectionForce { bonds, component }
+    }
+
+    /// The value in a state of equilibrium.
+    pub fn value(&self, system: &BondSystem, state: &State, balanced: &Balanced) -> f64 {
+        match self {
+            Self::RelativeDisplacement { points: [first, second], component } => {
+                let motion = |point: u32| state.displacement[COMPONENTS * point as usize + component.index()];
+                motion(*second) - motion(*first)
+            }
+            Self::Field { point, field } => match field {
+                PointField::Damage => fields::point_damage(system, &state.intact, *point),
+                PointField::Motion(component) => state.displacement[COMPONENTS * *point as usize + component.index()],
+                PointField::StrainEnergyDensity => {
+                    fields::point_energy_density(system, &state.intact, &balanced.deformations, *point)
+                }
+            },
+            Self::SectionForce { bonds, component } => bonds
+                .iter()
+                .filter(|(bond, _)| state.intact[*bond as usize])
+                .map(|&(bond, first_is_left)| {
+                    let forces = system.element(bond as usize).end_forces(&balanced.deformations[bond as usize]);
+                    // The end force is what holds the end in place against the bond: the bond pulls the other way.
+                    -forces[usize::from(!first_is_left)][component.index()]
+                })
+                .sum(),
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! Sparse symmetric systems: pattern, values and factorisations. No points, no bonds, no time.
+//!
+//! The pattern of a matrix is made once ([`Pattern`]), analysed once ([`Symbolic`]), and then factorised as often as its
+//! values change. Everything runs on one thread in a fixed order, so that the same matrix gives the same bits.
+
+mod factorisation;
+mod ldlt;
+mod llt;
+mod matrix;
+mod symbolic;
+
+pub use factorisation::{FactorError, FactorKind, Factorisation, Inertia};
+pub use matrix::{Pattern, PatternError, SymmetricMatrix};
+pub use symbolic::Symbolic;

@@ -1,0 +1,94 @@
+//! Symmetric sparse matrices: the upper triangle by columns.
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+/// Where a symmetric matrix has entries: the upper triangle by columns, rows ascending, diagonal always present (last).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pattern {
+    column_starts: Vec<usize>,
+    rows: Vec<usize>,
+}
+
+/// Why arrays are no pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum PatternError {
+    /// Column starts do not begin at zero, do not ascend or do not end at the number of rows given.
+    #[error("the column starts are not an ascending range over the entries (column {column})")]
+    ColumnStarts {
+        /// First column found wrong.
+        column: usize,
+    },
+    /// A column is not strictly ascending or does not end on the diagonal.
+    #[error("the rows of column {column} do not ascend strictly to the diagonal")]
+    Rows {
+        /// First column found wrong.
+        column: usize,
+    },
+}
+
+impl Pattern {
+    /// A pattern from column starts (n + 1) and the row of each entry.
+    pub fn new(column_starts: Vec<usize>, rows: Vec<usize>) -> Result<Self, PatternError> {
+        if column_starts.first() != Some(&0) || column_starts.last() != Some(&rows.len()) {
+            return Err(PatternError::ColumnStarts { column: 0 });
+        }
+        for (column, ends) in column_starts.windows(2).enumerate() {
+            if ends[0] > ends[1] || ends[1] > rows.len() {
+                return Err(PatternError::ColumnStarts { column });
+            }
+            let entries = &rows[ends[0]..ends[1]];
+            if entries.last() != Some(&column) || entries.windows(2).any(|pair| pair[0] >= pair[1]) {
+                return Err(PatternError::Rows { column });
+            }
+        }
+        Ok(Self { column_starts, rows })
+    }
+
+    /// Number of rows and columns n.
+    pub fn dimension(&self) -> usize {
+        self.column_starts.len() - 1
+    }
+
+    /// Number of stored entries, those of the upper triangle.
+    pub fn n_entries(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// First entry of each column, then the number of entries, shape (n + 1).
+    pub fn column_starts(&self) -> &[usize] {
+        &self.column_starts
+    }
+
+    /// Row of each entry, shape (n_entries).
+    pub fn rows(&self) -> &[usize] {
+        &self.rows
+    }
+}
+
+/// A symmetric matrix over a shared pattern.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SymmetricMatrix {
+    pattern: Arc<Pattern>,
+    /// Values of the upper triangle in the order of the pattern, shape (n_entries).
+    pub values: Vec<f64>,
+}
+
+impl SymmetricMatrix {
+    /// The zero matrix over a pattern.
+    pub fn zero(pattern: Arc<Pattern>) -> Self {
+        let values = vec![0.0; pattern.n_entries()];
+        Self { pattern, values }
+    }
+
+    /// The pattern.
+    pub fn pattern(&self) -> &Arc<Pattern> {
+        &self.pattern
+    }
+
+    /// Entry of the diagonal.
+    pub fn diagonal(&self, index: usize) -> f64 {
+        self.values[self.pattern.column_starts[index + 1] - 1]
+    }
+}

@@ -1,0 +1,320 @@
+//! Reading values one after the other from the bytes of a file.
+
+use super::error::{GmshError, Place};
+
+/// How the numbers of the sections are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Encoding {
+    /// As text, one row of the format per line.
+    Ascii,
+    /// As bytes, least significant first.
+    LittleEndian,
+    /// As bytes, most significant first.
+    BigEndian,
+}
+
+/// A reading position in the bytes of a file.
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    offset: usize,
+    encoding: Encoding,
+    /// Name of the current section, and where it begins.
+    section: (&'a str, usize),
+}
+
+impl<'a> Cursor<'a> {
+    /// A cursor at the beginning; the format section is text in every file.
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            offset: 0,
+            encoding: Encoding::Ascii,
+            section: ("MeshFormat", 0),
+        }
+    }
+
+    /// Goes from the text of the format line to binary values, the first of which is the integer 1.
+    pub(super) fn begin_binary(&mut self) -> Result<(), GmshError> {
+        // Behind the end of the line, on which the cursor stands.
+        self.offset += 1;
+        self.encoding = Encoding::LittleEndian;
+        let begin = self.offset;
+        let one = self.int("the integer 1")?;
+        if one == 1_i32.swap_bytes() {
+            self.encoding = Encoding::BigEndian;
+        } else if one != 1 {
+            return Err(GmshError::UnknownByteOrder {
+                place: self.place(begin),
+            });
+        }
+        Ok(())
+    }
+
+    pub(super) fn is_ascii(&self) -> bool {
+        self.encoding == Encoding::Ascii
+    }
+
+    pub(super) fn offset(&self) -> usize {
+        self.offset
+    }
+
+    /// Number of bytes not read yet.
+    pub(super) fn remaining(&self) -> usize {
+        self.bytes.len() - self.offset
+    }
+
+    /// The place of a byte, in the terms of this kind of file.
+    pub(super) fn place(&self, offset: usize) -> Place {
+        if self.is_ascii() {
+            let before = &self.bytes[..offset.min(self.bytes.len())];
+            Place::Line(1 + before.iter().filter(|byte| **byte == b'\n').count())
+        } else {
+            Place::Byte(offset)
+        }
+    }
+
+    pub(super) fn truncated(&self) -> GmshError {
+        let (name, begin) = self.section;
+        GmshError::TruncatedSection {
+            place: self.place(begin),
+            name: name.to_owned(),
+        }
+    }
+
+    pub(super) fn unknown_section(&self) -> GmshError {
+        let (name, begin) = self.section;
+        GmshError::UnknownSection {
+            place: self.place(begin),
+            name: name.to_owned(),
+        }
+    }
+
+    /// The error that at `offset` stands `found` instead of what the format wants.
+    pub(super) fn unexpected(
+        &self,
+        offset: usize,
+        expected: &'static str,
+        found: impl Into<String>,
+    ) -> GmshError {
+        GmshError::Unexpected {
+            place: self.place(offset),
+            expected,
+            found: found.into(),
+        }
+    }
+
+    fn skip_while(&mut self, skipped: impl Fn(u8) -> bool) {
+        let rest = &self.bytes[self.offset..];
+        self.offset += rest
+            .iter()
+            .position(|byte| !skipped(*byte))
+            .unwrap_or(rest.len());
+    }
+
+    /// Goes to the next row of an ASCII section; in a binary one there are no rows.
+    pub(super) fn begin_row(&mut self) {
+        if self.is_ascii() {
+            self.skip_while(|byte| byte.is_ascii_whitespace());
+        }
+    }
+
+    /// Makes sure that an ASCII row ends here.
+    pub(super) fn end_row(&mut self) -> Result<(), GmshError> {
+        if !self.is_ascii() {
+            return Ok(());
+        }
+        self.skip_while(is_blank);
+        match self.bytes.get(self.offset) {
+            None => Err(self.truncated()),
+            Some(b'\n') => Ok(()),
+            Some(_) => {
+                let begin = self.offset;
+                let found = self.rest_of_line();
+                Err(self.unexpected(begin, "the end of the line", shown(found)))
+            }
+        }
+    }
+
+    /// The rest of the line, without blanks around it; the cursor stands on its end then.
+    fn rest_of_line(&mut self) -> &'a [u8] {
+        let begin = self.offset;
+        self.skip_while(|byte| byte != b'\n');
+        self.bytes[begin..self.offset].trim_ascii()
+    }
+
+    /// The next line that is not blank and where it begins: text, also in a binary file.
+    ///
+    /// The cursor stands behind the end of the line then: there binary values begin.
+    pub(super) fn text_line(&mut self) -> Result<(usize, &'a [u8]), GmshError> {
+        self.skip_while(|byte| byte.is_ascii_whitespace());
+        let begin = self.offset;
+        let line = self.rest_of_line();
+        if self.remaining() == 0 {
+            return Err(self.truncated());
+        }
+        self.offset += 1;
+        Ok((begin, line))
+    }
+
+    /// The count on the next line, and where it begins.
+    pub(super) fn count_line(&mut self, expected: &'static str) -> Result<(usize, u64), GmshError> {
+        let (begin, line) = self.text_line()?;
+        std::str::from_utf8(line)
+            .ok()
+            .and_then(|text| text.parse().ok())
+            .map(|count| (begin, count))
+            .ok_or_else(|| self.unexpected(begin, expected, shown(line)))
+    }
+
+    /// The next word of an ASCII row.
+    fn token(&mut self, expected: &'static str) -> Result<&'a [u8], GmshError> {
+        self.skip_while(is_blank);
+        let begin = self.offset;
+        self.skip_while(|byte| !byte.is_ascii_whitespace());
+        if begin == self.offset {
+            return Err(match self.bytes.get(begin) {
+                None => self.truncated(),
+                Some(_) => self.unexpected(begin, expected, "the end of the line"),
+            });
+        }
+        Ok(&self.bytes[begin..self.offset])
+    }
+
+    fn parsed<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, GmshError> {
+        let token = self.token(expected)?;
+        std::str::from_utf8(token)
+            .ok()
+            .and_then(|text| text.parse().ok())
+            .ok_or_else(|| self.unexpected(self.offset - token.len(), expected, shown(token)))
+    }
+
+    fn raw<const N: usize>(&mut self) -> Result<[u8; N], GmshError> {
+        let chunk = self.bytes[self.offset..]
+            .first_chunk()
+            .ok_or_else(|| self.truncated())?;
+        self.offset += N;
+        Ok(*chunk)
+    }
+
+    /// The next `int`.
+    pub(super) fn int(&mut self, expected: &'static str) -> Result<i32, GmshError> {
+        match self.encoding {
+            Encoding::Ascii => self.parsed(expected),
+            Encoding::LittleEndian => self.raw().map(i32::from_le_bytes),
+            Encoding::BigEndian => self.raw().map(i32::from_be_bytes),
+        }
+    }
+
+    /// The next `int`, which must not be negative.
+    pub(super) fn unsigned_int(&mut self, expected: &'static str) -> Result<u64, GmshError> {
+        let begin = self.offset;
+        let value = self.int(expected)?;
+        u64::try_from(value).map_err(|_| self.unexpected(begin, expected, value.to_string()))
+    }
+
+    /// The next `size_t`.
+    pub(super) fn size(&mut self, expected: &'static str) -> Result<u64, GmshError> {
+        match self.encoding {
+            Encoding::Ascii => self.parsed(expected),
+            Encoding::LittleEndian => self.raw().map(u64::from_le_bytes),
+            Encoding::BigEndian => self.raw().map(u64::from_be_bytes),
+        }
+    }
+
+    /// The next `double`.
+    pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, GmshError> {
+        match self.encoding {
+            Encoding::Ascii => self.parsed(expected),
+            Encoding::LittleEndian => self.raw().map(f64::from_le_bytes),
+            Encoding::BigEndian => self.raw().map(f64::from_be_bytes),
+        }
+    }
+
+    /// Refuses a count, read at `offset`, of items of at least `bytes_each` that cannot all follow.
+    pub(super) fn check_count(
+        &self,
+        offset: usize,
+        count: u64,
+        bytes_each: usize,
+        items: &'static str,
+    ) -> Result<usize, GmshError> {
+        usize::try_from(count)
+            .ok()
+            .filter(|count| *count <= self.remaining() / bytes_each)
+            .ok_or_else(|| GmshError::CountBeyondFile {
+                place: self.place(offset),
+                items,
+                count,
+            })
+    }
+
+    /// The name of the section that begins here; none at the end of the file.
+    pub(super) fn begin_section(&mut self) -> Result<Option<&'a str>, GmshError> {
+        self.skip_while(|byte| byte.is_ascii_whitespace());
+        let begin = self.offset;
+        if self.remaining() == 0 {
+            return Ok(None);
+        }
+        let line = self.rest_of_line();
+        let name = line
+            .strip_prefix(b"$")
+            .and_then(|name| std::str::from_utf8(name).ok());
+        let name = name.ok_or_else(|| self.unexpected(begin, "the $ of a section", shown(line)))?;
+        self.section = (name, begin);
+        // Binary values begin right behind the end of the line.
+        self.offset = self.bytes.len().min(self.offset + 1);
+        Ok(Some(name))
+    }
+
+    /// Makes sure that the current section ends here.
+    pub(super) fn end_section(&mut self) -> Result<(), GmshError> {
+        self.skip_while(|byte| byte.is_ascii_whitespace());
+        let begin = self.offset;
+        let line = self.rest_of_line();
+        match line.strip_prefix(b"$End") {
+            Some(name) if name == self.section.0.as_bytes() => Ok(()),
+            // A cut within the word is a cut, not a wrong word.
+            _ if self.remaining() == 0 && self.end_mark().starts_with(line) => {
+                Err(self.truncated())
+            }
+            _ => Err(self.unexpected(begin, "the end of the section", shown(line))),
+        }
+    }
+
+    fn end_mark(&self) -> Vec<u8> {
+        [b"$End", self.section.0.as_bytes()].concat()
+    }
+
+    /// Skips what is left of the current section, and its end.
+    pub(super) fn skip_section(&mut self) -> Result<(), GmshError> {
+        let mark = self.end_mark();
+        let mut rest = &self.bytes[self.offset..];
+        while let Some(dollar) = rest.iter().position(|byte| *byte == b'$') {
+            rest = &rest[dollar..];
+            // Only a whole word ends the section: $EndElementData is no end of $EndElement.
+            let behind = rest.get(mark.len()).copied().unwrap_or(b'\n');
+            if rest.starts_with(&mark) && behind.is_ascii_whitespace() {
+                self.offset = self.bytes.len() - rest.len() + mark.len();
+                return Ok(());
+            }
+            rest = &rest[1..];
+        }
+        Err(self.truncated())
+    }
+}
+
+/// White space within a line.
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r')
+}
+
+/// What stands in the file, shortened for a message.
+pub(super) fn shown(found: &[u8]) -> String {
+    const LENGTH: usize = 40;
+    if found.is_empty() {
+        return "nothing".to_owned();
+    }
+    let text = String::from_utf8_lossy(&found[..found.len().min(LENGTH)]);
+    let dots = if found.len() > LENGTH { "…" } else { "" };
+    format!("\"{}{dots}\"", text.escape_debug())
+}

@@ -1,0 +1,267 @@
+//! Why a file was refused.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// A place in a mesh file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Line of an ASCII file, counted from 1.
+    Line(usize),
+    /// Offset in a binary file, bytes from its beginning.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(line) => write!(f, "line {line}"),
+            Place::Byte(offset) => write!(f, "byte {offset}"),
+        }
+    }
+}
+
+/// Why a file was not read as a planar mesh.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum GmshError {
+    /// The file holds nothing.
+    #[error("the mesh file is empty; mesh the geometry again")]
+    Empty,
+    /// The file does not begin as a Gmsh mesh does.
+    #[error(
+        "not a Gmsh mesh file: it does not begin with $MeshFormat \
+         (a geometry is meshed by `gmsh -2 geometry.geo -o mesh.msh`)"
+    )]
+    NotGmsh,
+    /// A version of the format other than 2.2 and 4.1.
+    #[error(
+        "{place}: format version {version} is not read, only 2.2 and 4.1; \
+         convert the file by `gmsh mesh.msh -save -format msh41 -o new.msh`"
+    )]
+    UnsupportedVersion {
+        /// Where the version stands.
+        place: Place,
+        /// The version found.
+        version: String,
+    },
+    /// A binary file of another data size than 8.
+    #[error(
+        "{place}: a binary file with data of {bytes} bytes is not read, only of 8; \
+         save the mesh as ASCII (`gmsh mesh.msh -save -format msh41 -o new.msh`)"
+    )]
+    UnsupportedDataSize {
+        /// Where the size stands.
+        place: Place,
+        /// The size found.
+        bytes: u64,
+    },
+    /// The integer that tells the byte order of a binary file is 1 in no byte order.
+    #[error(
+        "{place}: the byte order of this binary file is unknown; \
+         was it copied as text? Copy it anew, or save the mesh as ASCII"
+    )]
+    UnknownByteOrder {
+        /// Where the integer stands.
+        place: Place,
+    },
+    /// A section that no planar mesh has.
+    #[error("{place}: unknown section ${name}; save the mesh by Gmsh, without extra data")]
+    UnknownSection {
+        /// Where the section begins.
+        place: Place,
+        /// Its name, without the dollar sign.
+        name: String,
+    },
+    /// The file ends within a section.
+    #[error(
+        "{place}: the section ${name} that begins here has no end: the file is cut off; save it again"
+    )]
+    TruncatedSection {
+        /// Where the section begins.
+        place: Place,
+        /// Its name, without the dollar sign.
+        name: String,
+    },
+    /// A section without which there is no mesh is not in the file.
+    #[error(
+        "the file has no section ${name}; was the geometry meshed (`gmsh -2`) before it was saved?"
+    )]
+    MissingSection {
+        /// Its name, without the dollar sign.
+        name: &'static str,
+    },
+    /// Something else stands where the format wants a certain value.
+    #[error("{place}: expected {expected}, found {found}; the file is damaged, save it again")]
+    Unexpected {
+        /// Where it stands.
+        place: Place,
+        /// What the format wants here.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// More items are announced than the rest of the file has room for.
+    #[error(
+        "{place}: {count} {items} are announced, more than the rest of the file can hold: it is cut off or damaged"
+    )]
+    CountBeyondFile {
+        /// Where the count stands.
+        place: Place,
+        /// What is counted.
+        items: &'static str,
+        /// The count.
+        count: u64,
+    },
+    /// The blocks of a section hold another number of items than its head announces.
+    #[error(
+        "{place}: {announced} {items} are announced, but the blocks hold {found}; save the mesh again"
+    )]
+    CountMismatch {
+        /// Where the count stands.
+        place: Place,
+        /// What is counted.
+        items: &'static str,
+        /// The count in the head of the section.
+        announced: u64,
+        /// The count of the blocks.
+        found: u64,
+    },
+    /// An element type that Gmsh does not have, or one that is no polynomial cell.
+    #[error(
+        "{place}: element type {code} is unknown or not supported; mesh with triangles or quadrangles"
+    )]
+    UnknownElementType {
+        /// Where the type stands.
+        place: Place,
+        /// Its number.
+        code: i32,
+    },
+    /// A volume element.
+    #[error(
+        "{place}: element type {code} is a volume, but the mesh must be planar; \
+         mesh with `gmsh -2` and save surfaces only"
+    )]
+    VolumeElement {
+        /// Where the type stands.
+        place: Place,
+        /// Its number.
+        code: i32,
+    },
+    /// A coordinate that is NaN, infinite or of absurd size.
+    #[error(
+        "{place}: node {tag} has the coordinate {value}, which is no position; mesh the geometry again"
+    )]
+    BadCoordinate {
+        /// Where the node stands.
+        place: Place,
+        /// Tag of the node.
+        tag: u64,
+        /// The coordinate.
+        value: f64,
+    },
+    /// Two nodes of the same tag.
+    #[error("{place}: the node tag {tag} was already given at {first}; renumber the mesh")]
+    DuplicateNodeTag {
+        /// Where the second stands.
+        place: Place,
+        /// Their tag.
+        tag: u64,
+        /// Where the first stands.
+        first: Place,
+    },
+    /// An element names a node that the file does not have.
+    #[error(
+        "{place}: element {element} names node {node}, which the file does not have; save the mesh again"
+    )]
+    MissingNode {
+        /// Where the element stands.
+        place: Place,
+        /// Tag of the element.
+        element: u64,
+        /// Tag of the node.
+        node: u64,
+    },
+    /// The file has no triangle and no quadrangle.
+    #[error(
+        "the mesh has no triangle and no quadrangle; mesh the surface (`gmsh -2`) \
+         and let a physical surface hold it, or save all (Mesh.SaveAll = 1)"
+    )]
+    NoCells,
+    /// More nodes or cells than can be numbered.
+    #[error("the mesh has more than {} nodes or cells; coarsen it", u32::MAX)]
+    TooLarge,
+    /// The cells do not lie in one plane z = const.
+    #[error(
+        "{place}: node {tag} lies at z = {z}, others at z = {plane}: the mesh is not planar; put it into one plane z = const"
+    )]
+    NotPlanar {
+        /// Where the node stands.
+        place: Place,
+        /// Tag of the node.
+        tag: u64,
+        /// Its height, m.
+        z: f64,
+        /// Height of the first node, m.
+        plane: f64,
+    },
+    /// Two nodes at one place.
+    #[error(
+        "{place}: nodes {other} and {tag} are both at ({x}, {y}); merge them \
+         (`Coherence Mesh;` in the geometry, or Geometry.AutoCoherence)"
+    )]
+    CoincidentNodes {
+        /// Where the second stands.
+        place: Place,
+        /// Tag of the second node.
+        tag: u64,
+        /// Tag of the first node.
+        other: u64,
+        /// Their x, m.
+        x: f64,
+        /// Their y, m.
+        y: f64,
+    },
+    /// A cell that names a corner twice.
+    #[error("{place}: cell {element} has node {node} at two corners; mesh the geometry again")]
+    RepeatedCorner {
+        /// Where the cell stands.
+        place: Place,
+        /// Tag of the cell.
+        element: u64,
+        /// Tag of the node.
+        node: u64,
+    },
+    /// A cell whose corners lie on a line.
+    #[error("{place}: cell {element} has no area; mesh the geometry again")]
+    ZeroArea {
+        /// Where the cell stands.
+        place: Place,
+        /// Tag of the cell.
+        element: u64,
+    },
+    /// A quadrangle that is not convex or crosses itself.
+    #[error(
+        "{place}: quadrangle {element} is not convex; mesh again, with triangles (no Recombine) if need be"
+    )]
+    NotConvex {
+        /// Where the cell stands.
+        place: Place,
+        /// Tag of the cell.
+        element: u64,
+    },
+    /// Two cells of the same corners.
+    #[error(
+        "{place}: cell {element} has the corners of cell {other}; \
+         do two surfaces of the geometry overlap? Remove one (`Coherence;`)"
+    )]
+    DuplicateCell {
+        /// Where the second stands.
+        place: Place,
+        /// Tag of the second cell.
+        element: u64,
+        /// Tag of the first cell.
+        other: u64,
+    },
+}

@@ -1,0 +1,40 @@
+//! Gmsh mesh files, formats 2.2 and 4.1, ASCII and binary (of either byte order).
+//!
+//! - Triangles and quadrangles make the mesh; of cells of higher order only the corners are taken.
+//!   Points and edges serve the groups; volumes are refused.
+//! - A physical group takes the nodes of its elements. In 4.1 an element finds its groups by its
+//!   entity in `$Entities`; elements without a group (`Mesh.SaveAll`) are part of the mesh all the same.
+//!   With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1 then.
+//! - Nodes that no cell uses are dropped, from the groups too.
+//! - The z coordinate must be constant and is dropped.
+//!
+//! Files by the Python package meshio are read as well. Its writer of 4.1 (`gmsh`) keeps at most one
+//! physical group per entity, and drops all of them where the mesh has no `gmsh:dim_tags`: such
+//! elements are in no group here, which [`Remark::UndescribedEntities`](crate::Remark) tells. Its
+//! writer of 2.2 (`gmsh22`) keeps the groups.
+
+mod assembly;
+mod cells;
+mod cursor;
+mod element_type;
+mod error;
+mod groups;
+mod nodes;
+mod records;
+mod sections;
+mod v2;
+mod v4;
+
+pub use error::{GmshError, Place};
+
+use crate::mesh::Mesh;
+
+/// Reads the bytes of a Gmsh mesh file.
+///
+/// # Errors
+/// Where the file is damaged or not planar, with the place and what to do.
+pub fn parse(bytes: &[u8]) -> Result<Mesh, GmshError> {
+    let mut cursor = cursor::Cursor::new(bytes);
+    let records = sections::read(&mut cursor)?;
+    assembly::assemble(&cursor, &records)
+}

@@ -1,0 +1,127 @@
+//! The records of a file as they stand there, before they make a mesh.
+
+use std::collections::HashMap;
+
+use super::cursor::Cursor;
+use super::element_type::{ElementType, Shape};
+use super::error::GmshError;
+
+/// Coordinates beyond this would overflow in products.
+const LARGEST_COORDINATE: f64 = 1e100;
+
+/// A node record.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node {
+    pub(super) tag: u64,
+    pub(super) position: [f64; 3],
+    /// Where it stands in the file.
+    pub(super) offset: usize,
+}
+
+/// An element record, by its corner nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Element {
+    pub(super) tag: u64,
+    pub(super) shape: Shape,
+    /// Tags of the corner nodes; as many count as the shape has corners.
+    pub(super) nodes: [u64; 4],
+    /// Whether it has nodes beside its corners.
+    pub(super) higher_order: bool,
+    /// What decides its groups: the number of the physical group (2.2) or of the entity (4.1).
+    pub(super) owner: i32,
+    /// Where it stands in the file.
+    pub(super) offset: usize,
+}
+
+impl Element {
+    pub(super) fn corners(&self) -> &[u64] {
+        &self.nodes[..self.shape.corners()]
+    }
+}
+
+/// All records of a file that a mesh is made of.
+#[derive(Debug, Default)]
+pub(super) struct Records {
+    pub(super) nodes: Vec<Node>,
+    pub(super) elements: Vec<Element>,
+    /// Nodes of planar cells that are no corners, each with the index of its element.
+    pub(super) inner_nodes: Vec<(u64, u32)>,
+    /// Names of physical groups by dimension and number.
+    pub(super) names: HashMap<(u8, i32), String>,
+    /// Numbers of the physical groups by dimension and owner of their elements.
+    pub(super) physicals: HashMap<(u8, i32), Vec<i32>>,
+    /// Whether a cell in several groups stands once per group (2.2) rather than once (4.1).
+    pub(super) repeats_cells: bool,
+}
+
+impl Records {
+    pub(super) fn push_node(&mut self, cursor: &Cursor<'_>, node: Node) -> Result<(), GmshError> {
+        match node
+            .position
+            .iter()
+            .find(|value| !(-LARGEST_COORDINATE..=LARGEST_COORDINATE).contains(*value))
+        {
+            Some(value) => Err(GmshError::BadCoordinate {
+                place: cursor.place(node.offset),
+                tag: node.tag,
+                value: *value,
+            }),
+            None => {
+                self.nodes.push(node);
+                Ok(())
+            }
+        }
+    }
+
+    /// Reads the node tags of an element, by `tag`, and keeps it.
+    pub(super) fn push_element<'a>(
+        &mut self,
+        cursor: &mut Cursor<'a>,
+        (tag, owner, offset): (u64, i32, usize),
+        (shape, nodes): (Shape, usize),
+        node_tag: impl Fn(&mut Cursor<'a>) -> Result<u64, GmshError>,
+    ) -> Result<(), GmshError> {
+        let corners = shape.corners();
+        let higher_order = nodes > corners;
+        let mut element = Element {
+            tag,
+            shape,
+            nodes: [0; 4],
+            higher_order,
+            owner,
+            offset,
+        };
+        for corner in &mut element.nodes[..corners] {
+            *corner = node_tag(cursor)?;
+        }
+        let index = u32::try_from(self.elements.len()).map_err(|_| GmshError::TooLarge)?;
+        for _ in corners..nodes {
+            let inner = node_tag(cursor)?;
+            if shape.dimension() == 2 {
+                self.inner_nodes.push((inner, index));
+            }
+        }
+        self.elements.push(element);
+        Ok(())
+    }
+}
+
+/// The shape and number of nodes of a type number read at `offset`.
+pub(super) fn planar_type(
+    cursor: &Cursor<'_>,
+    offset: usize,
+    code: i32,
+) -> Result<(Shape, usize), GmshError> {
+    // The place costs a pass over the file: only errors may ask for it.
+    match ElementType::from_code(code) {
+        Some(ElementType::Planar(shape, nodes)) => Ok((shape, nodes)),
+        Some(ElementType::Volume) => Err(GmshError::VolumeElement {
+            place: cursor.place(offset),
+            code,
+        }),
+        None => Err(GmshError::UnknownElementType {
+            place: cursor.place(offset),
+            code,
+        }),
+    }
+}

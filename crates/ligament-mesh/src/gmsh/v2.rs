@@ -1,0 +1,125 @@
+//! Nodes and elements of format 2.2.
+
+use super::cursor::Cursor;
+use super::element_type::Shape;
+use super::error::GmshError;
+use super::records::{Node, Records, planar_type};
+
+/// Reads `$Nodes` behind its first line.
+pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
+    let (begin, count) = cursor.count_line("the number of nodes")?;
+    let smallest = if cursor.is_ascii() {
+        "1 0 0 0\n".len()
+    } else {
+        4 + 3 * 8
+    };
+    let count = cursor.check_count(begin, count, smallest, "nodes")?;
+    records.nodes.reserve(count);
+    for _ in 0..count {
+        cursor.begin_row();
+        let offset = cursor.offset();
+        let tag = cursor.unsigned_int("a node number")?;
+        let mut position = [0.0; 3];
+        for coordinate in &mut position {
+            *coordinate = cursor.real("a coordinate")?;
+        }
+        cursor.end_row()?;
+        records.push_node(
+            cursor,
+            Node {
+                tag,
+                position,
+                offset,
+            },
+        )?;
+    }
+    cursor.end_section()
+}
+
+/// Reads `$Elements` behind its first line.
+pub(super) fn read_elements(
+    cursor: &mut Cursor<'_>,
+    records: &mut Records,
+) -> Result<(), GmshError> {
+    let (begin, count) = cursor.count_line("the number of elements")?;
+    let smallest = if cursor.is_ascii() {
+        "1 15 0 1\n".len()
+    } else {
+        2 * 4
+    };
+    cursor.check_count(begin, count, smallest, "elements")?;
+    if cursor.is_ascii() {
+        for _ in 0..count {
+            read_row(cursor, records)?;
+        }
+    } else {
+        let mut found = 0;
+        while found < count {
+            found += read_block(cursor, records)?;
+        }
+        if found != count {
+            let place = cursor.place(begin);
+            return Err(GmshError::CountMismatch {
+                place,
+                items: "elements",
+                announced: count,
+                found,
+            });
+        }
+    }
+    cursor.end_section()
+}
+
+/// Reads an element of an ASCII file.
+fn read_row(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
+    cursor.begin_row();
+    let offset = cursor.offset();
+    let tag = cursor.unsigned_int("an element number")?;
+    let type_offset = cursor.offset();
+    let code = cursor.int("an element type")?;
+    let planar = planar_type(cursor, type_offset, code)?;
+    let tags = cursor.unsigned_int("a number of tags")?;
+    read_tags_and_nodes(cursor, records, (tag, offset), planar, tags)?;
+    cursor.end_row()
+}
+
+/// Reads elements of one type from a binary file and gives their number.
+fn read_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<u64, GmshError> {
+    let type_offset = cursor.offset();
+    let code = cursor.int("an element type")?;
+    let planar = planar_type(cursor, type_offset, code)?;
+    let count_offset = cursor.offset();
+    let count = cursor.unsigned_int("a number of elements")?;
+    let tags = cursor.unsigned_int("a number of tags")?;
+    cursor.check_count(count_offset, count, 4 * (1 + planar.1), "elements")?;
+    for _ in 0..count {
+        let offset = cursor.offset();
+        let tag = cursor.unsigned_int("an element number")?;
+        read_tags_and_nodes(cursor, records, (tag, offset), planar, tags)?;
+    }
+    Ok(count)
+}
+
+fn read_tags_and_nodes(
+    cursor: &mut Cursor<'_>,
+    records: &mut Records,
+    (tag, offset): (u64, usize),
+    planar: (Shape, usize),
+    tags: u64,
+) -> Result<(), GmshError> {
+    // The first tag is the physical group: 0, or no tag, for none; negative for a reversed one.
+    let mut physical = 0;
+    for index in 0..tags {
+        let value = cursor.int("a tag")?;
+        if index == 0 {
+            physical = value.saturating_abs();
+        }
+    }
+    records
+        .physicals
+        .entry((planar.0.dimension(), physical))
+        .or_insert_with(|| vec![physical]);
+    records.push_element(cursor, (tag, physical, offset), planar, |cursor| {
+        cursor.unsigned_int("a node number")
+    })
+}

@@ -1,0 +1,27 @@
+//! Planar finite-element meshes and their groups, read from Gmsh files.
+//!
+//! [`gmsh::parse`] reads the bytes of a `.msh` file (formats 2.2 and 4.1, ASCII and binary) into a
+//! [`Mesh`]: nodes, triangles and quadrangles with their corners counter-clockwise, and the physical
+//! groups as sets of nodes. What cannot be a planar mesh is refused with the place in the file.
+//!
+//! ```
+//! let file = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+//!     $Nodes\n3\n1 0 0 0\n2 2 0 0\n3 0 1 0\n$EndNodes\n\
+//!     $Elements\n1\n1 2 2 7 1 1 2 3\n$EndElements\n";
+//! let mesh = ligament_mesh::gmsh::parse(file)?;
+//! assert_eq!(mesh.positions.len(), 3);
+//! assert_eq!(mesh.area(), 1.0);
+//! assert_eq!(mesh.group("7").map(|group| group.cells.len()), Some(1));
+//! # Ok::<(), ligament_mesh::gmsh::GmshError>(())
+//! ```
+
+mod cell;
+pub mod gmsh;
+mod group;
+mod mesh;
+mod remark;
+
+pub use cell::Cell;
+pub use group::Group;
+pub use mesh::Mesh;
+pub use remark::Remark;

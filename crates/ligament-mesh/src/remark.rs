@@ -1,0 +1,60 @@
+//! Remarks on a mesh that was read.
+
+use std::fmt;
+
+/// Something of the file that was read in another way than it stands there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Remark {
+    /// Cells of second or higher order, of which only the corner nodes were taken.
+    HigherOrderCells {
+        /// Number of such cells.
+        cells: usize,
+        /// Number of nodes dropped with it: those on sides and inside of the cells.
+        nodes: usize,
+    },
+    /// Nodes that no planar cell uses, dropped from the mesh and from its groups.
+    UnusedNodes {
+        /// Number of nodes.
+        nodes: usize,
+    },
+    /// A physical group that the file names or uses, but in which no node of a cell is left.
+    EmptyGroup {
+        /// Its name, or its number in decimal.
+        name: String,
+        /// Dimension: 0 points, 1 curves, 2 surfaces, 3 volumes.
+        dimension: u8,
+    },
+    /// Elements of entities that `$Entities` does not describe (format 4.1), hence in no group.
+    UndescribedEntities {
+        /// Number of elements.
+        elements: usize,
+    },
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Remark::HigherOrderCells { cells, nodes } => write!(
+                f,
+                "{cells} cells of higher order were read by their corner nodes; \
+                 their {nodes} other nodes were dropped"
+            ),
+            Remark::UnusedNodes { nodes } => {
+                write!(
+                    f,
+                    "{nodes} nodes that no triangle or quadrangle uses were dropped"
+                )
+            }
+            Remark::EmptyGroup { name, dimension } => write!(
+                f,
+                "the physical group \"{name}\" of dimension {dimension} has no node of a cell \
+                 and was left out"
+            ),
+            Remark::UndescribedEntities { elements } => write!(
+                f,
+                "{elements} elements belong to entities that $Entities does not describe, \
+                 so to no physical group"
+            ),
+        }
+    }
+}

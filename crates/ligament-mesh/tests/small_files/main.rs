@@ -1,0 +1,8 @@
+//! Small files, each changed in one thing: what is refused, and how groups are read.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod damaged_files;
+mod groups;
+mod square;
+mod unfit_meshes;

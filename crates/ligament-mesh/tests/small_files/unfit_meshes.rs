@@ -1,0 +1,216 @@
+//! One file for each refusal of what is no planar mesh, with the place it is refused at.
+
+use crate::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
+use ligament_mesh::gmsh::{GmshError, Place, parse};
+
+#[test]
+fn unknown_and_volume_elements_are_refused() {
+    let place = Place::Line(14);
+    for code in [0, -1, 34, 141] {
+        let error = refusal("2 2 2 2 1 1 2 3", &format!("2 {code} 2 2 1 1 2 3"));
+        assert_eq!(error, GmshError::UnknownElementType { place, code });
+    }
+    let error = refusal("2 2 2 2 1 1 2 3", "2 4 2 2 1 1 2 3 4");
+    assert_eq!(error, GmshError::VolumeElement { place, code: 4 });
+    let (bytes, _) = golden("refused-volume.msh", "$");
+    assert!(matches!(
+        parse(&bytes),
+        Err(GmshError::VolumeElement { code: 4, .. })
+    ));
+}
+
+#[test]
+fn coordinates_that_are_no_numbers_are_refused() {
+    let place = Place::Line(8);
+    for (word, value) in [
+        ("inf", f64::INFINITY),
+        ("-1e400", f64::NEG_INFINITY),
+        ("1e200", 1e200),
+    ] {
+        let error = refusal("3 1 1 0\n", &format!("3 1 {word} 0\n"));
+        assert_eq!(
+            error,
+            GmshError::BadCoordinate {
+                place,
+                tag: 3,
+                value
+            }
+        );
+    }
+    let error = refusal("3 1 1 0\n", "3 nan 1 0\n");
+    assert!(matches!(error, GmshError::BadCoordinate { tag: 3, value, .. } if value.is_nan()));
+}
+
+#[test]
+fn duplicate_node_tags_are_refused() {
+    let error = refusal("4 0 1 0", "2 0 1 0");
+    let (place, first) = (Place::Line(9), Place::Line(7));
+    assert_eq!(
+        error,
+        GmshError::DuplicateNodeTag {
+            place,
+            tag: 2,
+            first
+        }
+    );
+}
+
+#[test]
+fn missing_nodes_are_refused() {
+    let missing = |line, element| GmshError::MissingNode {
+        place: Place::Line(line),
+        element,
+        node: 9,
+    };
+    assert_eq!(
+        refusal("3 2 2 2 1 1 3 4", "3 2 2 2 1 1 3 9"),
+        missing(15, 3)
+    );
+    assert_eq!(refusal("1 1 2 1 1 1 2", "1 1 2 1 1 1 9"), missing(13, 1));
+    // A node on a side of a cell of second order.
+    assert_eq!(
+        refusal("2 2 2 2 1 1 2 3", "2 9 2 2 1 1 2 3 4 4 9"),
+        missing(14, 2)
+    );
+    assert_eq!(refusal_of(SQUARE_41, "3 1 3 4", "3 1 3 9"), missing(22, 3));
+}
+
+#[test]
+fn meshes_without_cells_are_refused() {
+    let points = "1 15 2 1 1 1\n2 15 2 1 1 2\n3 15 2 1 1 3\n";
+    let begin = SQUARE.find("1 1 2 1 1 1 2").unwrap();
+    let text = format!("{}{points}$EndElements\n", &SQUARE[..begin]);
+    assert_eq!(parse(text.as_bytes()), Err(GmshError::NoCells));
+}
+
+#[test]
+fn meshes_out_of_one_plane_are_refused() {
+    let error = refusal("3 1 1 0\n", "3 1 1 1e-6\n");
+    let place = Place::Line(8);
+    assert_eq!(
+        error,
+        GmshError::NotPlanar {
+            place,
+            tag: 3,
+            z: 1e-6,
+            plane: 0.0
+        }
+    );
+    let text = SQUARE.replace("3 1 1 0\n", "3 1 1 1e-10\n");
+    assert!(parse(text.as_bytes()).is_ok(), "heights within rounding");
+    // The longer side of the mesh counts.
+    let text = SQUARE
+        .replace("3 1 1 0\n", "3 1 1000 1e-7\n")
+        .replace("4 0 1 0\n", "4 0 1000 0\n");
+    assert!(
+        parse(text.as_bytes()).is_ok(),
+        "heights within rounding of a tall mesh"
+    );
+    // A node off the plane that no cell uses.
+    let text = SQUARE.replace("$Nodes\n4", "$Nodes\n5\n9 0 0 7");
+    assert!(parse(text.as_bytes()).is_ok(), "unused node");
+}
+
+#[test]
+fn nodes_at_one_place_are_refused() {
+    let place = Place::Line(9);
+    for (x, y) in [
+        (1.0, 1.0),
+        (1.0 - 4e-13, 1.0 + 4e-13),
+        (1.0 + 4e-13, 1.0 - 4e-13),
+    ] {
+        let error = refusal("4 0 1 0", &format!("4 {x} {y} 0"));
+        assert_eq!(
+            error,
+            GmshError::CoincidentNodes {
+                place,
+                tag: 4,
+                other: 3,
+                x,
+                y
+            }
+        );
+    }
+    let text = SQUARE.replace("4 0 1 0", "4 1 1.00000000001 0");
+    assert!(parse(text.as_bytes()).is_ok(), "nodes ten tolerances apart");
+    // A node at the place of another, but of no cell.
+    let text = SQUARE.replace("$Nodes\n4", "$Nodes\n5\n9 1 1 0");
+    assert!(parse(text.as_bytes()).is_ok());
+}
+
+#[test]
+fn cells_without_area_are_refused() {
+    let place = Place::Line(14);
+    let error = refusal("2 1 0 0\n", "2 0.5 0.5 0\n");
+    assert_eq!(error, GmshError::ZeroArea { place, element: 2 });
+    let error = refusal("2 1 0 0\n", "2 0.7 0.6999999999999999 0\n");
+    assert_eq!(
+        error,
+        GmshError::ZeroArea { place, element: 2 },
+        "on a line but for rounding"
+    );
+    let error = refusal("2 2 2 2 1 1 2 3", "2 2 2 2 1 1 2 1");
+    assert_eq!(
+        error,
+        GmshError::RepeatedCorner {
+            place,
+            element: 2,
+            node: 1
+        }
+    );
+}
+
+#[test]
+fn quadrangles_that_are_not_convex_are_refused() {
+    let quadrangle = "2 3 2 2 1 1 2 3 4\n";
+    let begin = SQUARE.find("2 2 2 2 1").unwrap();
+    let text = format!("{}{quadrangle}$EndElements\n", &SQUARE[..begin])
+        .replace("$Elements\n3", "$Elements\n2");
+    let place = Place::Line(14);
+    assert_eq!(parse(text.as_bytes()).unwrap().area(), 1.0);
+    // An arrow head, a crossed one with area, and one whose two halves cancel.
+    for row in ["3 0.4 0.4 0", "3 -0.5 0.5 0"] {
+        let text = text.replace("3 1 1 0", row);
+        assert_eq!(
+            parse(text.as_bytes()),
+            Err(GmshError::NotConvex { place, element: 2 }),
+            "{row}"
+        );
+    }
+    let crossed = text.replace("1 1 2 3 4", "1 1 3 2 4");
+    assert_eq!(
+        parse(crossed.as_bytes()),
+        Err(GmshError::NotConvex { place, element: 2 })
+    );
+    // A corner of 180 degrees does no harm.
+    let text = text.replace("3 1 1 0", "3 0.5 0.5 0");
+    assert_eq!(parse(text.as_bytes()).unwrap().area(), 0.5);
+}
+
+#[test]
+fn duplicate_cells_are_refused() {
+    let place = Place::Line(15);
+    let expected = GmshError::DuplicateCell {
+        place,
+        element: 3,
+        other: 2,
+    };
+    assert_eq!(refusal("3 2 2 2 1 1 3 4", "3 2 2 2 1 3 2 1"), expected);
+    // In another group of format 2.2 it is the same cell.
+    let text = SQUARE.replace("3 2 2 2 1 1 3 4", "3 2 2 8 1 3 2 1");
+    let mesh = parse(text.as_bytes()).unwrap();
+    assert_eq!(mesh.cells.len(), 1);
+    let groups: Vec<_> = mesh
+        .groups_named("2")
+        .chain(mesh.groups_named("8"))
+        .collect();
+    assert!(groups.iter().all(|group| group.cells == [0]) && groups.len() == 2);
+    // In format 4.1 it is not.
+    let place = Place::Line(22);
+    let expected = GmshError::DuplicateCell {
+        place,
+        element: 3,
+        other: 2,
+    };
+    assert_eq!(refusal_of(SQUARE_41, "3 1 3 4", "3 3 1 2"), expected);
+}

@@ -1,0 +1,95 @@
+//! Dual-horizon bonds: one record for each pair of points of which one lies in the horizon of the other.
+
+pub mod precrack;
+mod search;
+
+/// All bonds of a body, as arrays over the bonds.
+///
+/// Bonds are in the order of their ends: by the first end, then by the second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BondSet {
+    /// Points A < B of each bond, shape (n_bonds).
+    pub ends: Vec<[u32; 2]>,
+    /// Lengths l, shape (n_bonds), m.
+    pub length: Vec<f64>,
+    /// Direction cosines (a, b) from A to B, shape (n_bonds).
+    pub direction: Vec<[f64; 2]>,
+    /// Bond horizons H, shape (n_bonds), m.
+    pub horizon: Vec<f64>,
+    /// The bonds of each point.
+    pub incidence: Incidence,
+}
+
+/// The bonds of each point, ascending; with the order of [`BondSet`] the neighbours ascend as well.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Incidence {
+    offsets: Vec<usize>,
+    bonds: Vec<u32>,
+}
+
+impl BondSet {
+    /// Number of bonds.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there is no bond.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The other end of a bond of `point`.
+    pub fn neighbour(&self, bond: u32, point: u32) -> u32 {
+        let [a, b] = self.ends[bond as usize];
+        if a == point { b } else { a }
+    }
+
+    /// The bonds for which `keep` (n_bonds) is true.
+    pub fn retained(&self, keep: &[bool]) -> Self {
+        let ends = retained(&self.ends, keep);
+        let incidence = Incidence::new(&ends, self.incidence.n_points());
+        Self {
+            ends,
+            length: retained(&self.length, keep),
+            direction: retained(&self.direction, keep),
+            horizon: retained(&self.horizon, keep),
+            incidence,
+        }
+    }
+}
+
+/// The entries of `values` for which `keep` is true, in order.
+pub(crate) fn retained<T: Copy>(values: &[T], keep: &[bool]) -> Vec<T> {
+    values.iter().zip(keep).filter(|&(_, &kept)| kept).map(|(&value, _)| value).collect()
+}
+
+impl Incidence {
+    pub(crate) fn new(ends: &[[u32; 2]], n_points: usize) -> Self {
+        let mut offsets = vec![0; n_points + 1];
+        for end in ends.as_flattened() {
+            offsets[*end as usize + 1] += 1;
+        }
+        for point in 0..n_points {
+            offsets[point + 1] += offsets[point];
+        }
+        let mut next = offsets.clone();
+        let mut bonds = vec![0; 2 * ends.len()];
+        for (bond, pair) in ends.iter().enumerate() {
+            for &end in pair {
+                bonds[next[end as usize]] = bond as u32;
+                next[end as usize] += 1;
+            }
+        }
+        Self { offsets, bonds }
+    }
+
+    /// Number of points.
+    pub fn n_points(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// The bonds of a point, ascending.
+    pub fn of(&self, point: u32) -> &[u32] {
+        &self.bonds[self.offsets[point as usize]..self.offsets[point as usize + 1]]
+    }
+}

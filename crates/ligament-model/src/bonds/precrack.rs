@@ -1,0 +1,132 @@
+//! Pre-cracks and slots: polylines that cut the bonds whose straight line they cross.
+//!
+//! The rule, decided with exact orientation predicates:
+//! - a point exactly on the crack counts as lying on its left side (seen along the polyline);
+//! - a bond collinear with a piece of the crack survives;
+//! - a bond that only touches an end of the polyline survives; one through an inner vertex, or through any vertex of a
+//!   closed polyline, is cut.
+
+use rayon::prelude::*;
+use robust::{Coord, orient2d};
+
+use super::BondSet;
+use crate::cloud::PointCloud;
+
+/// A polyline that cuts bonds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreCrack {
+    /// Vertices in mesh-file coordinates, two or more, m.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Which bonds the pre-cracks cut, shape (n_bonds).
+pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
+    let cracks: Vec<PreCrack> = cracks.iter().map(|crack| crack.in_local_coordinates(cloud)).collect();
+    bonds
+        .ends
+        .par_iter()
+        .map(|&[a, b]| {
+            let (a, b) = (cloud.positions[a as usize], cloud.positions[b as usize]);
+            cracks.iter().any(|crack| crack.cuts(a, b))
+        })
+        .collect()
+}
+
+impl PreCrack {
+    /// The same polyline in the coordinates of the cloud.
+    pub fn in_local_coordinates(&self, cloud: &PointCloud) -> Self {
+        Self { points: self.points.iter().map(|&p| cloud.local(p)).collect() }
+    }
+
+    /// Whether a point lies on the left of the polyline's first piece (or on its line).
+    pub fn starts_on_the_left(&self, point: [f64; 2]) -> bool {
+        is_left(self.points[0], self.points[1], point)
+    }
+
+    /// Whether the polyline cuts the bond from `a` to `b` (all in the same coordinates).
+    pub fn cuts(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        let last = self.points.len() - 1;
+        let closed = last > 1 && self.points[0] == self.points[last];
+        self.points.windows(2).enumerate().any(|(piece, ends)| {
+            let [p, q] = [ends[0], ends[1]];
+            if !boxes_touch(p, q, a, b) || is_left(p, q, a) == is_left(p, q, b) {
+                return false;
+            }
+            let (side_p, side_q) = (orientation(a, b, p), orientation(a, b, q));
+            let touches_inner_p = side_p == 0.0 && (piece > 0 || closed);
+            let touches_inner_q = side_q == 0.0 && (piece + 1 < last || closed);
+            side_p * side_q < 0.0 || touches_inner_p || touches_inner_q
+        })
+    }
+}
+
+/// Sign of the orientation of c seen from a to b, exact: positive on the left.
+fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
+    let determinant = orient2d(coord(a), coord(b), coord(c));
+    // Only the sign is exact; the product of two small determinants may underflow.
+    if determinant == 0.0 { 0.0 } else { determinant.signum() }
+}
+
+fn is_left(p: [f64; 2], q: [f64; 2], point: [f64; 2]) -> bool {
+    orientation(p, q, point) >= 0.0
+}
+
+fn boxes_touch(p: [f64; 2], q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
+    (0..2).all(|axis| {
+        p[axis].min(q[axis]) <= a[axis].max(b[axis]) && a[axis].min(b[axis]) <= p[axis].max(q[axis])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crack(points: &[[f64; 2]]) -> PreCrack {
+        PreCrack { points: points.to_vec() }
+    }
+
+    #[test]
+    fn crossing_missing_and_collinear() {
+        let slot = crack(&[[-1.0, 0.0], [1.0, 0.0]]);
+        assert!(slot.cuts([0.3, -0.5], [0.1, 0.5]));
+        assert!(slot.cuts([0.1, 0.5], [0.3, -0.5]));
+        assert!(!slot.cuts([1.3, -0.5], [1.1, 0.5]));
+        assert!(!slot.cuts([-0.5, 0.0], [0.5, 0.0]), "collinear bonds survive");
+        assert!(!slot.cuts([0.5, 0.1], [0.6, 2.0]));
+    }
+
+    #[test]
+    fn a_point_on_the_crack_counts_as_left() {
+        let slot = crack(&[[-1.0, 0.0], [1.0, 0.0]]);
+        assert!(!slot.cuts([0.0, 0.0], [0.0, 1.0]), "left of the crack is above it");
+        assert!(slot.cuts([0.0, 0.0], [0.0, -1.0]));
+        let reversed = crack(&[[1.0, 0.0], [-1.0, 0.0]]);
+        assert!(reversed.cuts([0.0, 0.0], [0.0, 1.0]));
+        assert!(!reversed.cuts([0.0, 0.0], [0.0, -1.0]));
+    }
+
+    #[test]
+    fn a_touched_tip_survives_and_an_inner_vertex_cuts() {
+        let straight = crack(&[[-1.0, 0.0], [0.0, 0.0]]);
+        assert!(!straight.cuts([0.0, -1.0], [0.0, 1.0]), "the bond passes through the tip");
+        let prolonged = crack(&[[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]);
+        assert!(prolonged.cuts([0.0, -1.0], [0.0, 1.0]));
+        let closed = crack(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
+        assert!(closed.cuts([0.5, -0.5], [-0.5, 0.5]) || closed.cuts([-0.5, 0.5], [0.5, -0.5]));
+    }
+
+    #[test]
+    fn the_order_of_the_ends_does_not_matter() {
+        let bent = crack(&[[-1.0, -0.2], [0.1, 0.0], [1.0, 0.7]]);
+        let grid: Vec<[f64; 2]> = (-6..=6).flat_map(|i| (-6..=6).map(move |j| [i as f64 / 5.0, j as f64 / 5.0])).collect();
+        let mut cut = 0;
+        for &a in &grid {
+            for &b in &grid {
+                assert_eq!(bent.cuts(a, b), bent.cuts(b, a), "{a:?} {b:?}");
+                cut += usize::from(bent.cuts(a, b));
+            }
+        }
+        assert!(cut > 100, "the test must see cut bonds");
+    }
+}

@@ -1,0 +1,141 @@
+//! Lumping: the nodes of a mesh become material points that carry the volume of its cells.
+
+use ligament_mesh::{Cell, Mesh};
+use rayon::prelude::*;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+/// Material points with their volumes, nearest-neighbour distances and materials.
+///
+/// Positions are kept relative to the middle of the bounding box: differences of coordinates of a body that lies far
+/// from the origin would lose digits. [`PointCloud::local`] takes a position of the mesh file to these coordinates.
+#[derive(Debug, Clone)]
+pub struct PointCloud {
+    /// Positions X_i relative to [`PointCloud::origin`], shape (n_points), m.
+    pub positions: Vec<[f64; 2]>,
+    /// What was subtracted from the positions of the mesh file, m.
+    pub origin: [f64; 2],
+    /// Thickness t, m.
+    pub thickness: f64,
+    /// Volumes V_i, shape (n_points), m^3.
+    pub volumes: Vec<f64>,
+    /// Distance to the nearest point dmin_i, shape (n_points), m.
+    pub spacing: Vec<f64>,
+    /// Number of materials.
+    pub n_materials: usize,
+    /// Share of each material in the volume of each point, shape (n_points, n_materials) row-major; rows sum to one.
+    pub material_shares: Vec<f64>,
+}
+
+/// A point of the search tree, with its number.
+pub(crate) type NumberedPoint = GeomWithData<[f64; 2], u32>;
+
+impl PointCloud {
+    /// Lumps the cells of a mesh: a cell's area times the thickness is shared equally among its corners
+    /// (NHPD section 2.1: a third each for a triangle; a quarter each for a quadrangle).
+    ///
+    /// `material_of_cell` (n_cells) holds the index of each cell's material. A point at an interface takes its share
+    /// of volume from the cells of either side.
+    pub fn from_mesh(mesh: &Mesh, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> Self {
+        let origin = middle_of_bounding_box(&mesh.positions);
+        let positions: Vec<[f64; 2]> = mesh.positions.iter().map(|p| [p[0] - origin[0], p[1] - origin[1]]).collect();
+        let mut material_volumes = vec![0.0; positions.len() * n_materials];
+        for (cell, &material) in mesh.cells.iter().zip(material_of_cell) {
+            let corners = cell.corners();
+            let volume_of_corner = corner_area(cell, &positions) * thickness;
+            for &corner in corners {
+                material_volumes[corner as usize * n_materials + material as usize] += volume_of_corner;
+            }
+        }
+        let volumes: Vec<f64> = material_volumes.chunks(n_materials).map(|shares| shares.iter().sum()).collect();
+        let material_shares =
+            material_volumes.iter().enumerate().map(|(k, volume)| volume / volumes[k / n_materials]).collect();
+        let spacing = nearest_neighbour_distances(&positions);
+        Self { positions, origin, thickness, volumes, spacing, n_materials, material_shares }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Takes a position of the mesh file to the coordinates of [`PointCloud::positions`].
+    pub fn local(&self, position: [f64; 2]) -> [f64; 2] {
+        [position[0] - self.origin[0], position[1] - self.origin[1]]
+    }
+
+    /// Shares of the materials in the volume of a point, shape (n_materials).
+    pub fn shares(&self, point: usize) -> &[f64] {
+        &self.material_shares[point * self.n_materials..(point + 1) * self.n_materials]
+    }
+
+    /// Volume-weighted mean of a property of the materials (n_materials) at a point.
+    pub fn mean_property(&self, point: usize, property: &[f64]) -> f64 {
+        self.shares(point).iter().zip(property).map(|(share, value)| share * value).sum()
+    }
+
+    /// The point nearest to a position of the mesh file (the one with the smallest number where several are).
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no point at all, which no mesh with a cell gives.
+    pub fn nearest_point(&self, position: [f64; 2]) -> u32 {
+        let target = self.local(position);
+        let squared_distance = |p: &[f64; 2]| (p[0] - target[0]).powi(2) + (p[1] - target[1]).powi(2);
+        (0..self.len())
+            .min_by(|&i, &j| squared_distance(&self.positions[i]).total_cmp(&squared_distance(&self.positions[j])))
+            .expect("a cloud has points") as u32
+    }
+
+    /// Points inside the box (mesh-file coordinates, rim included), ascending.
+    pub fn points_in_box(&self, lower: [f64; 2], upper: [f64; 2]) -> Vec<u32> {
+        let (lower, upper) = (self.local(lower), self.local(upper));
+        (0..self.len() as u32)
+            .filter(|&point| {
+                let p = self.positions[point as usize];
+                (0..2).all(|axis| lower[axis] <= p[axis] && p[axis] <= upper[axis])
+            })
+            .collect()
+    }
+}
+
+fn corner_area(cell: &Cell, positions: &[[f64; 2]]) -> f64 {
+    cell.area(positions) / cell.corners().len() as f64
+}
+
+fn middle_of_bounding_box(positions: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let (lower, upper) = positions
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| (lower.min(p[axis]), upper.max(p[axis])));
+        if lower <= upper { 0.5 * (lower + upper) } else { 0.0 }
+    })
+}
+
+/// A search tree over the points.
+pub(crate) fn search_tree(positions: &[[f64; 2]]) -> RTree<NumberedPoint> {
+    RTree::bulk_load(positions.iter().enumerate().map(|(number, &p)| GeomWithData::new(p, number as u32)).collect())
+}
+
+/// Distance of two points, m; the same bits whichever comes first.
+pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+}
+
+fn nearest_neighbour_distances(positions: &[[f64; 2]]) -> Vec<f64> {
+    let tree = search_tree(positions);
+    positions
+        .par_iter()
+        .enumerate()
+        .map(|(point, &position)| {
+            tree.nearest_neighbor_iter(position)
+                .find(|neighbour| neighbour.data as usize != point)
+                .map_or(f64::INFINITY, |neighbour| distance(position, *neighbour.geom()))
+        })
+        .collect()
+}

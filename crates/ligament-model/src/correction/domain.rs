@@ -1,0 +1,176 @@
+//! The iterative domain correction: factors Omega that make the strain energy of a uniaxial strain along x and along y
+//! right at every point (NHPD section 2.3, eqs 11 to 13).
+//!
+//! The correction is tied to the axes: quarter turns of the mesh leave the answer as it is, other turns do not.
+
+use rayon::prelude::*;
+
+use super::{Correction, CorrectionReport, length::length_factors};
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::law::BondStiffness;
+use crate::material::{Material, Plane};
+use crate::ordered_sum::ordered_sum;
+
+/// When the sweeps end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StopRule {
+    /// The sum over the bonds of |change of Omega| falls below this (the paper's rule; asks more of larger meshes).
+    Sum(f64),
+    /// The mean over the bonds of |change of Omega| falls below this (independent of the size).
+    Mean(f64),
+}
+
+/// Stop rule and limit of the sweeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweeps {
+    /// When the sweeps end.
+    pub stop: StopRule,
+    /// Sweeps after which the iteration is given up, with the factors reached.
+    pub limit: usize,
+}
+
+/// Homogeneous strains of size one, for which the energy at a point is compared with the continuum's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrainMode {
+    /// eps_xx = 1.
+    UniaxialX,
+    /// eps_yy = 1.
+    UniaxialY,
+    /// eps_xx = eps_yy = 1.
+    Biaxial,
+    /// gamma_xy = 1 (eps_xy = 1/2).
+    Shear,
+}
+
+impl StrainMode {
+    /// All modes, in the order of [`energy_ratios`].
+    pub const ALL: [Self; 4] = [Self::UniaxialX, Self::UniaxialY, Self::Biaxial, Self::Shear];
+
+    /// Stretch s and shear gamma of a bond of direction (a, b) under the strain, all rotations zero (NHPD eq. 3).
+    pub fn bond_deformation(self, [a, b]: [f64; 2]) -> (f64, f64) {
+        match self {
+            Self::UniaxialX => (a * a, -a * b),
+            Self::UniaxialY => (b * b, a * b),
+            Self::Biaxial => (1.0, 0.0),
+            Self::Shear => (a * b, 0.5 * (a * a - b * b)),
+        }
+    }
+
+    /// Strain energy density of the continuum, J/m^3.
+    pub fn energy(self, material: &Material, plane: Plane) -> f64 {
+        match self {
+            Self::UniaxialX | Self::UniaxialY => material.uniaxial_strain_energy(plane),
+            Self::Biaxial => material.biaxial_strain_energy(plane),
+            Self::Shear => material.shear_strain_energy(),
+        }
+    }
+}
+
+/// Iterates Omega from 1 (NHPD eq. 13; the numerator printed as the strain is the energy density e):
+///
+/// Omega <- Omega / sqrt((a/p_x)^2 + (b/p_y)^2), p_x = (e_A/etil_A,x + e_B/etil_B,x)/2, p_y alike,
+///
+/// with the trial energy density etil_A = (1/4) sum over B of Omega alpha V_B (k_n s^2 + k_t gamma^2) l (eq. 12). At an
+/// interface e_A is the volume-weighted mean of the materials'.
+pub fn iterate(
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    stiffness: &BondStiffness,
+    materials: &[Material],
+    plane: Plane,
+    sweeps: Sweeps,
+) -> Correction {
+    let length_factor = length_factors(bonds);
+    let densities = [StrainMode::UniaxialX, StrainMode::UniaxialY]
+        .map(|mode| bond_energy_densities(mode, bonds, stiffness, &length_factor));
+    let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
+    let mut domain_factor = vec![1.0; bonds.len()];
+    let mut report =
+        CorrectionReport { sweeps: 0, converged: false, last_change: f64::INFINITY, largest_residual: f64::NAN };
+    while !report.converged && report.sweeps < sweeps.limit {
+        let ratios = [0, 1].map(|axis| {
+            let energies = point_energies(&densities[axis], &domain_factor, bonds, cloud);
+            target.par_iter().zip(energies).map(|(e, trial)| e / trial).collect::<Vec<f64>>()
+        });
+        let updated: Vec<f64> = (0..bonds.len())
+            .into_par_iter()
+            .map(|bond| {
+                let ends = bonds.ends[bond].map(|end| end as usize);
+                let [p_x, p_y] = [0, 1].map(|axis: usize| 0.5 * (ratios[axis][ends[0]] + ratios[axis][ends[1]]));
+                let [a, b] = bonds.direction[bond];
+                domain_factor[bond] / ((a / p_x).powi(2) + (b / p_y).powi(2)).sqrt()
+            })
+            .collect();
+        report.last_change = ordered_sum(bonds.len(), |bond| (updated[bond] - domain_factor[bond]).abs());
+        report.converged = match sweeps.stop {
+            StopRule::Sum(tolerance) => report.last_change < tolerance,
+            StopRule::Mean(tolerance) => report.last_change < tolerance * bonds.len() as f64,
+        };
+        report.sweeps += 1;
+        domain_factor = updated;
+    }
+    report.largest_residual = (0..2)
+        .flat_map(|axis| point_energies(&densities[axis], &domain_factor, bonds, cloud).into_iter().zip(&target))
+        .map(|(energy, e)| (energy / e - 1.0).abs())
+        .fold(0.0, f64::max);
+    Correction { length_factor, domain_factor, report }
+}
+
+/// Strain energy density of every point over the continuum's, for each of [`StrainMode::ALL`], shape (4, n_points).
+pub fn energy_ratios(
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    stiffness: &BondStiffness,
+    correction: &Correction,
+    materials: &[Material],
+    plane: Plane,
+) -> [Vec<f64>; 4] {
+    StrainMode::ALL.map(|mode| {
+        let densities = bond_energy_densities(mode, bonds, stiffness, &correction.length_factor);
+        let energies = point_energies(&densities, &correction.domain_factor, bonds, cloud);
+        let target = target_energies(mode, cloud, materials, plane);
+        energies.iter().zip(target).map(|(energy, e)| energy / e).collect()
+    })
+}
+
+/// alpha (k_n s^2 + k_t gamma^2) l of every bond under a strain of size one, shape (n_bonds).
+fn bond_energy_densities(
+    mode: StrainMode,
+    bonds: &BondSet,
+    stiffness: &BondStiffness,
+    length_factor: &[f64],
+) -> Vec<f64> {
+    (0..bonds.len())
+        .into_par_iter()
+        .map(|bond| {
+            let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
+            let density = stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
+            length_factor[bond] * density * bonds.length[bond]
+        })
+        .collect()
+}
+
+/// (1/4) sum over the neighbours B of Omega V_B times the bond's density (NHPD eq. 12), shape (n_points).
+fn point_energies(densities: &[f64], domain_factor: &[f64], bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
+    (0..cloud.len() as u32)
+        .into_par_iter()
+        .map(|point| {
+            let sum: f64 = bonds
+                .incidence
+                .of(point)
+                .iter()
+                .map(|&bond| {
+                    let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
+                    domain_factor[bond as usize] * densities[bond as usize] * volume
+                })
+                .sum();
+            0.25 * sum
+        })
+        .collect()
+}
+
+fn target_energies(mode: StrainMode, cloud: &PointCloud, materials: &[Material], plane: Plane) -> Vec<f64> {
+    let energies: Vec<f64> = materials.iter().map(|material| mode.energy(material, plane)).collect();
+    (0..cloud.len()).map(|point| cloud.mean_property(point, &energies)).collect()
+}

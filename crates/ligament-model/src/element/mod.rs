@@ -1,0 +1,3 @@
+//! Elements: the kinematics of bonds.
+
+pub mod beam;

@@ -1,0 +1,3 @@
+//! Failure criteria: the stretch at which each bond breaks.
+
+pub mod strength;

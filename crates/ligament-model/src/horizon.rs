@@ -1,0 +1,26 @@
+//! Horizons: one radius a point.
+
+/// Relative tolerance of the comparison of a bond's length with a horizon.
+///
+/// On a regular lattice the neighbour at exactly lambda times the spacing belongs to the family; rounding must not
+/// decide about it.
+pub const INCLUSION_TOLERANCE: f64 = 1e-9;
+
+/// The horizon radius of each point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Horizons {
+    /// Radii h_i, shape (n_points), m.
+    pub radius: Vec<f64>,
+}
+
+impl Horizons {
+    /// h_i = lambda dmin_i (NHPD section 2.1): `factor` lambda >= 1 times the distance to the nearest point, (n_points), m.
+    pub fn from_spacing(spacing: &[f64], factor: f64) -> Self {
+        Self { radius: spacing.iter().map(|nearest| factor * nearest).collect() }
+    }
+
+    /// Whether something at this distance from the point lies in the point's horizon.
+    pub fn contains(&self, point: u32, distance: f64) -> bool {
+        distance <= self.radius[point as usize] * (1.0 + INCLUSION_TOLERANCE)
+    }
+}

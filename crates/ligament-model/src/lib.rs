@@ -1,0 +1,36 @@
+//! The discrete peridynamic model.
+//!
+//! A mesh becomes a bond system in stages; each stage is a function from immutable values to one new value:
+//!
+//! | stage | value | module |
+//! |---|---|---|
+//! | lumping of cell volumes | [`PointCloud`] | [`cloud`] |
+//! | horizon of each point | [`Horizons`] | [`horizon`] |
+//! | dual-horizon bonds | [`BondSet`] | [`bonds`] |
+//! | micromoduli | [`BondStiffness`] | [`law`] |
+//! | length and domain correction | [`Correction`] | [`correction`] |
+//! | critical stretches | `Vec<f64>` | [`failure`] |
+//! | what the equations are made of | [`BondSystem`] | [`system`] |
+//!
+//! All quantities are in SI units. No matrices, no files and no printing here.
+
+pub mod bonds;
+pub mod cloud;
+pub mod correction;
+pub mod element;
+pub mod failure;
+pub mod horizon;
+pub mod law;
+pub mod material;
+pub mod system;
+
+mod ordered_sum;
+
+pub use bonds::{BondSet, Incidence};
+pub use cloud::PointCloud;
+pub use correction::Correction;
+pub use horizon::Horizons;
+pub use law::BondStiffness;
+pub use material::{Material, Plane};
+pub use ordered_sum::ordered_sum;
+pub use system::BondSystem;

@@ -1,0 +1,62 @@
+//! The bond system: everything the equations are made of.
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::correction::Correction;
+use crate::element::beam::{BeamBond, BondDeformation, UNKNOWNS};
+use crate::law::BondStiffness;
+
+/// Points and bonds with their rigidities; it never changes after construction.
+#[derive(Debug, Clone)]
+pub struct BondSystem {
+    /// The points.
+    pub cloud: PointCloud,
+    /// The bonds (without those that pre-cracks cut).
+    pub bonds: BondSet,
+    /// Omega alpha of each bond: its weight in the damage of its ends, shape (n_bonds).
+    pub weight: Vec<f64>,
+    /// Omega alpha V_A V_B k_n l, shape (n_bonds), J.
+    pub axial_rigidity: Vec<f64>,
+    /// Omega alpha V_A V_B k_t l, shape (n_bonds), J.
+    pub shear_rigidity: Vec<f64>,
+    /// Omega alpha V_A V_B k_theta, shape (n_bonds), J.
+    pub rotational_rigidity: Vec<f64>,
+}
+
+impl BondSystem {
+    /// Puts the results of the earlier stages together; all arrays are over the bonds of `bonds`.
+    pub fn new(cloud: PointCloud, bonds: BondSet, stiffness: &BondStiffness, correction: &Correction) -> Self {
+        let weight: Vec<f64> =
+            correction.domain_factor.iter().zip(&correction.length_factor).map(|(omega, alpha)| omega * alpha).collect();
+        let factor = |bond: usize| {
+            let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
+            weight[bond] * a * b
+        };
+        let over_bonds = |rigidity: &dyn Fn(usize) -> f64| (0..bonds.len()).map(rigidity).collect::<Vec<f64>>();
+        Self {
+            axial_rigidity: over_bonds(&|bond| factor(bond) * stiffness.axial[bond] * bonds.length[bond]),
+            shear_rigidity: over_bonds(&|bond| factor(bond) * stiffness.shear[bond] * bonds.length[bond]),
+            rotational_rigidity: over_bonds(&|bond| factor(bond) * stiffness.rotational[bond]),
+            weight,
+            bonds,
+            cloud,
+        }
+    }
+
+    /// The element of a bond.
+    pub fn element(&self, bond: usize) -> BeamBond {
+        BeamBond {
+            length: self.bonds.length[bond],
+            direction: self.bonds.direction[bond],
+            axial_rigidity: self.axial_rigidity[bond],
+            shear_rigidity: self.shear_rigidity[bond],
+            rotational_rigidity: self.rotational_rigidity[bond],
+        }
+    }
+
+    /// Deformation of a bond for the unknowns of all points, shape (3 n_points).
+    pub fn deformation(&self, bond: usize, unknowns: &[f64]) -> BondDeformation {
+        let [a, b] = self.bonds.ends[bond].map(|end| UNKNOWNS * end as usize);
+        self.element(bond).deformation(&unknowns[a..a + UNKNOWNS], &unknowns[b..b + UNKNOWNS])
+    }
+}

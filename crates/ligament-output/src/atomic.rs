@@ -1,0 +1,114 @@
+//! Whole-file writes that no reader can catch half done.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+
+/// Writes `contents` to `path`, replacing what is there.
+///
+/// They go to a temporary file in the same folder (a rename works only within one file system), which then takes the
+/// name `path`. On failure `path` is as before and the temporary file is removed.
+pub(crate) fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    write_and_rename(path, contents).map_err(|source| Error::WriteFile {
+        path: path.to_path_buf(),
+        source,
+    })
+}
+
+fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let temporary = temporary_path(path)?;
+    let written = write_synced(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        // The first failure is the one to report; the temporary file may not even exist.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+fn write_synced(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(contents)?;
+    // Full quotas and remote disks may report a failed write only here; it must be known before the rename.
+    file.sync_all()
+}
+
+/// A hidden sibling of `path` that matches no pattern for result files and differs between processes.
+fn temporary_path(path: &Path) -> io::Result<PathBuf> {
+    let name = path.file_name().ok_or_else(|| {
+        io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "the path does not end in a file name",
+        )
+    })?;
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.partial", std::process::id()));
+    Ok(path.with_file_name(hidden))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn names_in(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn replaces_the_whole_file_and_leaves_no_temporary() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        replace_file(&path, b"a longer first text").unwrap();
+        replace_file(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(names_in(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_failed_rename_leaves_no_temporary() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("taken");
+        fs::create_dir(&path).unwrap();
+        let error = replace_file(&path, b"text").unwrap_err();
+        assert!(matches!(error, Error::WriteFile { path: p, .. } if p == path));
+        assert_eq!(names_in(folder.path()), ["taken"]);
+    }
+
+    #[test]
+    fn a_missing_folder_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("missing/a.txt");
+        let error = replace_file(&path, b"text").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!("cannot write {}", path.display())
+        );
+    }
+
+    #[test]
+    fn a_reader_sees_the_old_or_the_new_text() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        let texts = [vec![b'x'; 300_000], vec![b'y'; 200_000]];
+        replace_file(&path, &texts[0]).unwrap();
+        std::thread::scope(|scope| {
+            let writer = scope.spawn(|| {
+                for i in 0..20 {
+                    replace_file(&path, &texts[i % 2]).unwrap();
+                }
+            });
+            while !writer.is_finished() {
+                let seen = fs::read(&path).unwrap();
+                assert!(texts.contains(&seen), "a reader saw a half-written file");
+            }
+        });
+    }
+}

@@ -1,0 +1,234 @@
+//! CSV tables (RFC 4180 quoting) of scalars over the steps.
+
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use crate::Error;
+
+/// One entry of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value<'a> {
+    /// A signed integer.
+    Integer(i64),
+    /// A count.
+    Count(u64),
+    /// A number, printed with the fewest digits that read back to the same bits; `nan`, `inf` and `-inf` as words.
+    Float(f64),
+    /// A text, quoted where needed.
+    Text(&'a str),
+}
+
+impl From<i64> for Value<'_> {
+    fn from(value: i64) -> Self {
+        Self::Integer(value)
+    }
+}
+
+impl From<u32> for Value<'_> {
+    fn from(value: u32) -> Self {
+        Self::Count(u64::from(value))
+    }
+}
+
+impl From<u64> for Value<'_> {
+    fn from(value: u64) -> Self {
+        Self::Count(value)
+    }
+}
+
+impl From<usize> for Value<'_> {
+    fn from(value: usize) -> Self {
+        Self::Count(value as u64)
+    }
+}
+
+impl From<f64> for Value<'_> {
+    fn from(value: f64) -> Self {
+        Self::Float(value)
+    }
+}
+
+impl<'a> From<&'a str> for Value<'a> {
+    fn from(value: &'a str) -> Self {
+        Self::Text(value)
+    }
+}
+
+/// A CSV file with a fixed header that grows by whole rows.
+///
+/// Each row reaches the operating system before [`Table::append`] returns, so the table of a running or failed job is
+/// readable. Rows end in a line feed. Python's `float`, NumPy and current pandas read the numbers back exactly; older
+/// versions of pandas need `float_precision="round_trip"` for that.
+#[derive(Debug)]
+pub struct Table {
+    path: PathBuf,
+    file: File,
+    n_columns: usize,
+}
+
+impl Table {
+    /// Creates the file, replacing an existing one, and writes the header.
+    pub fn create(path: impl Into<PathBuf>, columns: &[&str]) -> Result<Self, Error> {
+        let path = path.into();
+        let file = File::create(&path).map_err(|source| Error::WriteFile {
+            path: path.clone(),
+            source,
+        })?;
+        let mut table = Self {
+            path,
+            file,
+            n_columns: columns.len(),
+        };
+        let header: Vec<Value<'_>> = columns.iter().copied().map(Value::from).collect();
+        table.append(&header)?;
+        Ok(table)
+    }
+
+    /// Appends one row, one value per column of the header.
+    pub fn append(&mut self, row: &[Value<'_>]) -> Result<(), Error> {
+        if row.len() != self.n_columns {
+            return Err(Error::RowLength {
+                path: self.path.clone(),
+                expected: self.n_columns,
+                found: row.len(),
+            });
+        }
+        let mut line = String::new();
+        for (column, value) in row.iter().enumerate() {
+            if column > 0 {
+                line.push(',');
+            }
+            push_value(&mut line, *value);
+        }
+        line.push('\n');
+        // The file has no buffer of its own: the row goes out in one write and needs no flush.
+        self.file
+            .write_all(line.as_bytes())
+            .map_err(|source| Error::WriteFile {
+                path: self.path.clone(),
+                source,
+            })
+    }
+}
+
+fn push_value(line: &mut String, value: Value<'_>) {
+    // Writing to a string cannot fail.
+    let _ = match value {
+        Value::Integer(integer) => write!(line, "{integer}"),
+        Value::Count(count) => write!(line, "{count}"),
+        Value::Float(number) if number.is_nan() => write!(line, "nan"),
+        Value::Float(number) => write!(line, "{number:?}"),
+        Value::Text(text) => {
+            push_text(line, text);
+            Ok(())
+        }
+    };
+}
+
+fn push_text(line: &mut String, text: &str) {
+    // An empty text is quoted as well: alone in its row it would be a blank line, which readers skip.
+    if !text.is_empty() && !text.contains([',', '"', '\n', '\r']) {
+        line.push_str(text);
+        return;
+    }
+    line.push('"');
+    line.push_str(&text.replace('"', "\"\""));
+    line.push('"');
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::fs;
+
+    fn printed(value: Value<'_>) -> String {
+        let mut line = String::new();
+        push_value(&mut line, value);
+        line
+    }
+
+    proptest! {
+        #[test]
+        fn floats_read_back_to_the_same_bits(bits in any::<u64>()) {
+            let number = f64::from_bits(bits);
+            prop_assume!(!number.is_nan());
+            let read: f64 = printed(number.into()).parse().unwrap();
+            prop_assert_eq!(read.to_bits(), bits);
+        }
+
+        #[test]
+        fn texts_read_back_after_unquoting(text in any::<String>()) {
+            let printed = printed(text.as_str().into());
+            let read = match printed.strip_prefix('"') {
+                Some(rest) => rest.strip_suffix('"').unwrap().replace("\"\"", "\""),
+                None => printed,
+            };
+            prop_assert_eq!(read, text);
+        }
+    }
+
+    #[test]
+    fn values_are_printed_as_readers_expect() {
+        let cases: [(Value<'_>, &str); 11] = [
+            (0.0.into(), "0.0"),
+            ((-0.0).into(), "-0.0"),
+            (1e-7.into(), "1e-7"),
+            ((0.1 + 0.2).into(), "0.30000000000000004"),
+            (f64::NAN.into(), "nan"),
+            (f64::INFINITY.into(), "inf"),
+            (f64::NEG_INFINITY.into(), "-inf"),
+            (i64::MIN.into(), "-9223372036854775808"),
+            (u64::MAX.into(), "18446744073709551615"),
+            ("a \"b\", c".into(), "\"a \"\"b\"\", c\""),
+            ("".into(), "\"\""),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(printed(value), expected);
+        }
+    }
+
+    #[test]
+    fn each_row_is_in_the_file_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("history.csv");
+        let mut table = Table::create(&path, &["step", "displacement", "status"]).unwrap();
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            "step,displacement,status\n"
+        );
+        table
+            .append(&[0_usize.into(), 0.25.into(), "converged".into()])
+            .unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        assert_eq!(text, "step,displacement,status\n0,0.25,converged\n");
+    }
+
+    #[test]
+    fn a_row_of_the_wrong_length_is_refused_and_not_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("history.csv");
+        let mut table = Table::create(&path, &["step", "displacement"]).unwrap();
+        let error = table.append(&[1_u32.into()]).unwrap_err();
+        assert!(matches!(
+            error,
+            Error::RowLength {
+                expected: 2,
+                found: 1,
+                ..
+            }
+        ));
+        assert_eq!(fs::read_to_string(&path).unwrap(), "step,displacement\n");
+    }
+
+    #[test]
+    fn a_missing_folder_is_an_error_with_the_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("missing/history.csv");
+        let error = Table::create(&path, &["step"]).unwrap_err();
+        assert!(matches!(error, Error::WriteFile { path: p, .. } if p == path));
+    }
+}

@@ -1,0 +1,259 @@
+//! The folder that holds the results of one run.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+use crate::atomic::replace_file;
+
+/// Files written by every run; one of them shows that a folder holds results and nothing else.
+const MARKERS: [&str; 2] = ["case.resolved.toml", "summary.json"];
+
+/// A folder for the results of one run, new or empty when created.
+///
+/// A run should write one of the marker files `case.resolved.toml` and `summary.json` first: by them a later run
+/// recognises the folder as one it may replace.
+#[derive(Debug)]
+pub struct ResultFolder {
+    path: PathBuf,
+}
+
+impl ResultFolder {
+    /// Creates the folder and its parents. An existing empty folder is used as it is.
+    ///
+    /// A folder with results is refused unless `replace` is set; then it is moved aside to `NAME.replaced`, the new
+    /// folder is created and the old one removed. A folder with other files is refused in any case.
+    pub fn create(path: impl Into<PathBuf>, replace: bool) -> Result<Self, Error> {
+        let path = path.into();
+        match Occupant::of(&path)? {
+            Occupant::Nothing => create_folder(&path)?,
+            Occupant::EmptyFolder => {}
+            Occupant::Results if replace => replace_folder(&path)?,
+            Occupant::Results => return Err(Error::ResultsExist { path }),
+            Occupant::OtherFiles => return Err(Error::NotAResultFolder { path }),
+            Occupant::NotAFolder => return Err(Error::NotAFolder { path }),
+        }
+        Ok(Self { path })
+    }
+
+    /// The folder itself.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of a file in the folder.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a text file in the folder atomically, replacing an earlier one of that name.
+    pub fn write_text(&self, name: &str, text: &str) -> Result<(), Error> {
+        replace_file(&self.file(name), text.as_bytes())
+    }
+}
+
+/// What is in the place of a result folder.
+enum Occupant {
+    Nothing,
+    EmptyFolder,
+    Results,
+    OtherFiles,
+    NotAFolder,
+}
+
+impl Occupant {
+    fn of(path: &Path) -> Result<Self, Error> {
+        let metadata = match fs::metadata(path) {
+            Ok(metadata) => metadata,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Nothing),
+            Err(error) => return Err(folder_error("look at", path, error)),
+        };
+        if !metadata.is_dir() {
+            return Ok(Self::NotAFolder);
+        }
+        let mut entries = fs::read_dir(path).map_err(|error| folder_error("list", path, error))?;
+        if entries.next().is_none() {
+            return Ok(Self::EmptyFolder);
+        }
+        let is_marked = MARKERS.iter().any(|marker| path.join(marker).is_file());
+        Ok(if is_marked {
+            Self::Results
+        } else {
+            Self::OtherFiles
+        })
+    }
+}
+
+/// Replaces a result folder by an empty one. The old results are removed last, so a failure on the way keeps them.
+fn replace_folder(path: &Path) -> Result<(), Error> {
+    let aside = replaced_path(path)?;
+    // `exists` would follow a dangling link.
+    if fs::symlink_metadata(&aside).is_ok() {
+        return Err(Error::ReplacedExists { path: aside });
+    }
+    fs::rename(path, &aside).map_err(|error| folder_error("move aside", path, error))?;
+    if let Err(error) = create_folder(path) {
+        // Back to where it was, if that still works; the failure to report is the first one.
+        let _ = fs::rename(&aside, path);
+        return Err(error);
+    }
+    fs::remove_dir_all(&aside).map_err(|error| folder_error("remove", &aside, error))
+}
+
+/// The sibling `NAME.replaced` of a folder `NAME`.
+fn replaced_path(path: &Path) -> Result<PathBuf, Error> {
+    let name = path.file_name().ok_or_else(|| Error::UnnamedFolder {
+        path: path.to_path_buf(),
+    })?;
+    let mut replaced = OsString::from(name);
+    replaced.push(".replaced");
+    Ok(path.with_file_name(replaced))
+}
+
+fn create_folder(path: &Path) -> Result<(), Error> {
+    fs::create_dir_all(path).map_err(|error| folder_error("create", path, error))
+}
+
+fn folder_error(action: &'static str, path: &Path, source: io::Error) -> Error {
+    Error::Folder {
+        action,
+        path: path.to_path_buf(),
+        source,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use tempfile::TempDir;
+
+    /// A parent folder and in it the path `results`, holding the given files.
+    fn results_with(files: &[&str]) -> (TempDir, PathBuf) {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("results");
+        fs::create_dir(&path).unwrap();
+        for file in files {
+            fs::write(path.join(file), "old").unwrap();
+        }
+        (parent, path)
+    }
+
+    fn n_entries(path: &Path) -> usize {
+        fs::read_dir(path).unwrap().count()
+    }
+
+    #[test]
+    fn creates_parents_and_writes_texts() {
+        let parent = tempfile::tempdir().unwrap();
+        let folder = ResultFolder::create(parent.path().join("a/b"), false).unwrap();
+        folder.write_text("summary.json", "{}").unwrap();
+        folder
+            .write_text("summary.json", "{\"volume\": 1.0}")
+            .unwrap();
+        let text = fs::read_to_string(folder.path().join("summary.json")).unwrap();
+        assert_eq!(text, "{\"volume\": 1.0}");
+        assert_eq!(n_entries(folder.path()), 1);
+    }
+
+    #[test]
+    fn uses_an_empty_folder() {
+        for replace in [false, true] {
+            let (_parent, path) = results_with(&[]);
+            ResultFolder::create(&path, replace).unwrap();
+        }
+    }
+
+    #[test]
+    fn refuses_results_without_replace() {
+        let (_parent, path) = results_with(&["summary.json"]);
+        let error = ResultFolder::create(&path, false).unwrap_err();
+        assert!(matches!(&error, Error::ResultsExist { path: p } if *p == path));
+        let message = error.to_string();
+        assert!(
+            message.contains("--out") && message.contains("--force"),
+            "{message}"
+        );
+        assert_eq!(n_entries(&path), 1);
+    }
+
+    #[test]
+    fn replaces_results_by_either_marker() {
+        for marker in MARKERS {
+            let (parent, path) = results_with(&[marker, "fields_0000.vtu"]);
+            ResultFolder::create(&path, true).unwrap();
+            assert_eq!(n_entries(&path), 0);
+            assert_eq!(n_entries(parent.path()), 1, "the old results are gone");
+        }
+    }
+
+    #[test]
+    fn a_trailing_separator_does_not_matter() {
+        let (parent, path) = results_with(&["summary.json"]);
+        ResultFolder::create(path.join(""), true).unwrap();
+        assert_eq!(n_entries(&path), 0);
+        assert_eq!(n_entries(parent.path()), 1);
+    }
+
+    #[test]
+    fn never_removes_other_files() {
+        for replace in [false, true] {
+            let (_parent, path) = results_with(&["thesis.tex"]);
+            let error = ResultFolder::create(&path, replace).unwrap_err();
+            assert!(matches!(error, Error::NotAResultFolder { .. }));
+            assert_eq!(fs::read_to_string(path.join("thesis.tex")).unwrap(), "old");
+        }
+    }
+
+    #[test]
+    fn a_folder_named_like_a_marker_is_no_marker() {
+        let (_parent, path) = results_with(&[]);
+        fs::create_dir(path.join("summary.json")).unwrap();
+        let error = ResultFolder::create(&path, true).unwrap_err();
+        assert!(matches!(error, Error::NotAResultFolder { .. }));
+    }
+
+    #[test]
+    fn refuses_a_file_in_its_place() {
+        for replace in [false, true] {
+            let parent = tempfile::tempdir().unwrap();
+            let path = parent.path().join("results");
+            fs::write(&path, "a file").unwrap();
+            let error = ResultFolder::create(&path, replace).unwrap_err();
+            assert!(matches!(error, Error::NotAFolder { .. }));
+            assert_eq!(fs::read_to_string(&path).unwrap(), "a file");
+        }
+    }
+
+    #[test]
+    fn refuses_when_the_place_aside_is_taken() {
+        let (parent, path) = results_with(&["summary.json"]);
+        let aside = parent.path().join("results.replaced");
+        fs::create_dir(&aside).unwrap();
+        let error = ResultFolder::create(&path, true).unwrap_err();
+        assert!(matches!(error, Error::ReplacedExists { path: p } if p == aside));
+        assert_eq!(n_entries(&path), 1);
+    }
+
+    #[test]
+    fn refuses_to_replace_a_path_without_a_name() {
+        let (_parent, path) = results_with(&["summary.json"]);
+        fs::create_dir(path.join("sub")).unwrap();
+        let error = ResultFolder::create(path.join("sub/.."), true).unwrap_err();
+        assert!(matches!(error, Error::UnnamedFolder { .. }));
+        assert_eq!(n_entries(&path), 2);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn replacing_a_link_keeps_what_it_points_to() {
+        let (parent, path) = results_with(&["summary.json"]);
+        let link = parent.path().join("link");
+        std::os::unix::fs::symlink(&path, &link).unwrap();
+        ResultFolder::create(&link, true).unwrap();
+        assert_eq!(n_entries(&link), 0);
+        assert_eq!(n_entries(&path), 1);
+    }
+}

@@ -1,0 +1,23 @@
+//! Result files: VTU fields, PVD collections and CSV histories
+//!
+//! | Module | Writes |
+//! |--------|--------|
+//! | [`vtu`] | the fields of one output on points and cells, for ParaView, VTK, PyVista and meshio |
+//! | [`pvd`] | the list of those outputs with their times, which ParaView opens as a series |
+//! | [`csv`] | tables of scalars over the steps |
+//! | [`folder`] | the folder that holds them, without destroying what was there |
+//! | [`results`] | all of these from a run, as its observer |
+//!
+//! A file is either appended to by whole rows (CSV) or replaced as a whole by a rename (all others), so the results of
+//! a job can be opened while it is running. Only [`results`] knows about models and analyses: the others take plain
+//! slices.
+
+mod atomic;
+pub mod csv;
+mod error;
+pub mod folder;
+pub mod pvd;
+pub mod results;
+pub mod vtu;
+
+pub use error::{Error, FieldLocation};

@@ -1,0 +1,140 @@
+//! PVD collections: the series of VTU files over the load history.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::Error;
+use crate::atomic::replace_file;
+
+/// A list of VTU files with their times, which ParaView opens as one series.
+///
+/// The time of a quasi-static output is the applied displacement or load. Readers sort the files by time and show one
+/// file per time, so a time should not come back.
+#[derive(Debug)]
+pub struct Collection {
+    path: PathBuf,
+    /// Time and file name, in the order of output.
+    outputs: Vec<(f64, String)>,
+}
+
+impl Collection {
+    /// An empty collection that will be written to `path`.
+    ///
+    /// The file appears with the first output: ParaView rejects a collection without files.
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self {
+            path: path.into(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// Lists `file`, relative to the folder of the collection, under `time` and rewrites the collection atomically, so
+    /// that a running job can be opened. The file should exist by then.
+    pub fn append(&mut self, time: f64, file: impl Into<String>) -> Result<(), Error> {
+        let file = file.into();
+        if !time.is_finite() {
+            return Err(Error::TimeNotFinite {
+                path: self.path.clone(),
+                file,
+                time,
+            });
+        }
+        self.outputs.push((time, file));
+        replace_file(&self.path, self.to_xml().as_bytes())
+    }
+
+    fn to_xml(&self) -> String {
+        let mut xml = String::from(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+             <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        );
+        for (time, file) in &self.outputs {
+            // `{:?}` prints the shortest decimal that reads back to the same bits. Writing to a string cannot fail.
+            let _ = writeln!(
+                xml,
+                "<DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{}\"/>",
+                escape_attribute(file)
+            );
+        }
+        xml.push_str("</Collection>\n</VTKFile>\n");
+        xml
+    }
+}
+
+/// The text as the value of an XML attribute in double quotes.
+fn escape_attribute(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&apos;"),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn is_complete_after_each_output() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.pvd");
+        let mut collection = Collection::new(&path);
+        for step in 0..3 {
+            collection
+                .append(0.1 * f64::from(step), format!("fields_{step:04}.vtu"))
+                .unwrap();
+            let xml = fs::read_to_string(&path).unwrap();
+            assert_eq!(xml.matches("<DataSet ").count() as i32, step + 1);
+            assert!(xml.ends_with("</Collection>\n</VTKFile>\n"));
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn times_keep_every_digit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.pvd");
+        let mut collection = Collection::new(&path);
+        let times = [0.1 + 0.2, 1e-7, -2.5e-300, 0.0];
+        for time in times {
+            collection.append(time, "a.vtu").unwrap();
+        }
+        let xml = fs::read_to_string(&path).unwrap();
+        let read: Vec<f64> = xml
+            .split("timestep=\"")
+            .skip(1)
+            .map(|rest| rest.split('"').next().unwrap().parse().unwrap())
+            .collect();
+        assert_eq!(read, times);
+    }
+
+    #[test]
+    fn names_are_escaped() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.pvd");
+        let mut collection = Collection::new(&path);
+        collection.append(0.0, "a<b>&\"c'.vtu").unwrap();
+        let xml = fs::read_to_string(&path).unwrap();
+        assert!(xml.contains("file=\"a&lt;b&gt;&amp;&quot;c&apos;.vtu\""));
+    }
+
+    #[test]
+    fn a_time_that_is_not_finite_is_refused_and_not_listed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.pvd");
+        let mut collection = Collection::new(&path);
+        let error = collection.append(f64::NAN, "a.vtu").unwrap_err();
+        assert!(matches!(error, Error::TimeNotFinite { .. }));
+        collection.append(1.0, "b.vtu").unwrap();
+        assert!(!fs::read_to_string(&path).unwrap().contains("a.vtu"));
+    }
+}

@@ -1,0 +1,149 @@
+//! All result files of a run, written while it goes on.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `history.csv` | a row a load step |
+//! | `iterations.csv` | a row a Newton-Raphson iteration |
+//! | `breaks.csv` | a row a broken bond, in the order of breaking |
+//! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
+//! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh |
+//! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
+
+mod point_fields;
+mod tables;
+
+use ligament_analysis::ControlKind;
+use ligament_analysis::boundary::Boundary;
+use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::probe::Probe;
+
+use crate::Error;
+use crate::folder::ResultFolder;
+use crate::pvd::Collection;
+use crate::vtu::{self, Field, UnstructuredGrid};
+
+pub use point_fields::{FixedFields, MeshCells, point_grid};
+use tables::Tables;
+
+/// What to write, and how often.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WriteRule {
+    /// Fields at every so many load steps, besides the first and the last; 0: only these two.
+    pub fields_every: usize,
+    /// Whether to write the bonds as well.
+    pub bonds: bool,
+}
+
+/// Writes the results of a run as its observer.
+pub struct ResultWriter<'a> {
+    folder: &'a ResultFolder,
+    cells: &'a MeshCells,
+    fixed: &'a FixedFields,
+    rule: WriteRule,
+    tables: Tables,
+    fields_collection: Collection,
+    bonds_collection: Collection,
+    /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
+    step_of_breaking: Vec<i64>,
+}
+
+impl<'a> ResultWriter<'a> {
+    /// Creates the tables of a run over `n_bonds` bonds in a result folder.
+    pub fn new(
+        folder: &'a ResultFolder,
+        cells: &'a MeshCells,
+        fixed: &'a FixedFields,
+        rule: WriteRule,
+        boundary: &Boundary,
+        probes: &[Probe],
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            folder,
+            cells,
+            fixed,
+            rule,
+            tables: Tables::create(folder, boundary, probes)?,
+            fields_collection: Collection::new(folder.file("fields.pvd")),
+            bonds_collection: Collection::new(folder.file("bonds.pvd")),
+            step_of_breaking: vec![-1; fixed.domain_factor.len()],
+        })
+    }
+
+    fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
+        let name = format!("fields_{:04}.vtu", record.step);
+        point_fields::write(&self.folder.file(&name), self.cells, self.fixed, view)?;
+        self.fields_collection.append(time(record, view), name)
+    }
+
+    fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
+        let (system, balanced) = (view.system, view.balanced);
+        let bonds = 0..system.bonds.len();
+        let stretch: Vec<f64> = balanced.deformations.iter().map(|deformation| deformation.stretch).collect();
+        let shear: Vec<f64> = balanced.deformations.iter().map(|deformation| deformation.shear).collect();
+        let ratio: Vec<f64> =
+            bonds.clone().map(|bond| view.critical_stretch.get(bond).map_or(0.0, |limit| stretch[bond] / limit)).collect();
+        let state: Vec<i64> = view.state.intact.iter().map(|&intact| i64::from(intact)).collect();
+        let displacement = point_fields::displacements(view);
+        let lines: Vec<vtu::Cell> = system.bonds.ends.iter().map(|&ends| vtu::Cell::Line(ends)).collect();
+        let grid = UnstructuredGrid {
+            points: &self.cells.positions,
+            cells: &lines,
+            point_fields: &[Field::vector("displacement", &displacement)],
+            cell_fields: &[
+                Field::integer("intact", &state),
+                Field::scalar("stretch", &stretch),
+                Field::scalar("stretch_ratio", &ratio),
+                Field::scalar("shear", &shear),
+                Field::scalar("domain_factor", &self.fixed.domain_factor),
+                Field::integer("step_of_breaking", &self.step_of_breaking),
+            ],
+        };
+        let name = format!("bonds_{:04}.vtu", record.step);
+        vtu::write_vtu(self.folder.file(&name), &grid)?;
+        self.bonds_collection.append(time(record, view), name)
+    }
+}
+
+/// The time of an output: the applied displacement, or the applied load where the load is given.
+fn time(record: &StepRecord, view: &View<'_>) -> f64 {
+    match view.boundary.control.kind {
+        ControlKind::Displacement => record.displacement,
+        ControlKind::Force => record.reaction,
+    }
+}
+
+impl Observer for ResultWriter<'_> {
+    fn round(&mut self, step: usize, round: usize, load_factor: f64, broken: usize) -> Result<(), ObserverError> {
+        self.tables.enter_round(step, round, load_factor, broken);
+        Ok(())
+    }
+
+    fn iteration(&mut self, iteration: usize, residual: f64, stored_energy: f64) -> Result<(), ObserverError> {
+        failed(self.tables.iteration(iteration, residual, stored_energy))
+    }
+
+    fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
+        for record in records {
+            self.step_of_breaking[record.bond as usize] = record.step as i64;
+        }
+        failed(self.tables.breaks(records, self.cells, self.fixed))
+    }
+
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        let due = match self.rule.fields_every {
+            0 => record.step == 0 || view.is_last,
+            every => record.step.is_multiple_of(every) || view.is_last,
+        };
+        if due {
+            failed(self.write_fields(record, view))?;
+            if self.rule.bonds {
+                failed(self.write_bonds(record, view))?;
+            }
+        }
+        failed(self.tables.step(record, view))
+    }
+}
+
+fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {
+    result.map_err(|error| ObserverError(Box::new(error)))
+}

@@ -1,0 +1,140 @@
+//! The CSV tables of a run.
+
+use ligament_analysis::boundary::Boundary;
+use ligament_analysis::equilibrium::Costs;
+use ligament_analysis::history::{BreakRecord, StepRecord, View};
+use ligament_analysis::probe::Probe;
+
+use super::point_fields::{FixedFields, MeshCells};
+use crate::Error;
+use crate::csv::{Table, Value};
+use crate::folder::ResultFolder;
+
+const HISTORY: [&str; 15] = [
+    "step",
+    "load_factor",
+    "displacement",
+    "reaction",
+    "stored_energy",
+    "released_energy",
+    "broken_bonds",
+    "external_work",
+    "energy_error",
+    "broken_in_step",
+    "largest_ratio",
+    "rounds",
+    "solves",
+    "fragments",
+    "at_rest",
+];
+const ITERATIONS: [&str; 7] =
+    ["step", "round", "iteration", "load_factor", "residual", "stored_energy", "broken_bonds"];
+const BREAKS: [&str; 7] = ["order", "step", "round", "load_factor", "node_a", "node_b", "stretch_ratio"];
+const TIMINGS: [&str; 6] =
+    ["step", "assembly_s", "factorisation_s", "solve_s", "bonds_s", "connectivity_s"];
+
+pub(super) struct Tables {
+    history: Table,
+    iterations: Table,
+    breaks: Table,
+    timings: Table,
+    step: usize,
+    round: usize,
+    load_factor: f64,
+    broken: usize,
+    costs_before: Costs,
+}
+
+impl Tables {
+    pub(super) fn create(folder: &ResultFolder, boundary: &Boundary, probes: &[Probe]) -> Result<Self, Error> {
+        let groups = boundary.groups.iter();
+        let group_columns = groups.flat_map(|group| ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name)));
+        let extra: Vec<String> = group_columns.chain(probes.iter().map(|probe| probe.name.clone())).collect();
+        let history_columns: Vec<&str> = HISTORY.into_iter().chain(extra.iter().map(String::as_str)).collect();
+        Ok(Self {
+            history: Table::create(folder.file("history.csv"), &history_columns)?,
+            iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
+            breaks: Table::create(folder.file("breaks.csv"), &BREAKS)?,
+            timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
+            step: 0,
+            round: 0,
+            load_factor: 0.0,
+            broken: 0,
+            costs_before: Costs::default(),
+        })
+    }
+
+    pub(super) fn enter_round(&mut self, step: usize, round: usize, load_factor: f64, broken: usize) {
+        (self.step, self.round, self.load_factor, self.broken) = (step, round, load_factor, broken);
+    }
+
+    pub(super) fn iteration(&mut self, iteration: usize, residual: f64, stored_energy: f64) -> Result<(), Error> {
+        self.iterations.append(&[
+            self.step.into(),
+            self.round.into(),
+            iteration.into(),
+            self.load_factor.into(),
+            residual.into(),
+            stored_energy.into(),
+            self.broken.into(),
+        ])
+    }
+
+    pub(super) fn breaks(
+        &mut self,
+        records: &[BreakRecord],
+        cells: &MeshCells,
+        fixed: &FixedFields,
+    ) -> Result<(), Error> {
+        for record in records {
+            let [a, b] = fixed.ends[record.bond as usize].map(|end| cells.node_tags[end as usize]);
+            self.breaks.append(&[
+                record.order.into(),
+                record.step.into(),
+                record.round.into(),
+                record.load_factor.into(),
+                a.into(),
+                b.into(),
+                record.ratio.into(),
+            ])?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
+        let mut row: Vec<Value<'_>> = vec![
+            record.step.into(),
+            record.load_factor.into(),
+            record.displacement.into(),
+            record.reaction.into(),
+            record.stored_energy.into(),
+            record.released_energy.into(),
+            record.broken_bonds.into(),
+            record.external_work.into(),
+            record.energy_error().into(),
+            record.broken_in_step.into(),
+            record.largest_ratio.into(),
+            record.rounds.into(),
+            record.solves.into(),
+            record.fragments.into(),
+            usize::from(record.at_rest).into(),
+        ];
+        row.extend(record.group_forces.as_flattened().iter().map(|&force| Value::from(force)));
+        row.extend(record.probes.iter().map(|&value| Value::from(value)));
+        self.history.append(&row)?;
+        self.time(record.step, view.costs)
+    }
+
+    fn time(&mut self, step: usize, costs: &Costs) -> Result<(), Error> {
+        let before = std::mem::replace(&mut self.costs_before, *costs);
+        let seconds = |now: std::time::Duration, then: std::time::Duration| Value::from((now - then).as_secs_f64());
+        self.timings.append(&[
+            step.into(),
+            seconds(costs.assembly, before.assembly),
+            seconds(costs.factorisation, before.factorisation),
+            seconds(costs.solve, before.solve),
+            seconds(costs.bonds, before.bonds),
+            seconds(costs.connectivity, before.connectivity),
+        ])
+    }
+}

@@ -1,0 +1,198 @@
+use super::*;
+use std::fs;
+use vtkio::IOBuffer;
+use vtkio::model::{Piece, VertexNumbers};
+
+const POINTS: [[f64; 2]; 5] = [
+    [0.0, 0.0],
+    [1.0, 0.0],
+    [1.0, 1.0],
+    [0.0, 0.1 + 0.2],
+    [2.0, 0.5],
+];
+const CELLS: [Cell; 4] = [
+    Cell::Quad([0, 1, 2, 3]),
+    Cell::Triangle([1, 4, 2]),
+    Cell::Line([0, 4]),
+    Cell::Vertex([3]),
+];
+
+fn grid<'a>(point_fields: &'a [Field<'a>], cell_fields: &'a [Field<'a>]) -> UnstructuredGrid<'a> {
+    UnstructuredGrid {
+        points: &POINTS,
+        cells: &CELLS,
+        point_fields,
+        cell_fields,
+    }
+}
+
+fn read(path: &Path) -> UnstructuredGridPiece {
+    let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(path).unwrap().data else {
+        panic!("not an unstructured grid");
+    };
+    let Piece::Inline(piece) = pieces.into_iter().next().unwrap() else {
+        panic!("not inline");
+    };
+    *piece
+}
+
+/// The one array of this name and its number of components.
+fn array<'a>(attributes: &'a [Attribute], name: &str) -> (&'a IOBuffer, u32) {
+    let mut found = attributes
+        .iter()
+        .filter(|attribute| attribute.name() == name);
+    let Some(Attribute::DataArray(array)) = found.next() else {
+        panic!("no array {name}");
+    };
+    assert!(found.next().is_none());
+    (&array.data, array.elem.num_comp())
+}
+
+#[test]
+fn points_cells_and_fields_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fields_0000.vtu");
+    let damage = [0.0, -0.0, f64::MIN_POSITIVE / 4.0, f64::INFINITY, 0.1 + 0.2];
+    let displacement = [1.0, 2.0, 3.0, 4.0, 5.0].map(|x: f64| [x / 3.0, -x / 7.0, 0.0]);
+    let material = [1, -2, i64::MAX, i64::MIN];
+    let point_fields = [
+        Field::scalar("damage <&\"'>", &damage),
+        Field::vector("displacement", &displacement),
+    ];
+    write_vtu(
+        &path,
+        &grid(&point_fields, &[Field::integer("material", &material)]),
+    )
+    .unwrap();
+
+    let piece = read(&path);
+    let expected: Vec<f64> = POINTS.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
+    assert_eq!(piece.points, IOBuffer::F64(expected));
+    assert_eq!(
+        piece.cells.cell_verts,
+        VertexNumbers::XML {
+            connectivity: vec![0, 1, 2, 3, 1, 4, 2, 0, 4, 3],
+            offsets: vec![4, 7, 9, 10],
+        }
+    );
+    let types = [
+        CellType::Quad,
+        CellType::Triangle,
+        CellType::Line,
+        CellType::Vertex,
+    ];
+    assert_eq!(piece.cells.types, types);
+    let (values, n_components) = array(&piece.data.point, "damage <&\"'>");
+    let bits: Vec<u64> = values.iter::<f64>().unwrap().map(|x| x.to_bits()).collect();
+    assert_eq!((bits, n_components), (damage.map(f64::to_bits).to_vec(), 1));
+    let (values, n_components) = array(&piece.data.point, "displacement");
+    assert_eq!(*values, IOBuffer::F64(displacement.as_flattened().to_vec()));
+    assert_eq!(n_components, 3);
+    let (values, n_components) = array(&piece.data.cell, "material");
+    assert_eq!(
+        (values, n_components),
+        (&IOBuffer::I64(material.to_vec()), 1)
+    );
+}
+
+#[test]
+fn arrays_of_whole_compression_blocks_read_back() {
+    // vtkio compresses blocks of 32768 bytes, 4096 numbers.
+    for n_points in [4095, 4096, 4097, 8192] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields_0000.vtu");
+        let points: Vec<_> = (0..n_points).map(|i| [f64::from(i), 0.0]).collect();
+        let cells: Vec<_> = (0..n_points as u32).map(|i| Cell::Vertex([i])).collect();
+        let volume: Vec<_> = (0..n_points).map(|i| f64::from(i).sqrt()).collect();
+        let grid = UnstructuredGrid {
+            points: &points,
+            cells: &cells,
+            point_fields: &[Field::scalar("volume", &volume)],
+            cell_fields: &[],
+        };
+        write_vtu(&path, &grid).unwrap();
+        let piece = read(&path);
+        assert_eq!(array(&piece.data.point, "volume").0, &IOBuffer::F64(volume));
+        assert_eq!(piece.cells.types.len(), cells.len());
+    }
+}
+
+#[test]
+fn is_compressed_and_leaves_no_other_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fields_0000.vtu");
+    write_vtu(&path, &grid(&[], &[])).unwrap();
+    write_vtu(&path, &grid(&[], &[])).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("compressor=\"vtkZLibDataCompressor\""));
+    assert!(text.ends_with("</VTKFile>"));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// The error of writing `grid`, after checking that no file was written.
+fn refusal(grid: &UnstructuredGrid<'_>) -> Error {
+    let folder = tempfile::tempdir().unwrap();
+    let error = write_vtu(folder.path().join("a.vtu"), grid).unwrap_err();
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    error
+}
+
+#[test]
+fn refuses_fields_of_the_wrong_length() {
+    let error = refusal(&grid(&[Field::scalar("damage", &[0.0; 4])], &[]));
+    let message = error.to_string();
+    assert!(
+        message.ends_with("point field 'damage' has 4 values, expected 5, one per point"),
+        "{message}"
+    );
+    let error = refusal(&grid(&[], &[Field::integer("material", &[0; 5])]));
+    assert!(matches!(
+        error,
+        Error::FieldLength {
+            location: FieldLocation::Cell,
+            expected: 4,
+            found: 5,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn refuses_two_fields_of_one_name() {
+    let field = Field::scalar("damage", &[0.0; 5]);
+    let error = refusal(&grid(&[field, field], &[]));
+    assert!(matches!(error, Error::DuplicateField { field, .. } if field == "damage"));
+}
+
+#[test]
+fn refuses_a_cell_on_a_missing_point() {
+    let cells = [Cell::Line([0, 1]), Cell::Line([1, 5])];
+    let error = refusal(&UnstructuredGrid {
+        cells: &cells,
+        ..grid(&[], &[])
+    });
+    assert!(matches!(
+        error,
+        Error::PointOutOfRange {
+            cell: 1,
+            point: 5,
+            n_points: 5,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn refuses_a_grid_that_readers_reject() {
+    let no_points = UnstructuredGrid {
+        points: &[],
+        ..grid(&[], &[])
+    };
+    let no_cells = UnstructuredGrid {
+        cells: &[],
+        ..grid(&[], &[])
+    };
+    for grid in [no_points, no_cells] {
+        assert!(matches!(refusal(&grid), Error::EmptyGrid { .. }));
+    }
+}

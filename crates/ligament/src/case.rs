@@ -1,0 +1,202 @@
+//! Case files: what to compute, in TOML.
+//!
+//! A case names a mesh, materials, the bond model, supports and loads, and optionally pre-cracks,
+//! probes and how bonds break. All values are in SI units. [`CaseFile::load`] reads and checks one;
+//! every fault is reported with its line, column and key path.
+
+mod conditions;
+mod decode;
+mod document;
+mod fault;
+mod file;
+mod fracture;
+mod key_path;
+mod material;
+mod mesh_section;
+mod model;
+mod overrides;
+mod probe;
+mod region;
+mod resolved;
+mod units;
+mod values;
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+pub use conditions::{Action, Displacement, Load, Support, Vector};
+pub use fault::{CaseError, Fault, Location};
+pub use file::CaseFile;
+pub use fracture::{BreakOrder, Control, Fracture, Output, Steps, Stop};
+pub use material::Material;
+pub use mesh_section::{MeshSection, Plane};
+pub use model::{Correction, CorrectionDomain, CorrectionRule, Law, ModelSection};
+pub use probe::{Component, Field, Probe, Reading};
+pub use region::{Place, Precrack, Region};
+pub use values::{Axis, Point};
+
+use document::Node;
+use fault::{Fault as F, KeyFault};
+use key_path::KeyPath;
+use values::require_unique;
+
+/// A checked case with every default filled in.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Case {
+    /// One line on what the case is.
+    pub title: String,
+    /// The meshed body.
+    pub mesh: MeshSection,
+    /// The materials: one without a group for the whole body, or one for each of some groups.
+    #[serde(rename = "material", serialize_with = "material::serialize")]
+    pub materials: Vec<Material>,
+    /// The bond model.
+    pub model: ModelSection,
+    /// The domain correction of the bonds.
+    pub correction: Correction,
+    /// Cracks that are there from the start.
+    #[serde(rename = "precrack", skip_serializing_if = "Vec::is_empty")]
+    pub precracks: Vec<Precrack>,
+    /// Supports.
+    #[serde(rename = "support", skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<Support>,
+    /// Loads, one or more.
+    #[serde(rename = "load")]
+    pub loads: Vec<Load>,
+    /// Parts of the body where bonds never break.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub no_fail: Vec<Region>,
+    /// Extra columns of the history.
+    #[serde(rename = "probe", skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<Probe>,
+    /// How bonds break; without it there is one linear elastic solution at load factor 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fracture: Option<Fracture>,
+    /// What a run writes.
+    pub output: Output,
+}
+
+/// The sections as they are read; `material` is read apart because it has two forms.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCase {
+    #[serde(default)]
+    title: String,
+    mesh: mesh_section::RawMesh,
+    #[serde(rename = "material")]
+    _material: serde::de::IgnoredAny,
+    model: ModelSection,
+    #[serde(default)]
+    correction: model::RawCorrection,
+    #[serde(default)]
+    precrack: Vec<Precrack>,
+    #[serde(default)]
+    support: Vec<conditions::RawSupport>,
+    #[serde(default)]
+    load: Vec<conditions::RawLoad>,
+    #[serde(default)]
+    no_fail: Vec<region::RawRegion>,
+    #[serde(default)]
+    probe: Vec<probe::RawProbe>,
+    fracture: Option<fracture::RawFracture>,
+    #[serde(default)]
+    output: Output,
+}
+
+impl Case {
+    /// Reads and checks a parsed document; `folder` is that of the case file.
+    fn from_document(document: &Node, folder: &Path) -> Result<Self, KeyFault> {
+        let raw: RawCase =
+            decode::decode(document, &KeyPath::default()).map_err(name_missing_section)?;
+        let section = |name: &str| KeyPath::default().child(name);
+        let materials = match document.get("material") {
+            Some(node) => material::read(node)?,
+            None => return Err(missing_section("material")),
+        };
+        if raw.load.is_empty() {
+            return Err(missing_section("load"));
+        }
+        let mut number = 0;
+        let loads = each("load", raw.load, |load, key| {
+            number += 1;
+            load.check(key, number)
+        })?;
+        let case = Self {
+            title: raw.title,
+            mesh: raw.mesh.check(&section("mesh"), folder)?,
+            materials,
+            model: raw.model.check(&section("model"))?,
+            correction: raw.correction.check(&section("correction"))?,
+            precracks: each("precrack", raw.precrack, Precrack::check)?,
+            supports: each("support", raw.support, conditions::RawSupport::check)?,
+            loads,
+            no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
+            probes: each("probe", raw.probe, probe::RawProbe::check)?,
+            fracture: raw
+                .fracture
+                .map(|it| it.check(&section("fracture")))
+                .transpose()?,
+            output: raw.output,
+        };
+        case.check_across_sections()?;
+        Ok(case)
+    }
+
+    fn check_across_sections(&self) -> Result<(), KeyFault> {
+        if self.fracture.is_some() {
+            material::require_strengths(&self.materials)?;
+        }
+        let path = |list: &str, index: usize| KeyPath::default().child(list).child(index);
+        let loads = self.loads.iter().enumerate();
+        let advice =
+            ": give one of the loads another `name` (the name of a load without one is its group)";
+        require_unique(
+            loads.map(|(index, load)| (path("load", index), load.name.as_str())),
+            advice,
+        )?;
+        let probes = self.probes.iter().enumerate();
+        require_unique(
+            probes.map(|(index, probe)| (path("probe", index).child("name"), probe.name.as_str())),
+            "",
+        )
+    }
+}
+
+/// Checks every element of a list of sections under its own key path.
+fn each<Raw, Checked>(
+    list: &str,
+    sections: Vec<Raw>,
+    mut check: impl FnMut(Raw, &KeyPath) -> Result<Checked, KeyFault>,
+) -> Result<Vec<Checked>, KeyFault> {
+    let list = KeyPath::default().child(list);
+    sections
+        .into_iter()
+        .enumerate()
+        .map(|(index, raw)| check(raw, &list.child(index)))
+        .collect()
+}
+
+/// A missing section is more than a missing key: the error says what it is for.
+fn name_missing_section(fault: KeyFault) -> KeyFault {
+    match &fault.fault {
+        F::MissingKey { key, .. } if fault.key.0.len() == 1 => missing_section(key),
+        _ => fault,
+    }
+}
+
+fn missing_section(name: &str) -> KeyFault {
+    let (section, purpose) = match name {
+        "mesh" => ("[mesh]".to_owned(), "at least `file`, the Gmsh file"),
+        "material" => ("[material]".to_owned(), "`young` (in Pa) and `poisson`"),
+        "model" => ("[model]".to_owned(), "`law` and `horizon_factor`"),
+        _ => (
+            format!("[[{name}]]"),
+            "one or more, or nothing would happen",
+        ),
+    };
+    KeyFault::new(
+        KeyPath::default().child(name),
+        F::MissingSection { section, purpose },
+    )
+}

@@ -1,0 +1,229 @@
+//! The parsed text of a case file: a tree of TOML values that know where they were written.
+
+use serde::de::Error as _;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::key_path::KeyPath;
+
+/// Where a value was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// In the file, at a byte offset.
+    File(usize),
+    /// In the override with this index.
+    Override(usize),
+}
+
+/// A value and where it was written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Node {
+    /// Where the value starts; of a table, where its header or brace starts.
+    pub(crate) origin: Origin,
+    /// The value.
+    pub(crate) value: Value,
+}
+
+/// A TOML value.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    String(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    Date,
+    List(Vec<Node>),
+    Table(Vec<Entry>),
+}
+
+/// A key of a table with its value.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Entry {
+    /// The key.
+    pub(crate) key: String,
+    /// Where the key was written (first, if a table has several headers).
+    pub(crate) key_origin: Origin,
+    /// Its value.
+    pub(crate) node: Node,
+}
+
+impl Node {
+    /// Parses the text of a case file.
+    pub(crate) fn parse_document(text: &str) -> Result<Self, toml::de::Error> {
+        let table = DeTable::parse(text)?;
+        let origin = &Origin::File;
+        Ok(Self {
+            origin: Origin::File(0),
+            value: table_value(table.into_inner(), origin)?,
+        })
+    }
+
+    /// Parses the value of an override.
+    pub(crate) fn parse_value(text: &str, origin: Origin) -> Result<Self, toml::de::Error> {
+        node(DeValue::parse(text)?, &|_| origin)
+    }
+
+    /// The entries, if this is a table.
+    pub(crate) fn entries(&self) -> &[Entry] {
+        match &self.value {
+            Value::Table(entries) => entries,
+            _ => &[],
+        }
+    }
+
+    /// The value of a key, if this is a table that has it.
+    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
+        self.entries()
+            .iter()
+            .find(|entry| entry.key == key)
+            .map(|entry| &entry.node)
+    }
+
+    /// The value one path segment below: of a key in a table, of an index in a list.
+    fn step(&self, segment: &str) -> Option<&Node> {
+        match &self.value {
+            Value::List(nodes) => nodes.get(segment.parse::<usize>().ok()?),
+            _ => self.get(segment),
+        }
+    }
+
+    /// Where the value at a path was written or, failing that, the innermost table above it.
+    ///
+    /// `None` where not even the path's first key exists.
+    pub(crate) fn origin_of(&self, path: &KeyPath) -> Option<Origin> {
+        let mut node = self;
+        let mut origin = None;
+        for segment in &path.0 {
+            let Some(next) = node.step(segment) else {
+                break;
+            };
+            node = next;
+            origin = Some(node.origin);
+        }
+        origin
+    }
+
+    /// Where the key at a path (rather than its value) was written.
+    pub(crate) fn key_origin_of(&self, path: &KeyPath) -> Option<Origin> {
+        let parent = path
+            .parent()
+            .0
+            .iter()
+            .try_fold(self, |node, segment| node.step(segment))?;
+        parent
+            .entries()
+            .iter()
+            .find(|entry| entry.key == path.last())
+            .map(|entry| entry.key_origin)
+    }
+}
+
+/// Converts a parsed value; `origin` gives where a byte offset belongs.
+fn node(
+    value: Spanned<DeValue<'_>>,
+    origin: &dyn Fn(usize) -> Origin,
+) -> Result<Node, toml::de::Error> {
+    let start = value.span().start;
+    let value = match value.into_inner() {
+        DeValue::String(text) => Value::String(text.into_owned()),
+        DeValue::Integer(integer) => integer_value(integer.as_str(), integer.radix())?,
+        DeValue::Float(float) => float_value(float.as_str())?,
+        DeValue::Boolean(value) => Value::Boolean(value),
+        DeValue::Datetime(_) => Value::Date,
+        DeValue::Array(values) => Value::List(
+            values
+                .into_iter()
+                .map(|value| node(value, origin))
+                .collect::<Result<_, _>>()?,
+        ),
+        DeValue::Table(table) => table_value(table, origin)?,
+    };
+    Ok(Node {
+        origin: origin(start),
+        value,
+    })
+}
+
+/// Entries in the order of the text, so that the first of several faults is reported.
+fn table_value(
+    table: DeTable<'_>,
+    origin: &dyn Fn(usize) -> Origin,
+) -> Result<Value, toml::de::Error> {
+    let mut entries = table
+        .into_iter()
+        .map(|(key, value)| {
+            let start = key.span().start;
+            let entry = Entry {
+                key: key.into_inner().into_owned(),
+                key_origin: origin(start),
+                node: node(value, origin)?,
+            };
+            Ok((start, entry))
+        })
+        .collect::<Result<Vec<_>, toml::de::Error>>()?;
+    entries.sort_by_key(|(start, _)| *start);
+    Ok(Value::Table(
+        entries.into_iter().map(|(_, entry)| entry).collect(),
+    ))
+}
+
+/// Integers beyond 64 bits are still fine as numbers.
+fn integer_value(text: &str, radix: u32) -> Result<Value, toml::de::Error> {
+    match i64::from_str_radix(text, radix) {
+        Ok(integer) => Ok(Value::Integer(integer)),
+        Err(_) => float_value(text),
+    }
+}
+
+fn float_value(text: &str) -> Result<Value, toml::de::Error> {
+    let float = text
+        .parse()
+        .map_err(|_| toml::de::Error::custom(format!("`{text}` is not a number")))?;
+    Ok(Value::Float(float))
+}
+
+/// Line and column, both from 1, of a byte offset; columns count characters.
+pub(crate) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "title = \"é\"\n[a]\nb = 1\n[[c]]\nd = { e = 2.0 }\n[[c]]\nd = 3\n[m.x]\nk = 1\n[m.y]\nk = 2\n";
+
+    fn at(path: &str) -> Option<(usize, usize)> {
+        let document = Node::parse_document(TEXT).unwrap();
+        match document.origin_of(&KeyPath::parse(path).unwrap())? {
+            Origin::File(offset) => Some(line_and_column(TEXT, offset)),
+            Origin::Override(_) => None,
+        }
+    }
+
+    #[test]
+    fn values_are_found_by_path() {
+        assert_eq!(at("a.b"), Some((3, 5)));
+        assert_eq!(at("c.0.d.e"), Some((5, 11)));
+        assert_eq!(at("c.1.d"), Some((7, 5)));
+        assert_eq!(at("m.y.k"), Some((11, 5)));
+    }
+
+    #[test]
+    fn a_missing_key_is_at_its_table() {
+        assert_eq!(at("a.z"), Some((2, 1)));
+        assert_eq!(at("c.1.z"), Some((6, 1)));
+        assert_eq!(at("m.y.z"), Some((10, 1)));
+        assert_eq!(at("z"), None);
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        assert_eq!(line_and_column("é = é", "é = ".len()), (1, 5));
+    }
+}

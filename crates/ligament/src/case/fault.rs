@@ -1,0 +1,254 @@
+//! What can be wrong with a case file, and where.
+
+use std::path::PathBuf;
+
+use super::key_path::KeyPath;
+use crate::suggestion::hint;
+
+/// What is wrong with a key or its value.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// The table has no such key.
+    #[error(
+        "unknown key `{key}` in {table}{}",
+        hint(key, valid, "valid keys", '`')
+    )]
+    UnknownKey {
+        /// The key as given.
+        key: String,
+        /// The table, as it is written in a case file.
+        table: String,
+        /// The keys that the table may have.
+        valid: Vec<String>,
+    },
+    /// A key that has no default is not there.
+    #[error("missing key `{key}` in {table}{}", unit.map(|unit| format!(" (in {unit})")).unwrap_or_default())]
+    MissingKey {
+        /// The key that is needed.
+        key: String,
+        /// The table, as it is written in a case file.
+        table: String,
+        /// Unit of its value.
+        unit: Option<&'static str>,
+    },
+    /// A section that every case needs is not there.
+    #[error("the case has no {section} section; it needs {purpose}")]
+    MissingSection {
+        /// The section, with its brackets.
+        section: String,
+        /// What it is needed for.
+        purpose: &'static str,
+    },
+    /// A key that is needed only because of another setting is not there.
+    #[error("missing key `{key}`: it is required {reason}")]
+    Required {
+        /// The key that is needed.
+        key: &'static str,
+        /// What makes it necessary.
+        reason: &'static str,
+    },
+    /// The value is of another type.
+    #[error("expected {expected}, found {found}{}", unit_advice(found, *unit))]
+    WrongType {
+        /// What the key takes.
+        expected: String,
+        /// What was given.
+        found: String,
+        /// Unit of the value, for numbers.
+        unit: Option<&'static str>,
+    },
+    /// A single table stands where a list of tables belongs.
+    #[error(
+        "this section may be repeated, so its name stands in double brackets: write [[{section}]] instead of [{section}]"
+    )]
+    SingleBrackets {
+        /// Name of the section.
+        section: String,
+    },
+    /// The value is none of the words the key takes.
+    #[error("unknown value \"{found}\"{}", hint(found, valid, "valid values", '"'))]
+    UnknownValue {
+        /// The word as given.
+        found: String,
+        /// The words that the key takes.
+        valid: Vec<String>,
+    },
+    /// A name that is defined elsewhere (a group of the mesh, say) does not exist there.
+    #[error(
+        "no {what} is called `{found}`{}",
+        hint(found, candidates, "there are", '`')
+    )]
+    UnknownName {
+        /// What the name should be of, and where: "physical group in the mesh".
+        what: String,
+        /// The name as given.
+        found: String,
+        /// The names that exist.
+        candidates: Vec<String>,
+    },
+    /// The value lies outside of what makes sense.
+    #[error("must be {expected}, found {found}")]
+    OutOfRange {
+        /// The condition, in words.
+        expected: String,
+        /// What was given.
+        found: String,
+    },
+    /// Keys of which exactly one is to be given.
+    #[error(
+        "needs exactly one of {}; found {}",
+        quoted(valid, "none"),
+        quoted(found, "none")
+    )]
+    NotExactlyOne {
+        /// The keys to choose from.
+        valid: Vec<String>,
+        /// Those that were given.
+        found: Vec<String>,
+    },
+    /// Two things of the same kind have the same name.
+    #[error("`{name}` is already used by {first}{advice}")]
+    NotUnique {
+        /// The name.
+        name: String,
+        /// Key path of what has it already.
+        first: String,
+        /// What to do about it, with its own punctuation.
+        advice: &'static str,
+    },
+    /// Any other reason.
+    #[error("{0}")]
+    Other(String),
+}
+
+impl Fault {
+    /// A name that does not exist where it should: `what` says of what and where
+    /// ("physical group in the mesh"), `candidates` are the names that do exist.
+    pub fn unknown_name<N: Into<String>>(
+        what: impl Into<String>,
+        found: impl Into<String>,
+        candidates: impl IntoIterator<Item = N>,
+    ) -> Self {
+        let candidates = candidates.into_iter().map(Into::into).collect();
+        Self::UnknownName {
+            what: what.into(),
+            found: found.into(),
+            candidates,
+        }
+    }
+}
+
+impl From<String> for Fault {
+    fn from(reason: String) -> Self {
+        Self::Other(reason)
+    }
+}
+
+impl From<&str> for Fault {
+    fn from(reason: &str) -> Self {
+        Self::Other(reason.to_owned())
+    }
+}
+
+fn quoted(names: &[String], none: &str) -> String {
+    if names.is_empty() {
+        return none.to_owned();
+    }
+    let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+/// A quantity written with its unit is the likeliest cause of a string in place of a number.
+fn unit_advice(found: &str, unit: Option<&'static str>) -> String {
+    match unit {
+        Some(unit) if found.contains("the string") => {
+            format!("; values are plain numbers in SI units, here {unit}")
+        }
+        _ => String::new(),
+    }
+}
+
+/// Where a faulty key was written.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Location {
+    /// At a place in the case file, line and column counted from 1.
+    #[error("{}:{line}:{column}", path.display())]
+    Position {
+        /// The case file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+    },
+    /// Nowhere in particular in the case file: something is missing from it.
+    #[error("{}", path.display())]
+    Document {
+        /// The case file.
+        path: PathBuf,
+    },
+    /// On the command line.
+    #[error("--set {given}")]
+    Override {
+        /// The setting as it was given, `key=value`.
+        given: String,
+    },
+}
+
+/// Why a case could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// The file could not be read.
+    #[error("cannot read the case file {}", path.display())]
+    Read {
+        /// The case file.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// The file is not TOML.
+    #[error("{location}: not valid TOML: {message}")]
+    Syntax {
+        /// Where the text stops making sense.
+        location: Location,
+        /// The TOML parser's reason.
+        message: String,
+    },
+    /// A `--set` could not be applied.
+    #[error("--set {given}: {reason}")]
+    Override {
+        /// The setting as it was given.
+        given: String,
+        /// Why it could not be applied.
+        reason: String,
+    },
+    /// A key or its value is wrong.
+    #[error("{location}: {key}: {fault}")]
+    Key {
+        /// Where it was written.
+        location: Location,
+        /// Path of the key, `load.0.group`.
+        key: String,
+        /// What is wrong.
+        fault: Box<Fault>,
+    },
+}
+
+/// A fault at a key that is not yet located in the text.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct KeyFault {
+    /// Path of the key.
+    pub(crate) key: KeyPath,
+    /// What is wrong with it.
+    pub(crate) fault: Fault,
+}
+
+impl KeyFault {
+    /// A fault at a key.
+    pub(crate) fn new(key: KeyPath, fault: impl Into<Fault>) -> Self {
+        Self {
+            key,
+            fault: fault.into(),
+        }
+    }
+}

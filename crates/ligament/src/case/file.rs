@@ -1,0 +1,199 @@
+//! A case file on disk: loading it, and locating its keys.
+
+use std::path::{Path, PathBuf};
+
+use super::Case;
+use super::document::{Node, Origin, line_and_column};
+use super::fault::{CaseError, Fault, KeyFault, Location};
+use super::key_path::KeyPath;
+use super::{overrides, resolved};
+
+/// A case with the text it was read from, so that faults found later can still be located.
+#[derive(Debug, Clone)]
+pub struct CaseFile {
+    /// The case file, as it was given.
+    pub path: PathBuf,
+    /// The text of the file.
+    pub text: String,
+    /// The overrides, `key=value` each, in their order.
+    pub overrides: Vec<String>,
+    /// The checked case.
+    pub case: Case,
+    document: Node,
+}
+
+/// What is needed to turn a key path into a location.
+struct Source<'a> {
+    path: &'a Path,
+    text: &'a str,
+    overrides: &'a [String],
+    document: &'a Node,
+}
+
+impl CaseFile {
+    /// Reads a case file, applies the overrides (`key=value`, the later wins) and checks the whole.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, is not TOML, or a key or value of it or of an override is wrong.
+    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let read = std::fs::read_to_string(path);
+        let text = read.map_err(|source| CaseError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::parse(path, text, overrides)
+    }
+
+    /// Like [`load`](Self::load), from text that is already there; `path` says where it would be.
+    ///
+    /// # Errors
+    ///
+    /// If the text is not TOML, or a key or value of it or of an override is wrong.
+    pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, CaseError> {
+        let mut document =
+            Node::parse_document(&text).map_err(|error| syntax_error(path, &text, &error))?;
+        for (index, given) in overrides.iter().enumerate() {
+            overrides::apply(&mut document, given, index).map_err(|reason| {
+                CaseError::Override {
+                    given: given.clone(),
+                    reason,
+                }
+            })?;
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let case = Case::from_document(&document, folder).map_err(|fault| {
+            Source {
+                path,
+                text: &text,
+                overrides,
+                document: &document,
+            }
+            .error(fault)
+        })?;
+        let (path, overrides) = (path.to_owned(), overrides.to_vec());
+        Ok(Self {
+            path,
+            text,
+            overrides,
+            case,
+            document,
+        })
+    }
+
+    /// Line and column (both from 1) of the value at a key path such as `load.0.group`.
+    ///
+    /// A key that is not there is at the table that would have it. `None` if that is not there
+    /// either, or if the value is from an override.
+    pub fn locate(&self, key: &str) -> Option<(usize, usize)> {
+        match self.document.origin_of(&KeyPath::parse(key)?)? {
+            Origin::File(offset) => Some(line_and_column(&self.text, offset)),
+            Origin::Override(_) => None,
+        }
+    }
+
+    /// The error for a fault found after loading, located at its key.
+    ///
+    /// For a name that the mesh does not have, [`Fault::unknown_name`] adds the nearest one.
+    pub fn error(&self, key: &str, fault: impl Into<Fault>) -> CaseError {
+        let key = KeyPath::parse(key).unwrap_or_else(|| KeyPath(vec![key.to_owned()]));
+        let Self {
+            path,
+            text,
+            overrides,
+            document,
+            ..
+        } = self;
+        Source {
+            path,
+            text,
+            overrides,
+            document,
+        }
+        .error(KeyFault::new(key, fault))
+    }
+
+    /// The case as TOML with every default filled in and the mesh given by its absolute path.
+    ///
+    /// # Errors
+    ///
+    /// If the path of the mesh is not UTF-8, which TOML cannot hold.
+    pub fn resolved_toml(&self) -> Result<String, toml_edit::ser::Error> {
+        resolved::to_toml(&self.case)
+    }
+
+    /// The case's own name: that of its folder if the file is called `case.toml` (or
+    /// `case.resolved.toml`), else the file's own without its extension.
+    pub fn name(&self) -> String {
+        let stem = self
+            .path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if stem != "case" && stem != "case.resolved" {
+            return stem;
+        }
+        let absolute = std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone());
+        let folder = absolute.parent().and_then(Path::file_name);
+        folder.map_or(stem, |name| name.to_string_lossy().into_owned())
+    }
+}
+
+impl Source<'_> {
+    fn error(&self, KeyFault { key, fault }: KeyFault) -> CaseError {
+        let origin = match &fault {
+            // An unknown key is wrong itself; anything else is wrong about the value.
+            Fault::UnknownKey { .. } => self.document.key_origin_of(&key),
+            // Of keys that exclude each other, one that was set on top is to blame.
+            Fault::NotExactlyOne { found, .. } => found
+                .iter()
+                .filter_map(|name| self.document.origin_of(&key.child(name)))
+                .find(|origin| matches!(origin, Origin::Override(_)))
+                .or_else(|| self.document.origin_of(&key)),
+            _ => self.document.origin_of(&key),
+        };
+        CaseError::Key {
+            location: self.location(origin),
+            key: key.to_string(),
+            fault: Box::new(fault),
+        }
+    }
+
+    fn location(&self, origin: Option<Origin>) -> Location {
+        let path = self.path.to_owned();
+        match origin {
+            None => Location::Document { path },
+            Some(Origin::File(offset)) => {
+                let (line, column) = line_and_column(self.text, offset);
+                Location::Position { path, line, column }
+            }
+            Some(Origin::Override(index)) => Location::Override {
+                given: self.overrides[index].clone(),
+            },
+        }
+    }
+}
+
+fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> CaseError {
+    let path = path.to_owned();
+    let mut message = error.message().trim().replace('\n', "; ");
+    let Some(span) = error.span() else {
+        return CaseError::Syntax {
+            location: Location::Document { path },
+            message,
+        };
+    };
+    // `young = 15 GPa` is taken for a string without its quotes, which is not what was meant.
+    let is_number = |text: &str| {
+        text.starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
+    };
+    if message.contains("must be quoted") && text.get(span.start..).is_some_and(is_number) {
+        message = "a number stands alone, without its unit; values are in SI units".to_owned();
+    }
+    let (line, column) = line_and_column(text, span.start);
+    CaseError::Syntax {
+        location: Location::Position { path, line, column },
+        message,
+    }
+}

@@ -1,0 +1,217 @@
+//! `[fracture]` and `[output]`: how bonds break, when to stop, what to write.
+
+use std::fmt;
+
+use serde::de::{SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::{require, require_at_least_one, require_positive};
+
+/// How bonds break while the load rises.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fracture {
+    /// What drives the load.
+    pub control: Control,
+    /// The load steps.
+    pub steps: Steps,
+    /// Bonds broken at most between two solutions.
+    pub bonds_per_iteration: u32,
+    /// Which of the overstressed bonds break first.
+    pub order: BreakOrder,
+    /// Bonds closer than this (relative) to the worst one break together with it.
+    pub tie_tolerance: f64,
+    /// Relative change of energy below which a solution is in equilibrium.
+    pub energy_tolerance: f64,
+    /// Rounds of breaking allowed in a load step.
+    pub max_iterations: u32,
+    /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
+    pub refine_first_break: u32,
+    /// When to stop before the last load step.
+    pub stop: Stop,
+}
+
+/// What drives the load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Control {
+    /// Given load steps; in each, bonds break until none is overstressed.
+    #[default]
+    Stepped,
+}
+
+/// Which of the overstressed bonds break first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BreakOrder {
+    /// Those with the largest difference between stress and strength.
+    #[default]
+    Excess,
+    /// Those with the largest ratio of stress to strength.
+    Ratio,
+}
+
+/// The load steps.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Steps {
+    /// So many equal steps up to load factor 1.
+    Uniform(u32),
+    /// These load factors, rising from above 0.
+    Factors(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for Steps {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(StepsVisitor)
+    }
+}
+
+struct StepsVisitor;
+
+impl<'de> Visitor<'de> for StepsVisitor {
+    type Value = Steps;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a whole number of load steps or a rising list of load factors")
+    }
+
+    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Steps, E> {
+        let out_of_range = |_| E::invalid_value(serde::de::Unexpected::Signed(value), &self);
+        u32::try_from(value)
+            .map(Steps::Uniform)
+            .map_err(out_of_range)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Steps, A::Error> {
+        let mut factors = Vec::new();
+        while let Some(factor) = elements.next_element()? {
+            factors.push(factor);
+        }
+        Ok(Steps::Factors(factors))
+    }
+}
+
+impl Steps {
+    fn check(&self, table: &KeyPath) -> Result<(), KeyFault> {
+        match self {
+            Self::Uniform(count) => require_at_least_one(table, "steps", *count),
+            Self::Factors(factors) => {
+                let key = table.child("steps");
+                require(
+                    !factors.is_empty(),
+                    || key.clone(),
+                    "one load factor or more",
+                    factors,
+                )?;
+                let mut last = 0.0;
+                for (index, &factor) in factors.iter().enumerate() {
+                    let expected = format!("greater than the load factor before it, {last:?}");
+                    require(factor > last, || key.child(index), &expected, factor)?;
+                    last = factor;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// When to stop before the last load step; whichever comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stop {
+    /// When the load has fallen to this share of its largest value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_fraction: Option<f64>,
+    /// When the largest displacement exceeds this, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<f64>,
+    /// When so many bonds are broken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bonds: Option<u64>,
+    /// After so much time, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_time: Option<f64>,
+}
+
+impl Stop {
+    fn check(&self, key: &KeyPath) -> Result<(), KeyFault> {
+        if let Some(share) = self.load_fraction {
+            let holds = share > 0.0 && share < 1.0;
+            require(
+                holds,
+                || key.child("load_fraction"),
+                "greater than 0 and less than 1",
+                share,
+            )?;
+        }
+        if let Some(displacement) = self.displacement {
+            require_positive(key, "displacement", displacement)?;
+        }
+        if let Some(bonds) = self.bonds {
+            require(bonds >= 1, || key.child("bonds"), "at least 1", bonds)?;
+        }
+        if let Some(wall_time) = self.wall_time {
+            require_positive(key, "wall_time", wall_time)?;
+        }
+        Ok(())
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFracture {
+    control: Option<Control>,
+    steps: Steps,
+    bonds_per_iteration: Option<u32>,
+    order: Option<BreakOrder>,
+    tie_tolerance: Option<f64>,
+    energy_tolerance: Option<f64>,
+    max_iterations: Option<u32>,
+    refine_first_break: Option<u32>,
+    #[serde(default)]
+    stop: Stop,
+}
+
+impl RawFracture {
+    pub(super) fn check(self, key: &KeyPath) -> Result<Fracture, KeyFault> {
+        let fracture = Fracture {
+            control: self.control.unwrap_or_default(),
+            steps: self.steps,
+            bonds_per_iteration: self.bonds_per_iteration.unwrap_or(5),
+            order: self.order.unwrap_or_default(),
+            tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
+            energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
+            max_iterations: self.max_iterations.unwrap_or(10_000),
+            refine_first_break: self.refine_first_break.unwrap_or(0),
+            stop: self.stop,
+        };
+        fracture.steps.check(key)?;
+        require_at_least_one(key, "bonds_per_iteration", fracture.bonds_per_iteration)?;
+        require_positive(key, "tie_tolerance", fracture.tie_tolerance)?;
+        require_positive(key, "energy_tolerance", fracture.energy_tolerance)?;
+        require_at_least_one(key, "max_iterations", fracture.max_iterations)?;
+        fracture.stop.check(&key.child("stop"))?;
+        Ok(fracture)
+    }
+}
+
+/// What a run writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Load steps between two field files; 0: only the first and the last state.
+    pub fields_every: u32,
+    /// Whether the bonds are written too.
+    pub bonds: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            fields_every: 10,
+            bonds: false,
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Dotted paths to keys of a case file.
+
+use std::fmt;
+
+/// Path of a key from the root of the document: table keys and, for lists, indices counted from 0.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct KeyPath(pub(crate) Vec<String>);
+
+impl KeyPath {
+    /// The path of a key or index below this one.
+    pub(crate) fn child(&self, segment: impl fmt::Display) -> Self {
+        let mut segments = self.0.clone();
+        segments.push(segment.to_string());
+        Self(segments)
+    }
+
+    /// Reads a dotted path; parts with dots or spaces are quoted as in TOML.
+    pub(crate) fn parse(text: &str) -> Option<Self> {
+        let keys = toml_edit::Key::parse(text).ok()?;
+        Some(Self(keys.iter().map(|key| key.get().to_owned()).collect()))
+    }
+
+    /// The last part, empty for the root.
+    pub(crate) fn last(&self) -> &str {
+        self.0.last().map_or("", String::as_str)
+    }
+
+    /// The path of the table or list that holds this key.
+    pub(crate) fn parent(&self) -> Self {
+        let mut segments = self.0.clone();
+        segments.pop();
+        Self(segments)
+    }
+
+    /// How the table at this path is written in a case file: `[mesh]`, `[[load]]`, `load.0.displacement`.
+    pub(crate) fn table_title(&self) -> String {
+        let is_index =
+            |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        match self.0.as_slice() {
+            [] => "the case file".to_owned(),
+            [list, index] if is_index(index) => format!("[[{list}]]"),
+            segments if segments.iter().any(|segment| is_index(segment)) => format!("`{self}`"),
+            _ => format!("[{self}]"),
+        }
+    }
+}
+
+impl fmt::Display for KeyPath {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, segment) in self.0.iter().enumerate() {
+            if index > 0 {
+                formatter.write_str(".")?;
+            }
+            let bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
+            if !segment.is_empty() && segment.bytes().all(bare) {
+                formatter.write_str(segment)?;
+            } else {
+                write!(formatter, "{segment:?}")?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,66 @@
+//! `[mesh]`: the meshed body.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::{require, require_positive};
+
+/// The meshed body.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MeshSection {
+    /// The Gmsh file, as an absolute path.
+    pub file: PathBuf,
+    /// Thickness of the body, m.
+    pub thickness: f64,
+    /// Plane stress or plane strain.
+    pub plane: Plane,
+}
+
+/// Which planar problem the body is an instance of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// No stress out of the plane: thin bodies.
+    #[default]
+    Stress,
+    /// No strain out of the plane: long bodies.
+    Strain,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawMesh {
+    file: String,
+    thickness: Option<f64>,
+    plane: Option<Plane>,
+}
+
+impl RawMesh {
+    /// Checks the section; `folder` is that of the case file.
+    pub(super) fn check(self, key: &KeyPath, folder: &Path) -> Result<MeshSection, KeyFault> {
+        require(
+            !self.file.is_empty(),
+            || key.child("file"),
+            "a path",
+            &self.file,
+        )?;
+        let thickness = self.thickness.unwrap_or(1.0);
+        require_positive(key, "thickness", thickness)?;
+        let file = absolute(&folder.join(self.file));
+        Ok(MeshSection {
+            file,
+            thickness,
+            plane: self.plane.unwrap_or_default(),
+        })
+    }
+}
+
+/// An absolute path, without `..` where the file exists; whether it does is for its reader to say.
+fn absolute(path: &Path) -> PathBuf {
+    path.canonicalize()
+        .or_else(|_| std::path::absolute(path))
+        .unwrap_or_else(|_| path.to_owned())
+}

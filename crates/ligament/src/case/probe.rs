@@ -1,0 +1,180 @@
+//! `[[probe]]`: extra columns of the history.
+
+use serde::{Deserialize, Serialize};
+
+use super::fault::{Fault, KeyFault};
+use super::key_path::KeyPath;
+use super::values::{Axis, Point, not_exactly_one, require, require_column_name};
+
+/// A column of the history.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Probe {
+    /// Name, unique among the probes.
+    pub name: String,
+    /// What it reads.
+    #[serde(flatten)]
+    pub reading: Reading,
+}
+
+/// What a probe reads.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Reading {
+    /// Displacement of one point relative to another.
+    Between {
+        /// Two positions: the second point's displacement minus the first's, at the nearest points.
+        between: [Point; 2],
+        /// The component read, m or rad.
+        component: Component,
+    },
+    /// A field at a point.
+    At {
+        /// The position; the nearest point is read.
+        at: Point,
+        /// The field read.
+        field: Field,
+    },
+    /// The force that the bonds carry through a line.
+    Section {
+        /// The ends of the line.
+        section: [Point; 2],
+        /// The component read, N.
+        component: Axis,
+    },
+}
+
+/// A component of the motion of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Component {
+    /// Displacement along x, m.
+    X,
+    /// Displacement along y, m.
+    Y,
+    /// Rotation, rad, counter-clockwise.
+    Rotation,
+}
+
+/// A field that a probe can read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// Share of the point's bonds that are broken, 0 to 1.
+    Damage,
+    /// Displacement along x, m.
+    DisplacementX,
+    /// Displacement along y, m.
+    DisplacementY,
+    /// Rotation, rad, counter-clockwise.
+    Rotation,
+    /// Strain energy density, J/m^3.
+    StrainEnergyDensity,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawProbe {
+    name: String,
+    between: Option<[Point; 2]>,
+    at: Option<Point>,
+    section: Option<[Point; 2]>,
+    component: Option<Component>,
+    field: Option<Field>,
+}
+
+impl RawProbe {
+    pub(super) fn check(self, key: &KeyPath) -> Result<Probe, KeyFault> {
+        require_column_name(|| key.child("name"), &self.name)?;
+        let reading = match (self.between, self.at, self.section) {
+            (Some(between), None, None) => {
+                distinct(key, "between", between)?;
+                self.reject_field(key)?;
+                Reading::Between {
+                    between,
+                    component: self.component(key)?,
+                }
+            }
+            (None, Some(at), None) => Reading::At {
+                at,
+                field: self.field(key)?,
+            },
+            (None, None, Some(section)) => {
+                distinct(key, "section", section)?;
+                self.reject_field(key)?;
+                Reading::Section {
+                    section,
+                    component: self.axis(key)?,
+                }
+            }
+            (between, at, section) => {
+                let given = [
+                    ("between", between.is_some()),
+                    ("at", at.is_some()),
+                    ("section", section.is_some()),
+                ];
+                return Err(not_exactly_one(key, &given));
+            }
+        };
+        Ok(Probe {
+            name: self.name,
+            reading,
+        })
+    }
+
+    fn component(&self, key: &KeyPath) -> Result<Component, KeyFault> {
+        self.component.ok_or_else(|| {
+            let reason = "with `between` or `section`, to say what to read";
+            KeyFault::new(
+                key.child("component"),
+                Fault::Required {
+                    key: "component",
+                    reason,
+                },
+            )
+        })
+    }
+
+    fn axis(&self, key: &KeyPath) -> Result<Axis, KeyFault> {
+        match self.component(key)? {
+            Component::X => Ok(Axis::X),
+            Component::Y => Ok(Axis::Y),
+            Component::Rotation => {
+                let reason = "the force through a section has the components \"x\" and \"y\" only";
+                Err(KeyFault::new(key.child("component"), reason))
+            }
+        }
+    }
+
+    fn field(&self, key: &KeyPath) -> Result<Field, KeyFault> {
+        if self.component.is_some() {
+            let reason = "a probe `at` a point takes `field`, not `component`";
+            return Err(KeyFault::new(key.child("component"), reason));
+        }
+        self.field.ok_or_else(|| {
+            let fault = Fault::Required {
+                key: "field",
+                reason: "with `at`, to say what to read",
+            };
+            KeyFault::new(key.child("field"), fault)
+        })
+    }
+
+    fn reject_field(&self, key: &KeyPath) -> Result<(), KeyFault> {
+        match self.field {
+            None => Ok(()),
+            Some(_) => {
+                let reason = "only a probe `at` a point takes `field`; this one takes `component`";
+                Err(KeyFault::new(key.child("field"), reason))
+            }
+        }
+    }
+}
+
+fn distinct(key: &KeyPath, name: &str, ends: [Point; 2]) -> Result<(), KeyFault> {
+    require(
+        ends[0] != ends[1],
+        || key.child(name),
+        "two different points",
+        ends,
+    )
+}

@@ -1,0 +1,60 @@
+//! Writes a checked case back as TOML.
+
+use toml_edit::visit_mut::{VisitMut, visit_value_mut};
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
+
+use super::Case;
+
+/// The case as TOML: a header for each section, what is nested in it on one line.
+pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
+    let mut document: DocumentMut = toml_edit::ser::to_document(case)?;
+    Exponents.visit_document_mut(&mut document);
+    for (key, item) in document.iter_mut() {
+        *item = with_header(std::mem::take(item), key.get() == "material");
+    }
+    Ok(document.to_string())
+}
+
+/// Gives inline tables, and lists of them, a header of their own; `nested` does so one level down too.
+fn with_header(item: Item, nested: bool) -> Item {
+    match item {
+        Item::Value(Value::InlineTable(section)) => {
+            let mut table: Table = section.into_table();
+            if nested {
+                for (_, item) in table.iter_mut() {
+                    *item = with_header(std::mem::take(item), false);
+                }
+                table.set_implicit(true);
+            }
+            Item::Table(table)
+        }
+        Item::Value(Value::Array(list)) if list.iter().all(Value::is_inline_table) => {
+            let tables = list.into_iter().filter_map(|value| match value {
+                Value::InlineTable(section) => Some(section.into_table()),
+                _ => None,
+            });
+            Item::ArrayOfTables(tables.collect::<ArrayOfTables>())
+        }
+        other => other,
+    }
+}
+
+/// Writes large and small numbers with an exponent: 1.5e10 instead of 15000000000.0.
+struct Exponents;
+
+impl VisitMut for Exponents {
+    fn visit_value_mut(&mut self, value: &mut Value) {
+        match value {
+            Value::Float(float) => {
+                let size = float.value().abs();
+                if size != 0.0
+                    && !(1e-3..1e5).contains(&size)
+                    && let Ok(written) = format!("{:e}", float.value()).parse()
+                {
+                    *value = written;
+                }
+            }
+            other => visit_value_mut(self, other),
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Units of the keys, for error messages.
+
+use super::key_path::KeyPath;
+
+/// Unit of the number at a key path, where it has one.
+pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
+    let keys: Vec<&str> = key
+        .0
+        .iter()
+        .map(String::as_str)
+        .filter(|part| part.parse::<usize>().is_err())
+        .collect();
+    match keys.as_slice() {
+        [.., "young" | "tensile_strength"] => Some("Pa"),
+        [.., "displacement", "rotation"] => Some("rad"),
+        [.., "force", "x" | "y"] => Some("N"),
+        [.., "force_per_length", "x" | "y"] => Some("N/m"),
+        [.., "body_force", "x" | "y"] => Some("N/m^3"),
+        [.., "displacement", "x" | "y"] | [.., "stop", "displacement"] => Some("m"),
+        [
+            ..,
+            "thickness" | "points" | "box" | "at" | "between" | "section",
+        ] => Some("m"),
+        [.., "wall_time"] => Some("s"),
+        _ => None,
+    }
+}

@@ -1,0 +1,105 @@
+//! Checks on single values that several sections share.
+
+use serde::{Deserialize, Serialize};
+
+use super::fault::{Fault, KeyFault};
+use super::key_path::KeyPath;
+
+/// A point in the plane, m.
+pub type Point = [f64; 2];
+
+/// A direction in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+}
+
+/// Fails at `table.key` unless the condition holds; `expected` is the condition in words.
+pub(crate) fn require(
+    holds: bool,
+    key: impl FnOnce() -> KeyPath,
+    expected: &str,
+    found: impl std::fmt::Debug,
+) -> Result<(), KeyFault> {
+    if holds {
+        return Ok(());
+    }
+    let found = format!("{found:?}");
+    Err(KeyFault::new(
+        key(),
+        Fault::OutOfRange {
+            expected: expected.to_owned(),
+            found,
+        },
+    ))
+}
+
+/// Fails at `table.key` unless the value is greater than zero.
+pub(crate) fn require_positive(table: &KeyPath, key: &str, value: f64) -> Result<(), KeyFault> {
+    require(value > 0.0, || table.child(key), "greater than 0", value)
+}
+
+/// Fails at `table.key` unless the count is at least one.
+pub(crate) fn require_at_least_one(table: &KeyPath, key: &str, value: u32) -> Result<(), KeyFault> {
+    require(value >= 1, || table.child(key), "at least 1", value)
+}
+
+/// The fault of giving none or several of keys that exclude each other.
+pub(crate) fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
+    let names = |wanted: &dyn Fn(bool) -> bool| {
+        keys.iter()
+            .filter(|(_, given)| wanted(*given))
+            .map(|(key, _)| (*key).to_owned())
+            .collect()
+    };
+    let fault = Fault::NotExactlyOne {
+        valid: names(&|_| true),
+        found: names(&|given| given),
+    };
+    KeyFault::new(table.clone(), fault)
+}
+
+/// Names head the columns of a table of comma-separated values.
+pub(crate) fn require_column_name(
+    key: impl FnOnce() -> KeyPath,
+    name: &str,
+) -> Result<(), KeyFault> {
+    let fits = !name.is_empty()
+        && name.trim() == name
+        && !name
+            .chars()
+            .any(|character| character.is_control() || matches!(character, ',' | '"'));
+    require(
+        fits,
+        key,
+        "a name without commas, quotes or surrounding blanks",
+        name,
+    )
+}
+
+/// Fails where a name repeats an earlier one; `advice` goes at the end of the error.
+pub(crate) fn require_unique<'a>(
+    names: impl IntoIterator<Item = (KeyPath, &'a str)>,
+    advice: &'static str,
+) -> Result<(), KeyFault> {
+    let mut seen: Vec<(KeyPath, &str)> = Vec::new();
+    for (key, name) in names {
+        if let Some((first, _)) = seen.iter().find(|(_, other)| *other == name) {
+            let (name, first) = (name.to_owned(), first.to_string());
+            return Err(KeyFault::new(
+                key,
+                Fault::NotUnique {
+                    name,
+                    first,
+                    advice,
+                },
+            ));
+        }
+        seen.push((key, name));
+    }
+    Ok(())
+}

@@ -1,0 +1,228 @@
+//! `ligament check`: everything up to the first solve, and what it will take.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use ligament_analysis::connectivity::Fragments;
+use ligament_analysis::{Boundary, Equilibrium};
+use ligament_model::Material;
+use ligament_output::results::{MeshCells, point_grid};
+
+use crate::case::CaseFile;
+use crate::progress::{Progress, ProgressMode};
+use crate::resolve;
+use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
+use crate::stages::Stages;
+use crate::summary::{Spread, correction_line, family};
+
+/// Bytes that a stored value of the factor takes.
+const FACTOR_VALUE: usize = size_of::<f64>();
+
+/// Bytes of one bond: its record, its rigidities, its state and its two entries in the lists of its ends.
+const BOND: usize = 160;
+
+/// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
+pub fn check(case: &CaseFile, fields: Option<&Path>, out: &mut dyn Write) -> anyhow::Result<()> {
+    let mut stages = Stages::default();
+    let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
+    let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    let probes = resolve::probes(case, &model.system);
+    let equilibrium = stages.time("analysis", || {
+        Equilibrium::new(&model.system, &boundary, ELASTIC_ENERGY_TOLERANCE)
+    })?;
+
+    writeln!(
+        out,
+        "{}",
+        if case.case.title.is_empty() {
+            "untitled case"
+        } else {
+            &case.case.title
+        }
+    )?;
+    write_mesh(out, &model)?;
+    write_materials(out, case, &model)?;
+    write_bonds(out, &model)?;
+    write_energy_ratios(out, &model)?;
+    write_boundary(out, &boundary, probes.len())?;
+    write_equations(out, &model, &equilibrium)?;
+    for stage in stages.done() {
+        writeln!(out, "  time, {:<15} {:.3} s", stage.name, stage.seconds)?;
+    }
+    let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
+        .points
+        .len();
+    if loose > 1 {
+        writeln!(
+            out,
+            "warning: the body consists of {loose} parts that no bond connects"
+        )?;
+    }
+    for warning in &model.warnings {
+        writeln!(out, "warning: {warning}")?;
+    }
+    if let Some(folder) = fields {
+        std::fs::create_dir_all(folder)?;
+        let path = folder.join("points.vtu");
+        point_grid(&path, &MeshCells::from(&model.mesh), &model.fixed)?;
+        writeln!(out, "fields written to {}", path.display())?;
+    }
+    Ok(())
+}
+
+fn write_mesh(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let mesh = &model.mesh;
+    writeln!(out, "mesh")?;
+    writeln!(
+        out,
+        "  nodes, cells          {}, {}",
+        mesh.positions.len(),
+        mesh.cells.len()
+    )?;
+    writeln!(out, "  area                  {:.6e} m^2", mesh.area())?;
+    writeln!(
+        out,
+        "  volume of the points  {:.6e} m^3",
+        model.system.cloud.volumes.iter().sum::<f64>()
+    )?;
+    for group in &mesh.groups {
+        let kind = ["points", "curve", "surface"]
+            .get(usize::from(group.dimension))
+            .unwrap_or(&"group");
+        writeln!(
+            out,
+            "  group {:<15} {kind} of {} nodes",
+            group.name,
+            group.nodes.len()
+        )?;
+    }
+    Ok(())
+}
+
+fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+    let cloud = &model.system.cloud;
+    writeln!(out, "materials")?;
+    for (
+        index,
+        Material {
+            name,
+            young,
+            poisson,
+            tensile_strength,
+            density,
+        },
+    ) in resolve::materials(case).iter().enumerate()
+    {
+        let volume: f64 = (0..cloud.len())
+            .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
+            .sum();
+        let name = if name.is_empty() {
+            "the whole body"
+        } else {
+            name
+        };
+        write!(
+            out,
+            "  {name}: E = {young:.4e} Pa, nu = {poisson}, volume {volume:.6e} m^3"
+        )?;
+        if let Some(strength) = tensile_strength {
+            write!(out, ", F_t = {strength:.4e} Pa")?;
+        }
+        match density {
+            Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,
+            None => writeln!(out)?,
+        }
+    }
+    Ok(())
+}
+
+fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let spread = |out: &mut dyn Write, name: &str, values: Spread, unit: &str| {
+        writeln!(
+            out,
+            "  {name:<21} {:.4e} to {:.4e}{unit}, mean {:.4e}",
+            values.min, values.max, values.mean
+        )
+    };
+    writeln!(out, "bonds")?;
+    writeln!(
+        out,
+        "  bonds                 {} ({} cut by pre-cracks)",
+        model.system.bonds.len(),
+        model.cut_bonds
+    )?;
+    writeln!(out, "  points with no_fail   {}", model.no_fail_points)?;
+    spread(
+        out,
+        "nearest distance",
+        Spread::of(model.fixed.spacing.iter().copied()),
+        " m",
+    )?;
+    spread(
+        out,
+        "horizon",
+        Spread::of(model.fixed.horizon.iter().copied()),
+        " m",
+    )?;
+    spread(out, "bonds of a point", family(model), "")?;
+    writeln!(out, "  {}", correction_line(&model.correction))?;
+    spread(
+        out,
+        "correction factor",
+        Spread::of(model.fixed.domain_factor.iter().copied()),
+        "",
+    )
+}
+
+fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    writeln!(out, "strain energy of the points over the continuum's")?;
+    let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
+    for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
+        let Spread { min, mean, max } = Spread::of(ratios.iter().copied());
+        writeln!(out, "  {mode:<21} {min:.6} to {max:.6}, mean {mean:.6}")?;
+    }
+    Ok(())
+}
+
+fn write_boundary(out: &mut dyn Write, boundary: &Boundary, n_probes: usize) -> io::Result<()> {
+    writeln!(out, "supports and loads")?;
+    for group in &boundary.groups {
+        writeln!(out, "  {:<21} {} points", group.name, group.points.len())?;
+    }
+    let control = &boundary.control;
+    writeln!(
+        out,
+        "  controlled by         {} points, size {:.4e}",
+        control.points.len(),
+        control.magnitude
+    )?;
+    writeln!(out, "  probes                {n_probes}")
+}
+
+fn write_equations(
+    out: &mut dyn Write,
+    model: &Model,
+    equilibrium: &Equilibrium<'_>,
+) -> io::Result<()> {
+    let symbolic = equilibrium.symbolic();
+    let matrix = symbolic.pattern().n_entries();
+    let factor = symbolic.n_factor_values();
+    // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.
+    let bytes = FACTOR_VALUE * factor + 4 * FACTOR_VALUE * matrix + BOND * model.system.bonds.len();
+    writeln!(out, "equations")?;
+    writeln!(
+        out,
+        "  unknowns              {}",
+        equilibrium.unknowns().len()
+    )?;
+    writeln!(
+        out,
+        "  factorisation         {:?}, minimum degree ordering",
+        equilibrium.kind()
+    )?;
+    writeln!(
+        out,
+        "  entries               {matrix} in the matrix, {factor} in the factor"
+    )?;
+    writeln!(out, "  estimated memory      {:.1} MB", bytes as f64 / 1e6)
+}

@@ -1,0 +1,206 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+
+/// Peridynamics for the plane: mesh in, cracks out.
+///
+/// A case file (TOML) names a Gmsh mesh, materials, supports and loads; `ligament run` computes
+/// displacements, stresses and the breaking of bonds and writes them for ParaView.
+#[derive(Debug, Parser)]
+#[command(name = "ligament", version, after_help = OVERVIEW, arg_required_else_help = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const OVERVIEW: &str = "\
+Examples:
+  ligament mesh disk.geo                    mesh a Gmsh geometry: writes disk.msh
+  ligament inspect disk.msh                 its groups, for the case file to name
+  ligament check cases/disk/case.toml       is the case consistent with its mesh?
+  ligament run cases/disk/case.toml         results in results/disk
+
+All values are in SI units: m, N, Pa, s, rad.
+Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage.";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a case: solve it, break bonds, write fields and history
+    #[command(after_help = RUN_EXAMPLES)]
+    Run(RunArgs),
+    /// Check a case and its mesh without running it
+    ///
+    /// Reads the case and its mesh, builds points and bonds, and reports what a run would use:
+    /// groups found, points held and loaded, bonds cut by pre-cracks.
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check(CheckArgs),
+    /// Show what is in a mesh: cells, size, edge lengths, groups
+    #[command(after_help = INSPECT_EXAMPLES)]
+    Inspect(InspectArgs),
+    /// Mesh a Gmsh geometry (needs the program gmsh)
+    ///
+    /// Calls gmsh to make a planar mesh, reads it back and shows what is in it. An existing mesh is
+    /// replaced only by one that could be read.
+    #[command(after_help = MESH_EXAMPLES)]
+    Mesh(MeshArgs),
+    /// Print a completion script for a shell
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions(CompletionsArgs),
+}
+
+const RUN_EXAMPLES: &str = "\
+Examples:
+  ligament run cases/disk/case.toml
+  ligament run case.toml --out results/fine --set model.horizon_factor=4
+  ligament run case.toml --set mesh.plane=strain --set load.0.displacement.y=-1e-4
+  ligament run case.toml --set fracture.steps=10 --set fracture.stop.bonds=300
+
+A --set takes any key of the case file; the entries of a list such as [[load]] count from 0.
+The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
+Paths, also in --set mesh.file=..., are relative to the folder of the case file.";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  ligament check cases/disk/case.toml
+  ligament check case.toml --set model.horizon_factor=4
+  ligament check case.toml --out check     writes points and bonds to look at in ParaView";
+
+const INSPECT_EXAMPLES: &str = "\
+Examples:
+  ligament inspect meshes/disk.msh
+
+Reads Gmsh files of the formats 2.2 and 4.1, ASCII or binary. Lengths are taken to be in m.";
+
+const MESH_EXAMPLES: &str = "\
+Examples:
+  ligament mesh disk.geo
+  ligament mesh disk.geo --out meshes/disk-1mm.msh --set h=0.001
+  ligament mesh disk.geo --gmsh ~/gmsh/bin/gmsh
+
+A --set gives a number that the geometry declares by DefineConstant[ h = ... ].
+Lengths of the geometry are in m.";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  ligament completions bash > ~/.local/share/bash-completion/completions/ligament
+  ligament completions zsh > ~/.zfunc/_ligament
+  ligament completions fish > ~/.config/fish/completions/ligament.fish";
+
+/// `ligament run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The case file and changes to it.
+    #[command(flatten)]
+    pub case: CaseArgs,
+    /// Folder for the results [default: results/NAME with the name of the case's folder]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace results of an earlier run in the folder
+    #[arg(long)]
+    pub force: bool,
+    /// Show no progress, only the final result and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `ligament check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The case file and changes to it.
+    #[command(flatten)]
+    pub case: CaseArgs,
+    /// Write the points and bonds as .vtu files to this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// What `run` and `check` have in common.
+#[derive(Debug, Args)]
+pub struct CaseArgs {
+    /// The case file (TOML)
+    #[arg(value_name = "CASE.toml")]
+    pub file: PathBuf,
+    /// Change a setting of the case file, e.g. model.horizon_factor=4 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Threads to compute with [default: one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+/// `ligament inspect`.
+#[derive(Debug, Args)]
+pub struct InspectArgs {
+    /// The mesh (Gmsh .msh)
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+}
+
+/// `ligament mesh`.
+#[derive(Debug, Args)]
+pub struct MeshArgs {
+    /// The geometry (Gmsh .geo)
+    #[arg(value_name = "FILE.geo")]
+    pub geometry: PathBuf,
+    /// The mesh to write [default: FILE.msh next to the geometry]
+    #[arg(long, value_name = "FILE.msh")]
+    pub out: Option<PathBuf>,
+    /// The gmsh program, if it is not on the PATH
+    #[arg(
+        long,
+        value_name = "PATH",
+        default_value = "gmsh",
+        hide_default_value = true
+    )]
+    pub gmsh: PathBuf,
+    /// Set a number of the geometry, e.g. h=0.001 (may be repeated)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = number_setting)]
+    pub numbers: Vec<(String, f64)>,
+}
+
+/// `ligament completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    #[arg(value_name = "SHELL")]
+    pub shell: Shell,
+}
+
+fn number_setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or("expected NAME=VALUE, such as h=0.001")?;
+    let number = value
+        .trim()
+        .parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{value}` is not a number"))?;
+    match name.trim() {
+        "" => Err("there is no name before `=`".to_owned()),
+        name => Ok((name.to_owned(), number)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn numbers_for_the_geometry_are_numbers() {
+        assert_eq!(number_setting("h=1e-3"), Ok(("h".to_owned(), 1e-3)));
+        assert!(number_setting("h").is_err_and(|error| error.contains("NAME=VALUE")));
+        assert!(number_setting("h=2mm").is_err_and(|error| error.contains("`2mm`")));
+    }
+}

@@ -1,0 +1,19 @@
+//! The program: case files, command line and the pipeline from mesh to results
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
+)]
+
+pub mod case;
+pub mod check;
+pub mod cli;
+pub mod inspect;
+pub mod mesh_command;
+pub mod progress;
+pub mod resolve;
+pub mod run;
+pub mod stages;
+mod suggestion;
+pub mod summary;
+pub mod warnings;
+pub mod watch;

@@ -1,0 +1,108 @@
+//! The `ligament` program.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+use ligament::case::CaseFile;
+use ligament::cli::{CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs};
+use ligament::progress::ProgressMode;
+use ligament::{check, inspect, run};
+use ligament::mesh_command::{MeshRequest, make_mesh};
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Run(args) => run(args),
+        Command::Check(args) => check(args),
+        Command::Inspect(args) => inspect(&args),
+        Command::Mesh(args) => mesh(args),
+        Command::Completions(args) => completions(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            print_error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: RunArgs) -> anyhow::Result<()> {
+    set_threads(args.case.threads)?;
+    let case = CaseFile::load(&args.case.file, &args.case.overrides)?;
+    let out = args.out.unwrap_or_else(|| Path::new("results").join(case.name()));
+    let summary = run::run(&case, &out, args.force, ProgressMode::detect(args.quiet))?;
+    let mut stdout = io::stdout().lock();
+    summary.write(&mut stdout)?;
+    Ok(writeln!(stdout, "  results in         {}", out.display())?)
+}
+
+fn check(args: CheckArgs) -> anyhow::Result<()> {
+    set_threads(args.case.threads)?;
+    let case = CaseFile::load(&args.case.file, &args.case.overrides)?;
+    check::check(&case, args.out.as_deref(), &mut io::stdout().lock())
+}
+
+/// Limits the threads of all parallel work; without a number there is one a processor.
+fn set_threads(threads: Option<u16>) -> anyhow::Result<()> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0).into());
+    Ok(pool.build_global()?)
+}
+
+fn inspect(args: &InspectArgs) -> anyhow::Result<()> {
+    let mesh = inspect::read_mesh(&args.mesh)?;
+    Ok(inspect::write_summary(
+        &mut io::stdout().lock(),
+        &args.mesh,
+        &mesh,
+    )?)
+}
+
+fn mesh(args: MeshArgs) -> anyhow::Result<()> {
+    let out = args
+        .out
+        .unwrap_or_else(|| args.geometry.with_extension("msh"));
+    let MeshArgs {
+        geometry,
+        gmsh,
+        numbers,
+        ..
+    } = args;
+    let request = MeshRequest {
+        geometry,
+        out,
+        gmsh,
+        numbers,
+    };
+    let mesh = make_mesh(&request)?;
+    Ok(inspect::write_summary(
+        &mut io::stdout().lock(),
+        &request.out,
+        &mesh,
+    )?)
+}
+
+fn completions(args: &CompletionsArgs) -> anyhow::Result<()> {
+    // Generated into memory: clap_complete panics where the pipe is closed early.
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "ligament", &mut script);
+    Ok(io::stdout().lock().write_all(&script)?)
+}
+
+/// The error and its causes; a reader that has gone away does not want to hear of them.
+fn print_error(error: &anyhow::Error) {
+    let mut stderr = io::stderr().lock();
+    let _ = writeln!(stderr, "error: {error}");
+    for cause in error.chain().skip(1) {
+        let _ = writeln!(stderr, "  because: {cause}");
+    }
+}
+
+/// Whether standard output was closed by its reader, as by `ligament inspect ... | head`.
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    error
+        .downcast_ref::<io::Error>()
+        .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}

@@ -1,0 +1,254 @@
+//! How far a run is: a bar on a terminal, lines in a log, nothing when quiet. All on stderr.
+
+use std::fmt::Write as _;
+use std::io::{self, IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Steps that follow sooner than this on the last logged one are left out of a log, ...
+const LOG_PAUSE: Duration = Duration::from_secs(2);
+
+/// ... unless this share of all steps has been done since.
+const LOG_SHARE: f64 = 0.1;
+
+/// Where progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProgressMode {
+    /// A bar that is redrawn, on a terminal.
+    Terminal,
+    /// Lines, in a log.
+    Log,
+    /// Nowhere.
+    Quiet,
+}
+
+impl ProgressMode {
+    /// The mode that suits standard error.
+    pub fn detect(quiet: bool) -> Self {
+        match (quiet, io::stderr().is_terminal()) {
+            (true, _) => Self::Quiet,
+            (false, true) => Self::Terminal,
+            (false, false) => Self::Log,
+        }
+    }
+}
+
+/// State of the run in or at the end of a load step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLine {
+    /// The load step, from 1.
+    pub step: u64,
+    /// Its load factor.
+    pub load_factor: f64,
+    /// The displacement that goes with the load, m, if there is one.
+    pub displacement: Option<f64>,
+    /// The load, N, if there is one.
+    pub load: Option<f64>,
+    /// Bonds broken so far.
+    pub broken_bonds: u64,
+}
+
+impl StepLine {
+    fn text(&self) -> String {
+        let mut text = format!("factor {:.4}", self.load_factor);
+        // Writing to a string cannot fail.
+        if let Some(displacement) = self.displacement {
+            let _ = write!(text, ", {displacement:.3e} m");
+        }
+        if let Some(load) = self.load {
+            let _ = write!(text, ", {load:.4e} N");
+        }
+        let _ = write!(text, ", {} broken", self.broken_bonds);
+        text
+    }
+}
+
+/// Shows how far a run is.
+#[derive(Debug)]
+pub struct Progress {
+    mode: ProgressMode,
+    total: Option<u64>,
+    bar: Option<ProgressBar>,
+    started: Instant,
+    pace: LogPace,
+}
+
+impl Progress {
+    /// Progress that is shown in the given way.
+    pub fn new(mode: ProgressMode) -> Self {
+        Self {
+            mode,
+            total: None,
+            bar: None,
+            started: Instant::now(),
+            pace: LogPace::default(),
+        }
+    }
+
+    /// Tells of a stage that is done: "bonds: 2716 points, 38120 bonds".
+    pub fn stage(&self, message: &str) {
+        match (&self.bar, self.mode) {
+            (_, ProgressMode::Quiet) => {}
+            (Some(bar), _) => bar.println(message),
+            (None, _) => write_line(message),
+        }
+    }
+
+    /// Begins the load steps, of which there will be at most `total` where that is known.
+    pub fn begin_steps(&mut self, total: Option<u64>) {
+        self.total = total;
+        self.started = Instant::now();
+        self.pace = LogPace::default();
+        if self.mode == ProgressMode::Terminal {
+            let bar = total.map_or_else(ProgressBar::no_length, ProgressBar::new);
+            bar.set_style(style(total.is_some()));
+            bar.enable_steady_tick(Duration::from_millis(200));
+            self.bar = Some(bar);
+        }
+    }
+
+    /// Shows the state within a load step, such as after a round of breaking.
+    pub fn round(&mut self, line: &StepLine) {
+        self.show(line, false);
+    }
+
+    /// Shows the state at the end of a load step.
+    pub fn step(&mut self, line: &StepLine) {
+        self.show(line, true);
+    }
+
+    /// Ends the load steps with a last message.
+    pub fn finish(&mut self, message: &str) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+        self.stage(message);
+    }
+
+    fn show(&mut self, line: &StepLine, done: bool) {
+        let steps_done = if done {
+            line.step
+        } else {
+            line.step.saturating_sub(1)
+        };
+        if let Some(bar) = &self.bar {
+            bar.set_position(steps_done);
+            bar.set_message(line.text());
+        } else if self.mode == ProgressMode::Log {
+            let elapsed = self.started.elapsed();
+            if self.pace.is_due(steps_done, self.total, elapsed) {
+                write_line(&log_line(line, done, self.total, elapsed));
+            }
+        }
+    }
+}
+
+fn style(has_total: bool) -> ProgressStyle {
+    let template = if has_total {
+        "step {pos}/{len} [{bar:24}] {msg}, {eta} left"
+    } else {
+        "{spinner} step {pos} {msg}, {elapsed} so far"
+    };
+    // The templates are constants, so the fallback is never seen.
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// Progress that cannot be written (a closed pipe) must not end the run.
+fn write_line(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+fn log_line(line: &StepLine, done: bool, total: Option<u64>, elapsed: Duration) -> String {
+    let of = total
+        .map(|total| format!(" of {total}"))
+        .unwrap_or_default();
+    let state = if done { "" } else { " (in it)" };
+    let mut text = format!("step {}{of}{state}: {}", line.step, line.text());
+    if let Some(total) = total.filter(|&total| done && line.step > 0 && line.step < total) {
+        let left = elapsed.mul_f64((total - line.step) as f64 / line.step as f64);
+        let _ = write!(text, ", {} left", duration_text(left));
+    }
+    text
+}
+
+fn duration_text(duration: Duration) -> String {
+    match duration.as_secs() {
+        seconds @ 0..60 => format!("{seconds} s"),
+        seconds @ 60..3600 => format!("{} min {} s", seconds / 60, seconds % 60),
+        seconds => format!("{} h {} min", seconds / 3600, seconds % 3600 / 60),
+    }
+}
+
+/// Decides which steps go into a log.
+#[derive(Debug, Default)]
+struct LogPace {
+    last: Option<(u64, Duration)>,
+}
+
+impl LogPace {
+    /// Whether a line is due after so many steps and so much time; if so it counts as written.
+    fn is_due(&mut self, steps_done: u64, total: Option<u64>, elapsed: Duration) -> bool {
+        let due = match self.last {
+            None => true,
+            Some((steps, time)) => {
+                let share = total.map_or(0.0, |total| {
+                    steps_done.saturating_sub(steps) as f64 / total as f64
+                });
+                let is_last = Some(steps_done) == total && steps_done > steps;
+                elapsed - time >= LOG_PAUSE || share >= LOG_SHARE || is_last
+            }
+        };
+        if due {
+            self.last = Some((steps_done, elapsed));
+        }
+        due
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LINE: StepLine = StepLine {
+        step: 25,
+        load_factor: 0.25,
+        displacement: Some(-1e-4),
+        load: Some(1234.5),
+        broken_bonds: 7,
+    };
+
+    #[test]
+    fn a_log_line_has_the_state_and_the_time_left() {
+        assert_eq!(
+            log_line(&LINE, true, Some(100), Duration::from_secs(30)),
+            "step 25 of 100: factor 0.2500, -1.000e-4 m, 1.2345e3 N, 7 broken, 1 min 30 s left"
+        );
+        let bare = StepLine {
+            displacement: None,
+            load: None,
+            ..LINE
+        };
+        assert_eq!(
+            log_line(&bare, true, None, Duration::ZERO),
+            "step 25: factor 0.2500, 7 broken"
+        );
+    }
+
+    #[test]
+    fn fast_steps_are_logged_each_tenth_and_slow_ones_each() {
+        let mut pace = LogPace::default();
+        let logged: Vec<u64> = (1..=100)
+            .filter(|&step| pace.is_due(step, Some(100), Duration::from_millis(step)))
+            .collect();
+        assert_eq!(logged, [1, 11, 21, 31, 41, 51, 61, 71, 81, 91, 100]);
+        let mut pace = LogPace::default();
+        assert!((1..=5).all(|step| pace.is_due(step, Some(1000), Duration::from_secs(3 * step))));
+    }
+
+    #[test]
+    fn times_are_given_in_two_units() {
+        assert_eq!(duration_text(Duration::from_secs(59)), "59 s");
+        assert_eq!(duration_text(Duration::from_secs(3725)), "1 h 2 min");
+    }
+}

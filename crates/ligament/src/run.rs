@@ -1,0 +1,191 @@
+//! The method, on one page: from a mesh to a broken specimen.
+
+use std::path::Path;
+
+use anyhow::Context;
+use ligament_analysis::driver::{self, Outcome, Problem};
+use ligament_mesh::Mesh;
+use ligament_model::bonds::precrack::cut_bonds;
+use ligament_model::correction::{CorrectionReport, domain, energy_ratios};
+use ligament_model::failure::strength::critical_stretches;
+use ligament_model::law::nhpd;
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
+use ligament_output::folder::ResultFolder;
+use ligament_output::results::{FixedFields, MeshCells, ResultWriter, WriteRule};
+
+use crate::case::{CaseFile, CorrectionDomain};
+use crate::inspect::read_mesh;
+use crate::progress::{Progress, ProgressMode};
+use crate::resolve;
+use crate::stages::Stages;
+use crate::summary::{self, Summary};
+use crate::warnings;
+use crate::watch::Watch;
+
+/// Energy rule of an elastic solution, which has no fracture section to say it (NHPD's value).
+pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
+
+/// The discrete model of a case: all that comes before the first equation.
+#[derive(Debug)]
+pub struct Model {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Points and corrected bonds.
+    pub system: BondSystem,
+    /// Fields that a run does not change.
+    pub fixed: FixedFields,
+    /// How the domain correction went.
+    pub correction: CorrectionReport,
+    /// Smallest and largest Omega.
+    pub correction_range: (f64, f64),
+    /// Critical stretch of each bond, shape (n_bonds).
+    pub critical_stretch: Vec<f64>,
+    /// Number of bonds that pre-cracks cut.
+    pub cut_bonds: usize,
+    /// Number of points whose bonds never break.
+    pub no_fail_points: usize,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Mesh in, bond system out.
+pub fn build_model(
+    case: &CaseFile,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model> {
+    let plane = resolve::plane(case);
+    let materials = resolve::materials(case);
+    let mesh = stages.time("read mesh", || read_mesh(&case.case.mesh.file))?;
+    let material_of_cell = resolve::material_of_cell(case, &mesh)?;
+    let cloud = stages.time("points", || {
+        PointCloud::from_mesh(
+            &mesh,
+            case.case.mesh.thickness,
+            &material_of_cell,
+            materials.len(),
+        )
+    });
+    let horizons = Horizons::from_spacing(&cloud.spacing, case.case.model.horizon_factor);
+    let whole = stages.time("bonds", || BondSet::search(&cloud, &horizons));
+    progress.stage(&format!("{} points, {} bonds", cloud.len(), whole.len()));
+
+    let is_cut = cut_bonds(&resolve::precracks(case), &whole, &cloud);
+    let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
+    let precrack_share = precrack_share(&whole, &is_cut);
+    let corrected_after_cutting = case.case.correction.domain == CorrectionDomain::Cracked;
+    let bonds = if corrected_after_cutting {
+        whole.retained(&survives)
+    } else {
+        whole
+    };
+    let stiffness = nhpd::stiffness(&bonds, &cloud, &materials, plane);
+    let correction = stages.time("correction", || {
+        domain::iterate(
+            &bonds,
+            &cloud,
+            &stiffness,
+            &materials,
+            plane,
+            resolve::sweeps(case, bonds.len()),
+        )
+    });
+    progress.stage(&summary::correction_line(&correction.report));
+    let energy_ratios = energy_ratios(&bonds, &cloud, &stiffness, &correction, &materials, plane);
+    let (bonds, stiffness, correction) = if corrected_after_cutting {
+        (bonds, stiffness, correction)
+    } else {
+        (
+            bonds.retained(&survives),
+            stiffness.retained(&survives),
+            correction.retained(&survives),
+        )
+    };
+
+    let system = BondSystem::new(cloud, bonds, &stiffness, &correction);
+    let no_fail = resolve::no_fail(case, &mesh, &system.cloud)?;
+    let critical_stretch = critical_stretches(&system, &materials, plane, &no_fail);
+    let fixed = FixedFields {
+        volume: system.cloud.volumes.clone(),
+        horizon: horizons.radius,
+        spacing: system.cloud.spacing.clone(),
+        precrack_share,
+        energy_ratios,
+        ends: system.bonds.ends.clone(),
+        domain_factor: correction.domain_factor.clone(),
+    };
+    Ok(Model {
+        warnings: warnings::of_model(case, &mesh, &correction.report),
+        correction: correction.report,
+        correction_range: correction.domain_factor_range(),
+        cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
+        no_fail_points: no_fail.iter().filter(|marked| **marked).count(),
+        mesh,
+        system,
+        fixed,
+        critical_stretch,
+    })
+}
+
+/// Runs a case and writes its results into a new folder.
+pub fn run(
+    case: &CaseFile,
+    out: &Path,
+    force: bool,
+    mode: ProgressMode,
+) -> anyhow::Result<Summary> {
+    let mut stages = Stages::default();
+    let mut progress = Progress::new(mode);
+    let model = build_model(case, &mut stages, &progress)?;
+    let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    let probes = resolve::probes(case, &model.system);
+    let problem = Problem {
+        system: &model.system,
+        boundary: &boundary,
+        probes: &probes,
+    };
+
+    // Nothing is written, and nothing replaced, before all input was found good.
+    let folder = ResultFolder::create(out, force)?;
+    folder.write_text("case.resolved.toml", &case.resolved_toml()?)?;
+    let cells = MeshCells::from(&model.mesh);
+    let rule = WriteRule {
+        fields_every: case.case.output.fields_every as usize,
+        bonds: case.case.output.bonds,
+    };
+    let writer = ResultWriter::new(&folder, &cells, &model.fixed, rule, &boundary, &probes)?;
+    let mut watch = Watch::new(
+        writer,
+        &mut progress,
+        &cells.node_tags,
+        case.case.fracture.as_ref(),
+    );
+    let outcome: Outcome = stages.time("solution", || match &case.case.fracture {
+        None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut watch),
+        Some(fracture) => driver::stepped::run(
+            &problem,
+            &model.critical_stretch,
+            &resolve::stepped(fracture),
+            &mut watch,
+        ),
+    })?;
+
+    let notices = watch.into_notices();
+    let summary = Summary::new(case, &model, &outcome, notices, stages.done());
+    let text =
+        serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
+    folder.write_text("summary.json", &(text + "\n"))?;
+    progress.finish(&outcome.termination.to_string());
+    Ok(summary)
+}
+
+/// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
+fn precrack_share(bonds: &BondSet, is_cut: &[bool]) -> Vec<f64> {
+    (0..bonds.incidence.n_points() as u32)
+        .map(|point| {
+            let family = bonds.incidence.of(point);
+            let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
+            cut as f64 / family.len().max(1) as f64
+        })
+        .collect()
+}

@@ -1,0 +1,51 @@
+//! Time and memory of the stages of a run.
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+/// What a stage took.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stage {
+    /// Its name.
+    pub name: &'static str,
+    /// Wall time, s.
+    pub seconds: f64,
+    /// Peak memory of the process up to its end, bytes; not known on every system.
+    pub peak_bytes: Option<u64>,
+}
+
+/// The stages done so far.
+#[derive(Debug, Default)]
+pub struct Stages {
+    done: Vec<Stage>,
+}
+
+impl Stages {
+    /// Does a stage and notes what it took.
+    pub fn time<T>(&mut self, name: &'static str, stage: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = stage();
+        self.done.push(Stage {
+            name,
+            seconds: start.elapsed().as_secs_f64(),
+            peak_bytes: peak_memory(),
+        });
+        result
+    }
+
+    /// The stages in their order.
+    pub fn done(&self) -> &[Stage] {
+        &self.done
+    }
+}
+
+/// Peak resident memory of this process, bytes, where the system tells (Linux).
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kibibytes)
+}

@@ -1,0 +1,319 @@
+//! `summary.json`: the run in numbers, and the lines that a user sees at its end.
+
+use std::io::{self, Write};
+
+use ligament_analysis::driver::{LoadPoint, Outcome};
+use ligament_model::correction::CorrectionReport;
+use serde::Serialize;
+
+use crate::case::CaseFile;
+use crate::run::Model;
+use crate::stages::Stage;
+
+/// All numbers of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Title of the case.
+    pub title: String,
+    /// Version of the program.
+    pub version: &'static str,
+    /// Number of points.
+    pub points: usize,
+    /// Number of bonds, without those that pre-cracks cut.
+    pub bonds: usize,
+    /// Number of bonds that pre-cracks cut.
+    pub cut_bonds: usize,
+    /// Number of points whose bonds never break.
+    pub no_fail_points: usize,
+    /// Sum of the points' volumes, m^3.
+    pub volume: f64,
+    /// Smallest, mean and largest horizon, m.
+    pub horizon: Spread,
+    /// Smallest, mean and largest number of bonds of a point.
+    pub family: Spread,
+    /// The domain correction.
+    pub correction: CorrectionSummary,
+    /// Force over displacement of the first load before the first breakage, N/m.
+    pub elastic_stiffness: Option<f64>,
+    /// Where the first bond breaks, from the elastic solution.
+    pub first_break: Option<PathPoint>,
+    /// The load step with the largest reaction.
+    pub peak: Option<PathPoint>,
+    /// The last load step before the reaction fell by more than [`DROP`] for the first time.
+    pub first_peak: Option<PathPoint>,
+    /// Broken bonds at the end.
+    pub broken_bonds: usize,
+    /// Load steps done.
+    pub steps: usize,
+    /// Why the run ended.
+    pub termination: TerminationSummary,
+    /// Largest |external work - stored - released energy| over the largest external work.
+    pub energy_balance_error: f64,
+    /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
+    pub stability: Option<StabilitySummary>,
+    /// Factorisations and solves.
+    pub solver: SolverSummary,
+    /// Wall time and peak memory of the stages.
+    pub stages: Vec<Stage>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Fall of the reaction, relative to the largest so far, that ends the first rise of the load.
+pub const DROP: f64 = 0.02;
+
+/// Range and mean of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Spread {
+    /// Smallest.
+    pub min: f64,
+    /// Mean.
+    pub mean: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+/// How the domain correction went.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CorrectionSummary {
+    /// Sweeps.
+    pub sweeps: usize,
+    /// Whether it converged.
+    pub converged: bool,
+    /// Sum over the bonds of |change of Omega| in the last sweep.
+    pub last_change: f64,
+    /// Smallest Omega.
+    pub factor_min: f64,
+    /// Largest Omega.
+    pub factor_max: f64,
+    /// Largest |energy ratio - 1| of a point under uniaxial strain along x or y.
+    pub largest_residual: f64,
+    /// Energy ratios over the points for uniaxial x, uniaxial y, biaxial and shear strain.
+    pub energy_ratios: [Spread; 4],
+}
+
+/// A point of the force-displacement curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PathPoint {
+    /// Displacement of the first load, m.
+    pub displacement: f64,
+    /// Its force, N.
+    pub reaction: f64,
+    /// Load factor.
+    pub load_factor: f64,
+}
+
+impl From<LoadPoint> for PathPoint {
+    fn from(
+        LoadPoint {
+            displacement,
+            reaction,
+            load_factor,
+        }: LoadPoint,
+    ) -> Self {
+        Self {
+            displacement,
+            reaction,
+            load_factor,
+        }
+    }
+}
+
+/// Why the run ended.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TerminationSummary {
+    /// Short name.
+    pub reason: &'static str,
+    /// In words.
+    pub message: String,
+}
+
+/// Inertia of the intact stiffness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct StabilitySummary {
+    /// Negative eigenvalues.
+    pub negative: usize,
+    /// Those expected.
+    pub expected: usize,
+}
+
+/// Work of the solver.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SolverSummary {
+    /// Factorisations.
+    pub factorisations: usize,
+    /// Solves.
+    pub solves: usize,
+    /// Time in assembly, s.
+    pub assembly_seconds: f64,
+    /// Time in factorisations, s.
+    pub factorisation_seconds: f64,
+    /// Time in solves, s.
+    pub solve_seconds: f64,
+    /// Time on bonds: deformations, forces, energies, criterion, s.
+    pub bonds_seconds: f64,
+    /// Time in the search for loose parts, s.
+    pub connectivity_seconds: f64,
+}
+
+impl Summary {
+    /// Collects the numbers.
+    pub fn new(
+        case: &CaseFile,
+        model: &Model,
+        outcome: &Outcome,
+        notices: Vec<String>,
+        stages: &[Stage],
+    ) -> Self {
+        let history = &outcome.history;
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let work = largest(&mut history.iter().map(|step| step.external_work.abs()));
+        let missing = largest(
+            &mut history
+                .iter()
+                .map(|s| (s.external_work - s.stored_energy - s.released_energy).abs()),
+        );
+        let mut warnings = model.warnings.clone();
+        warnings.extend(notices);
+        Self {
+            title: case.case.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            points: model.system.cloud.len(),
+            bonds: model.system.bonds.len(),
+            cut_bonds: model.cut_bonds,
+            no_fail_points: model.no_fail_points,
+            volume: model.system.cloud.volumes.iter().sum(),
+            horizon: Spread::of(model.fixed.horizon.iter().copied()),
+            family: family(model),
+            correction: CorrectionSummary::new(model),
+            elastic_stiffness: Some(outcome.elastic_stiffness)
+                .filter(|stiffness| stiffness.is_finite()),
+            first_break: outcome.first_break.map(PathPoint::from),
+            peak: outcome.peak().map(PathPoint::from),
+            first_peak: outcome.first_peak(DROP).map(PathPoint::from),
+            broken_bonds: outcome.state.broken_bonds(),
+            steps: history.len().saturating_sub(1),
+            termination: TerminationSummary {
+                reason: outcome.termination.name(),
+                message: outcome.termination.to_string(),
+            },
+            energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
+            stability: outcome.stability.map(|s| StabilitySummary {
+                negative: s.negative,
+                expected: s.expected,
+            }),
+            solver: SolverSummary::new(outcome),
+            stages: stages.to_vec(),
+            warnings,
+        }
+    }
+
+    /// The lines that a user sees at the end of a run.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "{}", self.title)?;
+        writeln!(
+            out,
+            "  points {}, bonds {}, volume {:.6e} m^3",
+            self.points, self.bonds, self.volume
+        )?;
+        if let Some(stiffness) = self.elastic_stiffness {
+            writeln!(out, "  elastic stiffness  {stiffness:.6e} N/m")?;
+        }
+        for (name, point) in [
+            ("first breakage", self.first_break),
+            ("first peak", self.first_peak),
+            ("largest load", self.peak),
+        ] {
+            if let Some(PathPoint {
+                displacement,
+                reaction,
+                ..
+            }) = point
+            {
+                writeln!(out, "  {name:<18} {reaction:.6e} N at {displacement:.6e} m")?;
+            }
+        }
+        writeln!(
+            out,
+            "  broken bonds       {} in {} load steps",
+            self.broken_bonds, self.steps
+        )?;
+        writeln!(
+            out,
+            "  energy balance     off by {:.1e} of the work",
+            self.energy_balance_error
+        )?;
+        writeln!(out, "  ended because      {}", self.termination.message)?;
+        for warning in &self.warnings {
+            writeln!(out, "  warning: {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Spread {
+    /// Smallest, mean and largest of some values.
+    pub fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let count = values.clone().count().max(1) as f64;
+        Self {
+            min: values.clone().fold(f64::INFINITY, f64::min),
+            mean: values.clone().sum::<f64>() / count,
+            max: values.fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+/// Numbers of bonds of the points.
+pub fn family(model: &Model) -> Spread {
+    let incidence = &model.system.bonds.incidence;
+    Spread::of((0..incidence.n_points() as u32).map(|point| incidence.of(point).len() as f64))
+}
+
+impl CorrectionSummary {
+    /// The correction of a model.
+    pub fn new(model: &Model) -> Self {
+        let report = &model.correction;
+        let (factor_min, factor_max) = model.correction_range;
+        Self {
+            sweeps: report.sweeps,
+            converged: report.converged,
+            last_change: report.last_change,
+            factor_min,
+            factor_max,
+            largest_residual: report.largest_residual,
+            energy_ratios: model
+                .fixed
+                .energy_ratios
+                .each_ref()
+                .map(|ratios| Spread::of(ratios.iter().copied())),
+        }
+    }
+}
+
+impl SolverSummary {
+    fn new(outcome: &Outcome) -> Self {
+        let costs = &outcome.costs;
+        Self {
+            factorisations: costs.factorisations,
+            solves: costs.solves,
+            assembly_seconds: costs.assembly.as_secs_f64(),
+            factorisation_seconds: costs.factorisation.as_secs_f64(),
+            solve_seconds: costs.solve.as_secs_f64(),
+            bonds_seconds: costs.bonds.as_secs_f64(),
+            connectivity_seconds: costs.connectivity.as_secs_f64(),
+        }
+    }
+}
+
+/// How the correction went, in a line.
+pub fn correction_line(report: &CorrectionReport) -> String {
+    let verdict = if report.converged {
+        "converged"
+    } else {
+        "NOT converged"
+    };
+    format!(
+        "domain correction {verdict} in {} sweeps, energies right to {:.1e}",
+        report.sweeps, report.largest_residual
+    )
+}

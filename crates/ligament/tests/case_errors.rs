@@ -1,0 +1,367 @@
+//! Every wrong case file is reported with its line, column, key path and what to do.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::path::Path;
+
+use ligament::case::{CaseError, CaseFile, Fault, Location};
+
+const TEXT: &str = include_str!("data/brazilian-disk.toml");
+
+/// The error of the case with `old` replaced by `new`, without the path before it.
+fn error_with(old: &str, new: &str) -> String {
+    assert!(TEXT.contains(old), "the case has no `{old}`");
+    error_of(&TEXT.replacen(old, new, 1))
+}
+
+fn error_of(text: &str) -> String {
+    let error = CaseFile::parse(Path::new("case.toml"), text.to_owned(), &[]).unwrap_err();
+    let message = error.to_string();
+    message
+        .strip_prefix("case.toml:")
+        .unwrap_or_else(|| panic!("no path in: {message}"))
+        .to_owned()
+}
+
+/// The text of the case without the lines from the one that starts with `from` to the next blank one.
+fn without_section(from: &str) -> String {
+    let start = TEXT.find(from).unwrap();
+    let length = TEXT[start..].find("\n\n").unwrap();
+    format!("{}{}", &TEXT[..start], &TEXT[start + length..])
+}
+
+#[test]
+fn the_unchanged_case_is_right() {
+    CaseFile::parse(Path::new("case.toml"), TEXT.to_owned(), &[]).unwrap();
+}
+
+#[test]
+fn unknown_keys_get_the_nearest_valid_one() {
+    assert_eq!(
+        error_with("horizon_factor", "horizont_factor"),
+        "14:1: model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
+         `horizon_factor`? valid keys: `law`, `horizon_factor`"
+    );
+    assert_eq!(
+        error_with("group = \"platen-top\"", "grup = \"platen-top\""),
+        "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
+         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`"
+    );
+    assert_eq!(
+        error_with("{ x = 0 }", "{ z = 0 }"),
+        "28:18: support.1.displacement.z: unknown key `z` in `support.1.displacement`; valid keys: \
+         `x`, `y`, `rotation`"
+    );
+    assert!(error_with("[output]", "[outputt]").starts_with(
+        "57:2: outputt: unknown key `outputt` in the case file; did you mean `output`?"
+    ));
+}
+
+#[test]
+fn wrong_types_say_what_is_expected_and_in_which_unit() {
+    assert_eq!(
+        error_with("15e9", "\"15 GPa\""),
+        "8:9: material.young: expected a number, found the string \"15 GPa\"; values are plain \
+         numbers in SI units, here Pa"
+    );
+    assert_eq!(
+        error_with("15e9", "15 GPa"),
+        "8:9: not valid TOML: a number stands alone, without its unit; values are in SI units"
+    );
+    assert_eq!(
+        error_with("15e9", "nan"),
+        "8:9: material.young: must be a finite number, found NaN"
+    );
+    assert_eq!(
+        error_with("15e9", "1979-05-27"),
+        "8:9: material.young: expected a number, found a date"
+    );
+    assert_eq!(
+        error_with("fields_every = 5", "fields_every = 0.5"),
+        "58:16: output.fields_every: expected a whole number, 0 or more, found the number 0.5"
+    );
+    assert_eq!(
+        error_with("\"nhpd\"", "3"),
+        "13:7: model.law: expected \"nhpd\", found the number 3"
+    );
+    assert_eq!(
+        error_with("[[load]]", "[load]"),
+        "30:1: load: this section may be repeated, so its name stands in double brackets: write \
+         [[load]] instead of [load]"
+    );
+}
+
+#[test]
+fn lists_must_have_their_length() {
+    let between = "[[-0.01, 0.0], [0.01, 0.0]]";
+    assert_eq!(
+        error_with(between, "[[0, 0]]"),
+        "40:11: probe.0.between: expected a list of 2, found a list of 1"
+    );
+    assert_eq!(
+        error_with(between, "[[0, 0], [1, 0], [2, 0]]"),
+        "40:11: probe.0.between: expected a list of 2, found a list of 3"
+    );
+    assert_eq!(
+        error_with(between, "[[0, 0], [1, \"a\"]]"),
+        "40:24: probe.0.between.1.1: expected a number, found the string \"a\"; values are plain \
+         numbers in SI units, here m"
+    );
+}
+
+#[test]
+fn wrong_words_get_the_nearest_valid_one() {
+    assert_eq!(
+        error_with("\"nhpd\"", "\"nhdp\""),
+        "13:7: model.law: unknown value \"nhdp\"; did you mean \"nhpd\"? valid values: \"nhpd\""
+    );
+    assert_eq!(
+        error_with("thickness = 0.02", "plane = \"strian\""),
+        "5:9: mesh.plane: unknown value \"strian\"; did you mean \"strain\"? valid values: \
+         \"stress\", \"strain\""
+    );
+}
+
+#[test]
+fn missing_keys_are_at_their_table() {
+    assert_eq!(
+        error_with("young = 15e9\n", ""),
+        "7:1: material.young: missing key `young` in [material] (in Pa)"
+    );
+    assert_eq!(
+        error_with("steps = 100\n", ""),
+        "53:1: fracture.steps: missing key `steps` in [fracture]"
+    );
+    assert_eq!(
+        error_with("displacement = { x = 0 }", ""),
+        "26:1: support.1.displacement: missing key `displacement` in [[support]]"
+    );
+    assert_eq!(
+        error_with("tensile_strength = 3.81e6\n", ""),
+        "7:1: material.tensile_strength: missing key `tensile_strength`: it is required (in Pa) \
+         because the case has a [fracture] section"
+    );
+    assert_eq!(
+        error_with("component = \"x\"\n", ""),
+        "38:1: probe.0.component: missing key `component`: it is required with `between` or \
+         `section`, to say what to read"
+    );
+}
+
+#[test]
+fn missing_sections_are_named_with_their_purpose() {
+    assert_eq!(
+        error_of(&without_section("[model]")),
+        " model: the case has no [model] section; it needs `law` and `horizon_factor`"
+    );
+    assert_eq!(
+        error_of(&without_section("[[load]]")),
+        " load: the case has no [[load]] section; it needs one or more, or nothing would happen"
+    );
+}
+
+#[test]
+fn values_outside_of_their_range_are_refused() {
+    for (old, new, expected) in [
+        (
+            "poisson = 0.21",
+            "poisson = 0.5",
+            "9:11: material.poisson: must be greater than -1 and less than 0.5, found 0.5",
+        ),
+        (
+            "15e9",
+            "-1",
+            "8:9: material.young: must be greater than 0, found -1.0",
+        ),
+        (
+            "0.02",
+            "0",
+            "5:13: mesh.thickness: must be greater than 0, found 0.0",
+        ),
+        (
+            "factor = 3.0",
+            "factor = 0.9",
+            "14:18: model.horizon_factor: must be at least 1, found 0.9",
+        ),
+        (
+            "rule = \"sum\"",
+            "tolerance = 0",
+            "17:13: correction.tolerance: must be greater than 0, found 0.0",
+        ),
+        (
+            "steps = 100",
+            "steps = 0",
+            "54:9: fracture.steps: must be at least 1, found 0",
+        ),
+        (
+            "steps = 100",
+            "steps = [0.1, 0.3, 0.2]",
+            "54:20: fracture.steps.2: must be greater than the load factor before it, 0.3, found 0.2",
+        ),
+        (
+            "steps = 100",
+            "steps = \"many\"",
+            "54:9: fracture.steps: expected a whole number of load steps or a rising list of load \
+             factors, found the string \"many\"",
+        ),
+        (
+            "load_fraction = 0.5",
+            "load_fraction = 1.5",
+            "55:26: fracture.stop.load_fraction: must be greater than 0 and less than 1, found 1.5",
+        ),
+        (
+            "[[-0.015, 0.0], [0.015, 0.0]]",
+            "[[0.0, 0.0]]",
+            "20:10: precrack.0.points: must be two points or more, found [[0.0, 0.0]]",
+        ),
+        (
+            "box = [[0.01, 0.04], [-0.01, 0.05]]",
+            "box = [[0, 0], [0, 1]]",
+            "36:7: no_fail.0.box: must be two opposite corners of a rectangle with a width and a \
+             height, found [[0.0, 0.0], [0.0, 1.0]]",
+        ),
+    ] {
+        assert_eq!(error_with(old, new), expected);
+    }
+}
+
+#[test]
+fn keys_that_exclude_each_other_are_listed() {
+    assert_eq!(
+        error_with(
+            "group = \"platen-top\"",
+            "group = \"platen-top\"\nat = [0, 0]"
+        ),
+        "30:1: load.0: needs exactly one of `group`, `box`, `at`; found `group`, `at`"
+    );
+    assert_eq!(
+        error_with("group = \"platen-bottom\"\n", ""),
+        "22:1: support.0: needs exactly one of `group`, `box`, `at`; found none"
+    );
+    assert_eq!(
+        error_with(
+            "displacement = { y = -4.0e-4 }",
+            "force = { y = 1 }\nforce_per_length = { y = 1 }"
+        ),
+        "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
+         `body_force`; found `force`, `force_per_length`"
+    );
+}
+
+#[test]
+fn supports_and_loads_that_make_no_sense_are_refused() {
+    let load = "group = \"platen-top\"\ndisplacement = { y = -4.0e-4 }";
+    assert_eq!(
+        error_with("{ x = 0 }", "{ x = 1e-3 }"),
+        "28:22: support.1.displacement.x: a support holds at 0, found 0.001: put prescribed \
+         displacements in a [[load]]"
+    );
+    assert_eq!(
+        error_with("{ x = 0 }", "{}"),
+        "28:16: support.1.displacement: needs one of `x`, `y`, `rotation` or more"
+    );
+    assert_eq!(
+        error_with(load, "at = [0, 0]\nforce_per_length = { y = 1 }"),
+        "33:20: load.0.force_per_length: acts along the curve of a `group`, so the load needs one"
+    );
+    assert_eq!(
+        error_with(load, "at = [0, 0]\nbody_force = { y = 1 }"),
+        "32:6: load.0.at: a body force acts on a volume: give `group`, `box`, or neither for the \
+         whole body"
+    );
+    assert_eq!(
+        error_with(load, "at = [0, 0]\nforce = {}"),
+        "33:9: load.0.force: this load does nothing: neither `x` nor `y` is given a value"
+    );
+}
+
+#[test]
+fn names_are_unique_and_fit_for_columns() {
+    assert_eq!(
+        error_with("\"cmod\"", "\"damage-centre\""),
+        "44:8: probe.1.name: `damage-centre` is already used by probe.0.name"
+    );
+    assert_eq!(
+        error_with("\"cmod\"", "\"a, b\""),
+        "39:8: probe.0.name: must be a name without commas, quotes or surrounding blanks, found \"a, b\""
+    );
+    let again = "[[load]]\ngroup = \"top\"\nforce = { x = 1 }\n\n[[no_fail]]";
+    assert_eq!(
+        error_with("[[no_fail]]", again),
+        "35:1: load.1: `top` is already used by load.0: give one of the loads another `name` (the \
+         name of a load without one is its group)"
+    );
+}
+
+#[test]
+fn probes_take_the_keys_of_their_kind() {
+    assert_eq!(
+        error_with("component = \"y\"", "component = \"rotation\""),
+        "51:13: probe.2.component: the force through a section has the components \"x\" and \"y\" only"
+    );
+    assert_eq!(
+        error_with("field = \"damage\"", "component = \"x\""),
+        "46:13: probe.1.component: a probe `at` a point takes `field`, not `component`"
+    );
+}
+
+#[test]
+fn materials_are_one_or_named() {
+    assert_eq!(
+        error_with("[material]", "[material.rock]"),
+        "7:1: material.rock.group: missing key `group` in [material.rock]"
+    );
+    assert_eq!(
+        error_with("[material]\n", "[material]\nrock = { group = \"rock\" }\n"),
+        "9:9: material.young: `young` belongs to no material: next to [material.rock] every key of \
+         [material] must be in a table [material.NAME]"
+    );
+    let second =
+        "[material.rock]\ngroup = \"a\"\nyoung = 1\npoisson = 0\n[material.steel]\ngroup = \"a\"\n";
+    assert_eq!(
+        error_with("[material]\n", second),
+        "12:9: material.steel.group: `a` is already used by material.rock.group: a group has one material"
+    );
+}
+
+#[test]
+fn text_that_is_not_toml_is_located() {
+    assert_eq!(
+        error_with("[mesh]", "[mesh"),
+        "3:6: not valid TOML: unclosed table, expected `]`"
+    );
+    assert_eq!(
+        error_with("poisson = 0.21", "young = 2"),
+        "9:1: not valid TOML: duplicate key"
+    );
+}
+
+#[test]
+fn faults_found_later_are_located_too() {
+    let case_file = CaseFile::parse(Path::new("case.toml"), TEXT.to_owned(), &[]).unwrap();
+    assert_eq!(case_file.locate("load.0.group"), Some((32, 9)));
+    assert_eq!(case_file.locate("load.0.at"), Some((30, 1)));
+    assert_eq!(case_file.locate("load.7.at"), Some((30, 1)));
+    assert_eq!(case_file.locate("nothing"), None);
+    let groups = ["platen-top-edge", "platen-bottom"];
+    let error = case_file.error(
+        "load.0.group",
+        Fault::unknown_name("group in the mesh", "platen-top", groups),
+    );
+    assert_eq!(
+        error.to_string(),
+        "case.toml:32:9: load.0.group: no group in the mesh is called `platen-top`; did you mean \
+         `platen-top-edge`? there are: `platen-top-edge`, `platen-bottom`"
+    );
+    let CaseError::Key { location, .. } = case_file.error("mesh.thickness", "too thin") else {
+        panic!()
+    };
+    assert_eq!(
+        location,
+        Location::Position {
+            path: "case.toml".into(),
+            line: 5,
+            column: 13
+        }
+    );
+}

@@ -1,0 +1,253 @@
+//! Defaults, settings from the command line and writing a case back.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::path::{Path, PathBuf};
+
+use ligament::case::{
+    Action, CaseFile, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps, Vector,
+};
+
+const TEXT: &str = include_str!("data/brazilian-disk.toml");
+
+const SMALL: &str = r#"
+mesh = { file = "plate.msh" }
+material.rock = { group = "rock", young = 1e9, poisson = 0 }
+material."soft layer" = { group = "layer", young = 1e8, poisson = 0.3, tensile_strength = 1e6 }
+model = { law = "nhpd", horizon_factor = 3 }
+correction = { rule = "mean" }
+load = [{ body_force = { y = -2.5e4 } }, { group = "top", force_per_length = { x = 1.5 } }]
+"#;
+
+fn with(text: &str, overrides: &[&str]) -> Result<CaseFile, String> {
+    let overrides: Vec<String> = overrides.iter().map(|&given| given.to_owned()).collect();
+    CaseFile::parse(Path::new("case.toml"), text.to_owned(), &overrides)
+        .map_err(|error| error.to_string())
+}
+
+fn set(setting: &str) -> Result<CaseFile, String> {
+    with(TEXT, &[setting])
+}
+
+#[test]
+fn defaults_are_filled_in() {
+    let case = with(SMALL, &[]).unwrap().case;
+    assert_eq!((case.mesh.thickness, case.mesh.plane), (1.0, Plane::Stress));
+    let correction = case.correction.unwrap();
+    assert_eq!(
+        (correction.rule, correction.tolerance),
+        (CorrectionRule::Mean, 1e-7)
+    );
+    assert_eq!(case.loads[0].name, "load-1");
+    assert_eq!(
+        case.loads[0].action,
+        Action::BodyForce(Vector { x: 0.0, y: -2.5e4 })
+    );
+    assert_eq!(
+        (case.loads[1].name.as_str(), &case.loads[1].place),
+        ("top", &Some(Place::Group("top".into())))
+    );
+    assert_eq!(case.materials[1].key(), "material.\"soft layer\"");
+    assert_eq!(case.fracture, None);
+    assert_eq!((case.output.fields_every, case.output.bonds), (10, false));
+}
+
+#[test]
+fn the_case_is_read_as_it_is_written() {
+    let case = with(TEXT, &[]).unwrap().case;
+    assert_eq!(
+        case.precracks,
+        [Precrack {
+            points: vec![[-0.015, 0.0], [0.015, 0.0]]
+        }]
+    );
+    let held = Displacement {
+        x: Some(0.0),
+        y: None,
+        rotation: None,
+    };
+    assert_eq!(case.supports[1].displacement, held);
+    assert_eq!(case.no_fail, [Region::Box([[-0.01, 0.04], [0.01, 0.05]])]);
+    let fracture = case.fracture.unwrap();
+    assert_eq!(
+        (fracture.steps, fracture.bonds_per_iteration),
+        (Steps::Uniform(100), 5)
+    );
+    assert_eq!(
+        (fracture.stop.load_fraction, fracture.stop.wall_time),
+        (Some(0.5), None)
+    );
+}
+
+#[test]
+fn a_resolved_case_reads_as_the_same_case() {
+    for text in [TEXT, SMALL] {
+        let resolved = with(text, &[]).unwrap().resolved_toml().unwrap();
+        let elsewhere =
+            CaseFile::parse(Path::new("/elsewhere/case.toml"), resolved.clone(), &[]).unwrap();
+        assert_eq!(elsewhere.case, with(text, &[]).unwrap().case);
+        assert_eq!(elsewhere.resolved_toml().unwrap(), resolved);
+    }
+}
+
+#[test]
+fn a_resolved_case_has_headers_defaults_and_an_absolute_mesh() {
+    let resolved = with(
+        SMALL,
+        &[
+            "fracture.steps=[0.5, 1]",
+            "material.rock.tensile_strength=2e6",
+        ],
+    )
+    .unwrap();
+    let text = resolved.resolved_toml().unwrap();
+    let absolute = std::path::absolute("plate.msh").unwrap();
+    for line in [
+        &format!("file = \"{}\"", absolute.display()),
+        "[material.\"soft layer\"]",
+        "young = 1e9",
+        "[[load]]",
+        "body_force = { x = 0.0, y = -25000.0 }",
+        "steps = [0.5, 1.0]",
+        "tie_tolerance = 1e-8",
+        "fields_every = 10",
+    ] {
+        assert!(
+            text.lines().any(|other| other == line),
+            "no `{line}` in\n{text}"
+        );
+    }
+}
+
+#[test]
+fn overrides_change_make_and_replace_settings() {
+    let case = with(
+        TEXT,
+        &[
+            "mesh.plane=strain",
+            "load.0.displacement.y = -1e-6",
+            "fracture.stop={ bonds = 10 }",
+            "fracture.stop.wall_time=60",
+            "output.bonds=true",
+            "precrack.0.points.1=[0.02, 0.001]",
+            "title=Disk under load",
+            "title=Disk under a small load",
+        ],
+    );
+    let case = case.unwrap().case;
+    assert_eq!(case.mesh.plane, Plane::Strain);
+    let pushed = Displacement {
+        x: None,
+        y: Some(-1e-6),
+        rotation: None,
+    };
+    assert_eq!(case.loads[0].action, Action::Displacement(pushed));
+    let stop = case.fracture.unwrap().stop;
+    assert_eq!(
+        (stop.bonds, stop.wall_time, stop.load_fraction),
+        (Some(10), Some(60.0), None)
+    );
+    assert!(case.output.bonds);
+    assert_eq!(case.precracks[0].points[1], [0.02, 0.001]);
+    assert_eq!(case.title, "Disk under a small load");
+    let small = with(SMALL, &["output.fields_every=3"]).unwrap();
+    assert_eq!(small.case.output.fields_every, 3);
+}
+
+#[test]
+fn faults_of_overrides_are_blamed_on_them() {
+    for (setting, expected) in [
+        (
+            "model.horizont_factor=4",
+            "model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
+             `horizon_factor`? valid keys: `law`, `horizon_factor`",
+        ),
+        (
+            "mesh.plane=strian",
+            "mesh.plane: unknown value \"strian\"; did you mean \"strain\"? valid values: \
+             \"stress\", \"strain\"",
+        ),
+        (
+            "material.young=15 GPa",
+            "material.young: expected a number, found the string \"15 GPa\"; values are plain \
+             numbers in SI units, here Pa",
+        ),
+        (
+            "model.horizon_factor=0.5",
+            "model.horizon_factor: must be at least 1, found 0.5",
+        ),
+        (
+            "load.1.name=x",
+            "there is no `load.1`: the only index of `load` is 0",
+        ),
+        (
+            "probe.3.name=x",
+            "there is no `probe.3`: the indices of `probe` are 0 to 2",
+        ),
+        (
+            "load.top.name=x",
+            "`load` is a list: `top` should be an index from 0",
+        ),
+        (
+            "model.law.x=1",
+            "`model.law` is a value, not a table: it has no `x` below it",
+        ),
+        (
+            "title",
+            "expected key=value, such as model.horizon_factor=4",
+        ),
+        ("title=", "there is no value after `=`"),
+        ("=3", "`` is not a key path such as load.0.displacement.y"),
+        (
+            "load.0.displacement={y=1",
+            "the value is not valid TOML: unclosed inline table, expected `}`",
+        ),
+        (
+            "load.0.force.y=1",
+            "load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
+             `body_force`; found `displacement`, `force`",
+        ),
+    ] {
+        assert_eq!(
+            set(setting).unwrap_err(),
+            format!("--set {setting}: {expected}")
+        );
+    }
+    let missing = with(SMALL, &["precrack.0.points=[]"]).unwrap_err();
+    assert!(
+        missing.ends_with("there is no `precrack.0`: the case has no `precrack`"),
+        "{missing}"
+    );
+    let unknown = set("lod.0.group=x").unwrap_err();
+    assert!(
+        unknown.contains("unknown key `lod` in the case file; did you mean `load`?"),
+        "{unknown}"
+    );
+}
+
+#[test]
+fn an_overridden_value_has_no_place_in_the_file() {
+    let case_file = set("load.0.group=top").unwrap();
+    assert_eq!(case_file.locate("load.0.group"), None);
+    let error = case_file.error("load.0.group", "not in the mesh");
+    assert_eq!(
+        error.to_string(),
+        "--set load.0.group=top: load.0.group: not in the mesh"
+    );
+}
+
+#[test]
+fn a_case_is_called_after_its_folder_or_its_file() {
+    let name = |path: &str| {
+        CaseFile::parse(Path::new(path), TEXT.to_owned(), &[])
+            .unwrap()
+            .name()
+    };
+    assert_eq!(name("cases/disk/case.toml"), "disk");
+    assert_eq!(name("cases/disk-fine.toml"), "disk-fine");
+    let here: PathBuf = std::env::current_dir().unwrap();
+    assert_eq!(
+        Some(name("case.toml").as_str()),
+        here.file_name().and_then(|name| name.to_str())
+    );
+}

@@ -1,0 +1,349 @@
+//! The program as it is called.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ligament"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(name)
+}
+
+fn plate() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/plate-coarse.msh")
+}
+
+#[test]
+fn help_teaches_every_command() {
+    let output = ligament(["--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    for word in [
+        "run",
+        "check",
+        "inspect",
+        "mesh",
+        "completions",
+        "Examples:",
+        "SI units",
+    ] {
+        assert!(stdout(&output).contains(word), "{word}");
+    }
+    for command in ["run", "check", "inspect", "mesh", "completions"] {
+        let output = ligament([command, "--help"]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stdout(&output).contains("Examples:"), "{command}");
+    }
+}
+
+#[test]
+fn wrong_usage_exits_with_2() {
+    let output = ligament(["inspct", "disk.msh"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("'inspect'"), "{}", stderr(&output));
+    assert_eq!(ligament(["run"]).status.code(), Some(2));
+    assert_eq!(
+        ligament(["run", "case.toml", "--threads", "0"])
+            .status
+            .code(),
+        Some(2)
+    );
+    assert_eq!(
+        ligament(["mesh", "a.geo", "--set", "h=2mm"]).status.code(),
+        Some(2)
+    );
+}
+
+#[test]
+fn an_unknown_key_is_located_and_exits_with_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(data("brazilian-disk.toml")).unwrap();
+    fs::write(&path, text.replace("horizon_factor", "horizont_factor")).unwrap();
+    let output = ligament([OsStr::new("run"), path.as_os_str()]);
+    assert_eq!(output.status.code(), Some(1));
+    let expected = format!(
+        "error: {}:14:1: model.horizont_factor: unknown key",
+        path.display()
+    );
+    assert!(
+        stderr(&output).starts_with(&expected),
+        "{}",
+        stderr(&output)
+    );
+    assert!(stderr(&output).contains("did you mean `horizon_factor`?"));
+}
+
+#[test]
+fn a_wrong_setting_is_blamed_on_the_command_line() {
+    let path = data("brazilian-disk.toml");
+    let output = ligament([
+        OsStr::new("run"),
+        path.as_os_str(),
+        "--set".as_ref(),
+        "mesh.plane=strian".as_ref(),
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).starts_with("error: --set mesh.plane=strian: mesh.plane: unknown value")
+    );
+}
+
+#[test]
+fn files_that_are_not_there_are_named() {
+    for command in ["run", "check", "inspect"] {
+        let output = ligament([command, "nowhere/file"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            stderr(&output).contains("nowhere/file"),
+            "{}",
+            stderr(&output)
+        );
+        assert!(
+            stderr(&output).contains("\n  because: No such file"),
+            "{}",
+            stderr(&output)
+        );
+    }
+}
+
+#[test]
+fn completions_name_the_commands() {
+    for shell in ["bash", "zsh", "fish"] {
+        let output = ligament(["completions", shell]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stdout(&output).contains("inspect"), "{shell}");
+    }
+}
+
+#[test]
+fn inspect_shows_the_groups() {
+    let output = ligament([OsStr::new("inspect"), plate().as_os_str()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for word in [
+        "nodes",
+        "bounding box",
+        "ratio",
+        "groups",
+        "surface",
+        "curve",
+    ] {
+        assert!(
+            stdout(&output).contains(word),
+            "{word} in\n{}",
+            stdout(&output)
+        );
+    }
+}
+
+#[test]
+fn a_file_that_is_no_mesh_is_refused() {
+    let output = ligament([
+        OsStr::new("inspect"),
+        data("brazilian-disk.toml").as_os_str(),
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).starts_with("error: cannot use the mesh"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(
+        stderr(&output).contains("\n  because: "),
+        "{}",
+        stderr(&output)
+    );
+}
+
+/// Calls of `ligament mesh` with a shell script in place of gmsh.
+#[cfg(unix)]
+mod meshing {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+
+    const GEOMETRY: &str = "DefineConstant[ size = 0.1 ];\nDefineConstant[ radius = 1 ];\n";
+
+    /// A folder with a geometry and a script that is called as gmsh; `$OUT` is the mesh to write.
+    fn folder(script: &str) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("plate.geo"), GEOMETRY).unwrap();
+        let gmsh = folder.path().join("gmsh");
+        fs::write(&gmsh, format!("#!/bin/sh\nOUT=$4\n{script}\n")).unwrap();
+        fs::set_permissions(&gmsh, fs::Permissions::from_mode(0o755)).unwrap();
+        folder
+    }
+
+    fn mesh(folder: &Path, more: &[&str]) -> Output {
+        let (geometry, gmsh) = (folder.join("plate.geo"), folder.join("gmsh"));
+        let arguments = [
+            OsStr::new("mesh"),
+            geometry.as_os_str(),
+            "--gmsh".as_ref(),
+            gmsh.as_os_str(),
+        ];
+        ligament(arguments.into_iter().chain(more.iter().map(OsStr::new)))
+    }
+
+    fn files(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn the_mesh_is_written_and_shown() {
+        let script = format!(
+            "echo \"$@\" > \"$(dirname \"$0\")/arguments\"\ncp {} \"$OUT\"",
+            plate().display()
+        );
+        let folder = folder(&script);
+        let output = mesh(
+            folder.path(),
+            &["--set", "size=0.001", "--set", "radius=-2"],
+        );
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(
+            stdout(&output).contains("plate.msh\n  nodes "),
+            "{}",
+            stdout(&output)
+        );
+        assert_eq!(
+            files(folder.path()),
+            ["arguments", "gmsh", "plate.geo", "plate.msh"]
+        );
+        let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
+        assert!(arguments.starts_with("-2 "), "{arguments}");
+        let end = "-format msh41 -setnumber size 0.001 -setnumber radius -2\n";
+        assert!(arguments.ends_with(end), "{arguments}");
+    }
+
+    #[test]
+    fn a_failure_shows_the_errors_of_gmsh_and_leaves_the_mesh_alone() {
+        for script in [
+            "echo 'Info    : Reading'\necho \"Error   : 'plate.geo', line 3: syntax error\"\necho x > \"$OUT\"\nexit 1",
+            "echo \"Error   : 'plate.geo', line 3: syntax error\" >&2\necho x > \"$OUT\"",
+        ] {
+            let folder = folder(script);
+            fs::write(folder.path().join("plate.msh"), "old").unwrap();
+            let output = mesh(folder.path(), &[]);
+            assert_eq!(output.status.code(), Some(1));
+            let expected = "plate.geo\n  Error   : 'plate.geo', line 3: syntax error\n";
+            assert!(stderr(&output).ends_with(expected), "{}", stderr(&output));
+            assert_eq!(
+                fs::read_to_string(folder.path().join("plate.msh")).unwrap(),
+                "old"
+            );
+            assert_eq!(files(folder.path()), ["gmsh", "plate.geo", "plate.msh"]);
+        }
+    }
+
+    #[test]
+    fn a_failure_without_error_lines_shows_what_gmsh_said_last() {
+        let output = mesh(folder("echo one\necho two\nexit 3").path(), &[]);
+        assert!(
+            stderr(&output).ends_with("\n  one\n  two\n"),
+            "{}",
+            stderr(&output)
+        );
+        let output = mesh(folder("exit 3").path(), &[]);
+        assert!(
+            stderr(&output).contains("gmsh said nothing (exit status: 3)"),
+            "{}",
+            stderr(&output)
+        );
+    }
+
+    #[test]
+    fn a_mesh_that_cannot_be_read_does_not_replace_one() {
+        let folder = folder("echo nonsense > \"$OUT\"");
+        fs::write(folder.path().join("plate.msh"), "old").unwrap();
+        let output = mesh(folder.path(), &[]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            stderr(&output).contains("that cannot be used"),
+            "{}",
+            stderr(&output)
+        );
+        assert_eq!(
+            fs::read_to_string(folder.path().join("plate.msh")).unwrap(),
+            "old"
+        );
+    }
+
+    #[test]
+    fn without_gmsh_there_is_a_hint_how_to_install_it() {
+        let folder = folder("");
+        let geometry = folder.path().join("plate.geo");
+        let nowhere = folder.path().join("no-gmsh");
+        let output = ligament([
+            OsStr::new("mesh"),
+            geometry.as_os_str(),
+            "--gmsh".as_ref(),
+            nowhere.as_os_str(),
+        ]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            stderr(&output).contains("cannot find the program"),
+            "{}",
+            stderr(&output)
+        );
+        assert!(
+            stderr(&output).contains("pip install gmsh"),
+            "{}",
+            stderr(&output)
+        );
+    }
+
+    #[test]
+    fn the_geometry_is_never_replaced() {
+        let folder = folder("echo x > \"$OUT\"");
+        let geometry = folder.path().join(".").join("plate.geo");
+        let output = mesh(folder.path(), &["--out", &geometry.display().to_string()]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            stderr(&output).contains("is the geometry itself"),
+            "{}",
+            stderr(&output)
+        );
+        assert_eq!(fs::read_to_string(geometry).unwrap(), GEOMETRY);
+    }
+
+    #[test]
+    fn a_misspelt_number_is_refused() {
+        let output = mesh(folder("").path(), &["--set", "siez=0.1"]);
+        assert_eq!(output.status.code(), Some(1));
+        let expected = "plate.geo does not mention `siez`; did you mean `size`? it declares: `size`, `radius`\n";
+        assert!(stderr(&output).ends_with(expected), "{}", stderr(&output));
+    }
+
+    #[test]
+    fn a_geometry_that_is_not_there_is_named() {
+        let output = ligament(["mesh", "nowhere/plate.geo"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(
+            stderr(&output),
+            "error: there is no geometry nowhere/plate.geo\n"
+        );
+    }
+}

@@ -1,0 +1,1 @@
+//! Closed forms and fixtures shared by the verification tests.
