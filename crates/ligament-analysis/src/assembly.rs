@@ -22,7 +22,12 @@ pub fn pattern(system: &BondSystem, unknowns: &Unknowns) -> Result<Pattern, Patt
             .collect();
         for (column, _) in unknowns.of_point(point) {
             rows.extend_from_slice(&lower_rows);
-            rows.extend(unknowns.of_point(point).map(|(row, _)| row).filter(|&row| row <= column));
+            rows.extend(
+                unknowns
+                    .of_point(point)
+                    .map(|(row, _)| row)
+                    .filter(|&row| row <= column),
+            );
             column_starts.push(rows.len());
         }
     }
@@ -48,9 +53,19 @@ pub fn assemble(
 }
 
 /// Bonds to points of smaller number, with that point, ascending.
-fn lower_neighbours(system: &BondSystem, point: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let bonds = system.bonds.incidence.of(point as u32).iter().map(|&bond| bond as usize);
-    bonds.map(|bond| (bond, system.bonds.ends[bond][0] as usize)).take_while(move |&(_, neighbour)| neighbour < point)
+fn lower_neighbours(
+    system: &BondSystem,
+    point: usize,
+) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let bonds = system
+        .bonds
+        .incidence
+        .of(point as u32)
+        .iter()
+        .map(|&bond| bond as usize);
+    bonds
+        .map(|bond| (bond, system.bonds.ends[bond][0] as usize))
+        .take_while(move |&(_, neighbour)| neighbour < point)
 }
 
 /// The part of the values that belongs to the columns of each point.
@@ -64,7 +79,10 @@ fn columns_of_points<'a>(
     let mut taken = 0;
     (0..n_points)
         .map(|point| {
-            let end = unknowns.of_point(point).last().map_or(taken, |(column, _)| pattern.column_starts()[column + 1]);
+            let end = unknowns
+                .of_point(point)
+                .last()
+                .map_or(taken, |(column, _)| pattern.column_starts()[column + 1]);
             let (columns, others) = std::mem::take(&mut rest).split_at_mut(end - taken);
             (rest, taken) = (others, end);
             columns
@@ -83,7 +101,11 @@ fn fill_columns(
     let diagonal_block = diagonal_block(system, intact, point);
     let couplings: Vec<(usize, Matrix6<f64>)> = lower_neighbours(system, point)
         .map(|(bond, neighbour)| {
-            let stiffness = if intact[bond] { system.element(bond).stiffness() } else { Matrix6::zeros() };
+            let stiffness = if intact[bond] {
+                system.element(bond).stiffness()
+            } else {
+                Matrix6::zeros()
+            };
             (neighbour, stiffness)
         })
         .collect();
@@ -98,15 +120,27 @@ fn fill_columns(
         for (neighbour, stiffness) in &couplings {
             for (_, r) in unknowns.of_point(*neighbour) {
                 let cut_off = is_held(*neighbour, r) || is_held(point, c);
-                put(if cut_off { 0.0 } else { stiffness[(r, COMPONENTS + c)] });
+                put(if cut_off {
+                    0.0
+                } else {
+                    stiffness[(r, COMPONENTS + c)]
+                });
             }
         }
         for (_, r) in unknowns.of_point(point).filter(|&(row, _)| row < column) {
-            put(if is_held(point, r) || is_held(point, c) { 0.0 } else { diagonal_block[(r, c)] });
+            put(if is_held(point, r) || is_held(point, c) {
+                0.0
+            } else {
+                diagonal_block[(r, c)]
+            });
         }
         let diagonal = diagonal_block[(c, c)];
         // A held point may have lost all its bonds; any pivot does for an equation that stands alone.
-        put(if is_held(point, c) && diagonal == 0.0 { 1.0 } else { diagonal });
+        put(if is_held(point, c) && diagonal == 0.0 {
+            1.0
+        } else {
+            diagonal
+        });
     }
 }
 
@@ -115,8 +149,15 @@ fn diagonal_block(system: &BondSystem, intact: &[bool], point: usize) -> nalgebr
     for &bond in system.bonds.incidence.of(point as u32) {
         let bond = bond as usize;
         if intact[bond] {
-            let offset = if system.bonds.ends[bond][0] as usize == point { 0 } else { COMPONENTS };
-            block += system.element(bond).stiffness().fixed_view::<3, 3>(offset, offset);
+            let offset = if system.bonds.ends[bond][0] as usize == point {
+                0
+            } else {
+                COMPONENTS
+            };
+            block += system
+                .element(bond)
+                .stiffness()
+                .fixed_view::<3, 3>(offset, offset);
         }
     }
     block

@@ -78,12 +78,22 @@ impl Boundary {
     }
 
     /// Prescribes a component of some points: `value` at load factor 1. The same value twice is no conflict.
-    pub fn prescribe(&mut self, points: &[u32], component: Component, value: f64) -> Result<(), BoundaryError> {
+    pub fn prescribe(
+        &mut self,
+        points: &[u32],
+        component: Component,
+        value: f64,
+    ) -> Result<(), BoundaryError> {
         for &point in points {
             let slot = &mut self.prescribed[COMPONENTS * point as usize + component.index()];
             match *slot {
                 Some(first) if first != value => {
-                    return Err(BoundaryError::Conflict { point, component: component.name(), first, second: value });
+                    return Err(BoundaryError::Conflict {
+                        point,
+                        component: component.name(),
+                        first,
+                        second: value,
+                    });
                 }
                 _ => *slot = Some(value),
             }
@@ -124,7 +134,11 @@ impl Control {
             .iter()
             .map(|&point| {
                 let values = &values[COMPONENTS * point as usize..][..COMPONENTS];
-                values.iter().zip(self.direction).map(|(value, cosine)| value * cosine).sum::<f64>()
+                values
+                    .iter()
+                    .zip(self.direction)
+                    .map(|(value, cosine)| value * cosine)
+                    .sum::<f64>()
             })
             .sum()
     }

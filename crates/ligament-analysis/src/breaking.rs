@@ -36,18 +36,30 @@ pub fn next_to_break(
     let mut ranked: Vec<Candidate> = (0..deformations.len())
         .filter(|&bond| intact[bond])
         .map(|bond| (bond, deformations[bond].stretch, critical_stretch[bond]))
-        .filter(|&(_, stretch, limit)| stretch > 0.0 && stretch * (1.0 + 2.0 * rule.tie_tolerance) >= limit)
+        .filter(|&(_, stretch, limit)| {
+            stretch > 0.0 && stretch * (1.0 + 2.0 * rule.tie_tolerance) >= limit
+        })
         .map(|(bond, stretch, limit)| Candidate::new(rule.order, bond as u32, stretch, limit))
         .collect();
-    ranked.sort_unstable_by(|one, other| other.rank.total_cmp(&one.rank).then(one.bond.cmp(&other.bond)));
+    ranked.sort_unstable_by(|one, other| {
+        other
+            .rank
+            .total_cmp(&one.rank)
+            .then(one.bond.cmp(&other.bond))
+    });
     let mut chosen = Vec::new();
     let mut rest = ranked.as_slice();
     while chosen.len() < rule.bonds_per_iteration {
-        let Some(first) = rest.iter().position(|candidate| candidate.exceeds) else { break };
+        let Some(first) = rest.iter().position(|candidate| candidate.exceeds) else {
+            break;
+        };
         let leader = &rest[first];
         let lowest_tied = leader.rank - rule.tie_tolerance * leader.tie_scale;
         // Bonds under the limit may stand before the leader only where they are tied with it by rounding.
-        let end = rest.iter().position(|candidate| candidate.rank < lowest_tied).unwrap_or(rest.len());
+        let end = rest
+            .iter()
+            .position(|candidate| candidate.rank < lowest_tied)
+            .unwrap_or(rest.len());
         let mut group: Vec<u32> = rest[..end].iter().map(|candidate| candidate.bond).collect();
         group.sort_unstable();
         chosen.extend(group);
@@ -69,7 +81,12 @@ impl Candidate {
             BreakingOrder::Excess => (stretch - limit, stretch),
             BreakingOrder::Ratio => (stretch / limit, stretch / limit),
         };
-        Self { bond, rank, tie_scale, exceeds: stretch >= limit }
+        Self {
+            bond,
+            rank,
+            tie_scale,
+            exceeds: stretch >= limit,
+        }
     }
 }
 
@@ -78,13 +95,23 @@ mod tests {
     use super::*;
 
     fn chosen(rule: &BreakingRule, stretch: &[f64], limit: &[f64], intact: &[bool]) -> Vec<u32> {
-        let deformations: Vec<BondDeformation> =
-            stretch.iter().map(|&stretch| BondDeformation { stretch, shear: 0.0, rotation: 0.0 }).collect();
+        let deformations: Vec<BondDeformation> = stretch
+            .iter()
+            .map(|&stretch| BondDeformation {
+                stretch,
+                shear: 0.0,
+                rotation: 0.0,
+            })
+            .collect();
         next_to_break(rule, &deformations, limit, intact)
     }
 
     fn rule(order: BreakingOrder, bonds_per_iteration: usize) -> BreakingRule {
-        BreakingRule { order, bonds_per_iteration, tie_tolerance: 1e-8 }
+        BreakingRule {
+            order,
+            bonds_per_iteration,
+            tie_tolerance: 1e-8,
+        }
     }
 
     #[test]
@@ -92,27 +119,92 @@ mod tests {
         // Excesses 1, 3, 2, -1, 5 (broken); ratios 2, 1.3, 1.5, 0.5, 6.
         let (stretch, limit) = ([2.0, 13.0, 6.0, 1.0, 6.0], [1.0, 10.0, 4.0, 2.0, 1.0]);
         let intact = [true, true, true, true, false];
-        assert_eq!(chosen(&rule(BreakingOrder::Excess, 2), &stretch, &limit, &intact), [1, 2]);
-        assert_eq!(chosen(&rule(BreakingOrder::Ratio, 2), &stretch, &limit, &intact), [0, 2]);
-        assert_eq!(chosen(&rule(BreakingOrder::Excess, 9), &stretch, &limit, &intact), [1, 2, 0]);
+        assert_eq!(
+            chosen(&rule(BreakingOrder::Excess, 2), &stretch, &limit, &intact),
+            [1, 2]
+        );
+        assert_eq!(
+            chosen(&rule(BreakingOrder::Ratio, 2), &stretch, &limit, &intact),
+            [0, 2]
+        );
+        assert_eq!(
+            chosen(&rule(BreakingOrder::Excess, 9), &stretch, &limit, &intact),
+            [1, 2, 0]
+        );
     }
 
     #[test]
     fn nothing_at_the_limit_nothing_breaks() {
-        assert!(chosen(&rule(BreakingOrder::Excess, 5), &[0.99, -3.0], &[1.0, 1.0], &[true; 2]).is_empty());
-        assert_eq!(chosen(&rule(BreakingOrder::Excess, 5), &[1.0, -3.0], &[1.0, 1.0], &[true; 2]), [0]);
-        assert!(chosen(&rule(BreakingOrder::Excess, 5), &[9.0], &[f64::INFINITY], &[true]).is_empty());
+        assert!(
+            chosen(
+                &rule(BreakingOrder::Excess, 5),
+                &[0.99, -3.0],
+                &[1.0, 1.0],
+                &[true; 2]
+            )
+            .is_empty()
+        );
+        assert_eq!(
+            chosen(
+                &rule(BreakingOrder::Excess, 5),
+                &[1.0, -3.0],
+                &[1.0, 1.0],
+                &[true; 2]
+            ),
+            [0]
+        );
+        assert!(
+            chosen(
+                &rule(BreakingOrder::Excess, 5),
+                &[9.0],
+                &[f64::INFINITY],
+                &[true]
+            )
+            .is_empty()
+        );
     }
 
     #[test]
     fn a_tied_group_breaks_together_and_in_the_order_of_its_numbers() {
         let just_below = 2.0 - 1e-10;
         let stretch = [2.0, just_below, 1.5, 2.0 + 1e-10];
-        assert_eq!(chosen(&rule(BreakingOrder::Excess, 1), &stretch, &[1.0; 4], &[true; 4]), [0, 1, 3]);
+        assert_eq!(
+            chosen(
+                &rule(BreakingOrder::Excess, 1),
+                &stretch,
+                &[1.0; 4],
+                &[true; 4]
+            ),
+            [0, 1, 3]
+        );
         // Also where a member lies just under its limit.
-        assert_eq!(chosen(&rule(BreakingOrder::Ratio, 1), &[just_below, 2.0], &[2.0; 2], &[true; 2]), [0, 1]);
-        assert_eq!(chosen(&rule(BreakingOrder::Excess, 1), &[just_below, 2.0], &[2.0; 2], &[true; 2]), [0, 1]);
+        assert_eq!(
+            chosen(
+                &rule(BreakingOrder::Ratio, 1),
+                &[just_below, 2.0],
+                &[2.0; 2],
+                &[true; 2]
+            ),
+            [0, 1]
+        );
+        assert_eq!(
+            chosen(
+                &rule(BreakingOrder::Excess, 1),
+                &[just_below, 2.0],
+                &[2.0; 2],
+                &[true; 2]
+            ),
+            [0, 1]
+        );
         // But not alone.
-        assert!(chosen(&rule(BreakingOrder::Ratio, 1), &[just_below], &[2.0], &[true]).is_empty());
+        assert!(
+            chosen(
+                &rule(BreakingOrder::Ratio, 1),
+                &[just_below],
+                &[2.0],
+                &[true]
+            )
+            .is_empty()
+        );
     }
 }

@@ -63,13 +63,21 @@ impl Fragments {
     /// The degrees of freedom to hold so that no fragment can move rigidly.
     ///
     /// `is_fixed` (3 n_points) marks what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
-    pub fn missing_holds(&self, system: &BondSystem, is_fixed: &[bool], can_hold: &[bool]) -> Vec<Hold> {
+    pub fn missing_holds(
+        &self,
+        system: &BondSystem,
+        is_fixed: &[bool],
+        can_hold: &[bool],
+    ) -> Vec<Hold> {
         let mut holds = Vec::new();
         for (fragment, points) in self.points.iter().enumerate() {
             let motions = RigidMotions::of(system, points);
             let mut spanned = Vec::new();
-            let degrees_of_freedom =
-                || points.iter().flat_map(|&point| (0..COMPONENTS).map(move |c| COMPONENTS * point as usize + c));
+            let degrees_of_freedom = || {
+                points.iter().flat_map(|&point| {
+                    (0..COMPONENTS).map(move |c| COMPONENTS * point as usize + c)
+                })
+            };
             for dof in degrees_of_freedom().filter(|&dof| is_fixed[dof]) {
                 motions.extend(&mut spanned, dof);
                 if spanned.len() == COMPONENTS {
@@ -77,10 +85,16 @@ impl Fragments {
                 }
             }
             while spanned.len() < COMPONENTS {
-                let candidates = degrees_of_freedom().filter(|&dof| can_hold[dof] && !is_fixed[dof]);
-                let Some(best) = motions.most_independent(&spanned, candidates) else { break };
+                let candidates =
+                    degrees_of_freedom().filter(|&dof| can_hold[dof] && !is_fixed[dof]);
+                let Some(best) = motions.most_independent(&spanned, candidates) else {
+                    break;
+                };
                 motions.extend(&mut spanned, best);
-                holds.push(Hold { degree_of_freedom: best, fragment: fragment as u32 });
+                holds.push(Hold {
+                    degree_of_freedom: best,
+                    fragment: fragment as u32,
+                });
             }
         }
         holds
@@ -96,10 +110,21 @@ struct RigidMotions<'a> {
 
 impl<'a> RigidMotions<'a> {
     fn of(system: &'a BondSystem, points: &[u32]) -> Self {
-        let positions = || points.iter().map(|&point| system.cloud.positions[point as usize]);
-        let centre = [0, 1].map(|axis| positions().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
-        let radius = positions().map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1])).fold(0.0, f64::max);
-        Self { system, centre, radius: if radius > 0.0 { radius } else { 1.0 } }
+        let positions = || {
+            points
+                .iter()
+                .map(|&point| system.cloud.positions[point as usize])
+        };
+        let centre =
+            [0, 1].map(|axis| positions().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
+        let radius = positions()
+            .map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1]))
+            .fold(0.0, f64::max);
+        Self {
+            system,
+            centre,
+            radius: if radius > 0.0 { radius } else { 1.0 },
+        }
     }
 
     /// How the motions (x, y, rotation) move a degree of freedom, as a unit vector.
@@ -116,7 +141,11 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// What of the participation the spanned directions do not hold (the directions are orthonormal).
-    fn remainder(&self, spanned: &[[f64; COMPONENTS]], degree_of_freedom: usize) -> [f64; COMPONENTS] {
+    fn remainder(
+        &self,
+        spanned: &[[f64; COMPONENTS]],
+        degree_of_freedom: usize,
+    ) -> [f64; COMPONENTS] {
         let mut rest = self.participation(degree_of_freedom);
         for direction in spanned {
             let share = dot(rest, *direction);

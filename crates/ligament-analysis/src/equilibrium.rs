@@ -3,7 +3,9 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use ligament_linalg::{FactorError, FactorKind, Factorisation, Pattern, PatternError, SymmetricMatrix, Symbolic};
+use ligament_linalg::{
+    FactorError, FactorKind, Factorisation, Pattern, PatternError, Symbolic, SymmetricMatrix,
+};
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
 use thiserror::Error;
@@ -84,7 +86,9 @@ pub struct Balanced {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unbalanced {
     /// Newton-Raphson did not get there.
-    #[error("Newton-Raphson did not converge: residual {residual:.1e} after {iterations} iterations")]
+    #[error(
+        "Newton-Raphson did not converge: residual {residual:.1e} after {iterations} iterations"
+    )]
     NotConverged {
         /// Relative residual of the last iterate.
         residual: f64,
@@ -92,7 +96,9 @@ pub enum Unbalanced {
         iterations: usize,
     },
     /// A pivot of the indefinite matrix vanished.
-    #[error("the stiffness lost stability: vanishing pivot at point {point}, component {component}")]
+    #[error(
+        "the stiffness lost stability: vanishing pivot at point {point}, component {component}"
+    )]
     VanishingPivot {
         /// Point index.
         point: u32,
@@ -135,15 +141,33 @@ pub struct Stability {
 
 impl<'a> Equilibrium<'a> {
     /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
-    pub fn new(system: &'a BondSystem, boundary: &'a Boundary, energy_tolerance: f64) -> Result<Self, SetupError> {
+    pub fn new(
+        system: &'a BondSystem,
+        boundary: &'a Boundary,
+        energy_tolerance: f64,
+    ) -> Result<Self, SetupError> {
         let unknowns = Unknowns::of_problem(system, boundary);
         let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone())?);
         // Without a positive shear stiffness positive definiteness is not to be counted on.
         let definite = system.shear_rigidity.iter().all(|&rigidity| rigidity > 0.0);
-        let kind = if definite { FactorKind::Llt } else { FactorKind::Ldlt };
+        let kind = if definite {
+            FactorKind::Llt
+        } else {
+            FactorKind::Ldlt
+        };
         let costs = Costs::default();
-        Ok(Self { system, boundary, unknowns, pattern, symbolic, kind, factor: None, energy_tolerance, costs })
+        Ok(Self {
+            system,
+            boundary,
+            unknowns,
+            pattern,
+            symbolic,
+            kind,
+            factor: None,
+            energy_tolerance,
+            costs,
+        })
     }
 
     /// The unknowns.
@@ -177,9 +201,14 @@ impl<'a> Equilibrium<'a> {
         self.factor = None;
         let fragments = Fragments::find(self.system, &state.intact);
         let prescribed = &self.boundary.prescribed;
-        let is_fixed: Vec<bool> =
-            prescribed.iter().zip(&state.held).map(|(value, held)| value.is_some() || *held).collect();
-        let can_hold: Vec<bool> = (0..is_fixed.len()).map(|dof| self.unknowns.number(dof).is_some()).collect();
+        let is_fixed: Vec<bool> = prescribed
+            .iter()
+            .zip(&state.held)
+            .map(|(value, held)| value.is_some() || *held)
+            .collect();
+        let can_hold: Vec<bool> = (0..is_fixed.len())
+            .map(|dof| self.unknowns.number(dof).is_some())
+            .collect();
         let holds = fragments.missing_holds(self.system, &is_fixed, &can_hold);
         for hold in &holds {
             state.held[hold.degree_of_freedom] = true;
@@ -214,12 +243,24 @@ impl<'a> Equilibrium<'a> {
             let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
             if residual <= RESIDUAL_TOLERANCE || energy_settled {
                 if stored_energy < 0.0 {
-                    return Ok(Err(Unbalanced::NegativeEnergy { energy: stored_energy }));
+                    return Ok(Err(Unbalanced::NegativeEnergy {
+                        energy: stored_energy,
+                    }));
                 }
-                return Ok(Ok(Balanced { deformations, internal, stored_energy, residual, iterations, mechanisms }));
+                return Ok(Ok(Balanced {
+                    deformations,
+                    internal,
+                    stored_energy,
+                    residual,
+                    iterations,
+                    mechanisms,
+                }));
             }
             if iterations == ITERATION_LIMIT {
-                return Ok(Err(Unbalanced::NotConverged { residual, iterations }));
+                return Ok(Err(Unbalanced::NotConverged {
+                    residual,
+                    iterations,
+                }));
             }
             previous_energy = stored_energy;
             match self.factorise_if_stale(state) {
@@ -233,13 +274,27 @@ impl<'a> Equilibrium<'a> {
 
     /// Inertia of the stiffness and of its rotation block for the state's bonds, once the state was balanced.
     pub fn stability(&self, state: &State) -> Result<Option<Stability>, SetupError> {
-        let Some(factor) = &self.factor else { return Ok(None) };
+        let Some(factor) = &self.factor else {
+            return Ok(None);
+        };
         let rotations = self.unknowns.rotations_only();
         let pattern = Arc::new(assembly::pattern(self.system, &rotations)?);
-        let block = assembly::assemble(self.system, &rotations, &pattern, &state.intact, &state.held);
+        let block = assembly::assemble(
+            self.system,
+            &rotations,
+            &pattern,
+            &state.intact,
+            &state.held,
+        );
         let symbolic = Arc::new(Symbolic::analyse(pattern)?);
-        let expected = FactorKind::Ldlt.factorise(&symbolic, &block)?.inertia().negative;
-        Ok(Some(Stability { negative: factor.inertia().negative, expected }))
+        let expected = FactorKind::Ldlt
+            .factorise(&symbolic, &block)?
+            .inertia()
+            .negative;
+        Ok(Some(Stability {
+            negative: factor.inertia().negative,
+            expected,
+        }))
     }
 
     fn prescribe(&self, state: &mut State) {
@@ -258,16 +313,29 @@ impl<'a> Equilibrium<'a> {
             .map(|&dof| {
                 let dof = dof as usize;
                 let external = self.boundary.force[dof] * state.load_factor;
-                if state.held[dof] { 0.0 } else { external - internal.values[dof] }
+                if state.held[dof] {
+                    0.0
+                } else {
+                    external - internal.values[dof]
+                }
             })
             .collect()
     }
 
     fn relative_residual(&self, state: &State, residual: &[f64], internal: &InternalForces) -> f64 {
         // A load that no bond carries yet would be measured against nothing.
-        let largest_load = self.boundary.force.iter().fold(0.0_f64, |largest, force| largest.max(force.abs()));
-        let mut scales = InternalForces { values: Vec::new(), ..*internal };
-        scales.force_scale = scales.force_scale.max(largest_load * state.load_factor.abs());
+        let largest_load = self
+            .boundary
+            .force
+            .iter()
+            .fold(0.0_f64, |largest, force| largest.max(force.abs()));
+        let mut scales = InternalForces {
+            values: Vec::new(),
+            ..*internal
+        };
+        scales.force_scale = scales
+            .force_scale
+            .max(largest_load * state.load_factor.abs());
         internal::relative_residual(residual, self.unknowns.degrees_of_freedom(), &scales)
     }
 
@@ -289,8 +357,13 @@ impl<'a> Equilibrium<'a> {
         let mut held_now = Vec::new();
         while self.factor.is_none() {
             let start = Instant::now();
-            let matrix =
-                assembly::assemble(self.system, &self.unknowns, &self.pattern, &state.intact, &state.held);
+            let matrix = assembly::assemble(
+                self.system,
+                &self.unknowns,
+                &self.pattern,
+                &state.intact,
+                &state.held,
+            );
             self.costs.assembly += start.elapsed();
             let start = Instant::now();
             let factor = self.kind.factorise(&self.symbolic, &matrix);
@@ -298,11 +371,18 @@ impl<'a> Equilibrium<'a> {
             self.costs.factorisations += 1;
             let mechanisms = match &factor {
                 Ok(factor) => vanishing_pivots(factor.as_ref(), &matrix),
-                Err(FactorError::ZeroPivot { unknown } | FactorError::NotPositiveDefinite { unknown }) => vec![*unknown],
+                Err(
+                    FactorError::ZeroPivot { unknown }
+                    | FactorError::NotPositiveDefinite { unknown },
+                ) => vec![*unknown],
                 Err(other) => return Err(Unbalanced::NoFactor(other.clone())),
             };
             if let Some(&unknown) = mechanisms.first() {
-                let indefinite = self.system.shear_rigidity.iter().any(|&rigidity| rigidity < 0.0);
+                let indefinite = self
+                    .system
+                    .shear_rigidity
+                    .iter()
+                    .any(|&rigidity| rigidity < 0.0);
                 if indefinite {
                     return Err(self.vanishing_pivot(unknown));
                 }
@@ -323,11 +403,16 @@ impl<'a> Equilibrium<'a> {
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.unknowns.degrees_of_freedom()[unknown] as usize;
         let point = (dof / crate::unknowns::COMPONENTS) as u32;
-        Unbalanced::VanishingPivot { point, component: Component::of(dof).name() }
+        Unbalanced::VanishingPivot {
+            point,
+            component: Component::of(dof).name(),
+        }
     }
 }
 
 fn vanishing_pivots(factor: &dyn Factorisation, matrix: &SymmetricMatrix) -> Vec<usize> {
     let pivots = factor.pivots();
-    (0..pivots.len()).filter(|&i| pivots[i].abs() < MECHANISM_TOLERANCE * matrix.diagonal(i).abs()).collect()
+    (0..pivots.len())
+        .filter(|&i| pivots[i].abs() < MECHANISM_TOLERANCE * matrix.diagonal(i).abs())
+        .collect()
 }

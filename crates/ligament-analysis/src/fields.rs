@@ -28,8 +28,14 @@ pub fn point_damage(system: &BondSystem, intact: &[bool], point: u32) -> f64 {
 }
 
 /// Strain energy density of every point, J/m^3: half the energy of its intact bonds over its volume.
-pub fn strain_energy_density(system: &BondSystem, intact: &[bool], deformations: &[BondDeformation]) -> Vec<f64> {
-    gather(system, |point| point_energy_density(system, intact, deformations, point))
+pub fn strain_energy_density(
+    system: &BondSystem,
+    intact: &[bool],
+    deformations: &[BondDeformation],
+) -> Vec<f64> {
+    gather(system, |point| {
+        point_energy_density(system, intact, deformations, point)
+    })
 }
 
 /// Strain energy density of one point, see [`strain_energy_density`].
@@ -39,20 +45,35 @@ pub fn point_energy_density(
     deformations: &[BondDeformation],
     point: u32,
 ) -> f64 {
-    let bonds = system.bonds.incidence.of(point).iter().map(|&bond| bond as usize);
-    let energy: f64 =
-        bonds.filter(|&bond| intact[bond]).map(|bond| system.element(bond).energy(&deformations[bond])).sum();
+    let bonds = system
+        .bonds
+        .incidence
+        .of(point)
+        .iter()
+        .map(|&bond| bond as usize);
+    let energy: f64 = bonds
+        .filter(|&bond| intact[bond])
+        .map(|bond| system.element(bond).energy(&deformations[bond]))
+        .sum();
     0.5 * energy / system.cloud.volumes[point as usize]
 }
 
 /// Force of supports and prescribed motions on every point: internal minus external force where something prescribes
 /// the motion, zero elsewhere; shape (n_points, 3).
-pub fn reactions(internal: &[f64], external: &[f64], is_prescribed: impl Fn(usize) -> bool) -> Vec<[f64; COMPONENTS]> {
+pub fn reactions(
+    internal: &[f64],
+    external: &[f64],
+    is_prescribed: impl Fn(usize) -> bool,
+) -> Vec<[f64; COMPONENTS]> {
     (0..internal.len() / COMPONENTS)
         .map(|point| {
             [0, 1, 2].map(|component| {
                 let dof = COMPONENTS * point + component;
-                if is_prescribed(dof) { internal[dof] - external[dof] } else { 0.0 }
+                if is_prescribed(dof) {
+                    internal[dof] - external[dof]
+                } else {
+                    0.0
+                }
             })
         })
         .collect()

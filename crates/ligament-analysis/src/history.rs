@@ -50,7 +50,11 @@ impl StepRecord {
     /// (external work - stored - released energy) / external work: what the energy balance misses; 0 without work.
     pub fn energy_error(&self) -> f64 {
         let missing = self.external_work - self.stored_energy - self.released_energy;
-        if self.external_work == 0.0 { 0.0 } else { missing / self.external_work }
+        if self.external_work == 0.0 {
+            0.0
+        } else {
+            missing / self.external_work
+        }
     }
 }
 
@@ -75,7 +79,9 @@ pub struct BreakRecord {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Notice {
     /// Points came loose, and rigid motions of theirs are held.
-    #[error("step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})")]
+    #[error(
+        "step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})"
+    )]
     CameLoose {
         /// Load step; 0 before loading.
         step: usize,
@@ -135,12 +141,23 @@ pub struct ObserverError(#[from] pub Box<dyn std::error::Error + Send + Sync>);
 /// Watches a run. All methods but [`Observer::step`] may be left as they are.
 pub trait Observer {
     /// A Newton-Raphson iteration was done.
-    fn iteration(&mut self, _iteration: usize, _residual: f64, _stored_energy: f64) -> Result<(), ObserverError> {
+    fn iteration(
+        &mut self,
+        _iteration: usize,
+        _residual: f64,
+        _stored_energy: f64,
+    ) -> Result<(), ObserverError> {
         Ok(())
     }
 
     /// The driver enters a round: later iterations belong to it.
-    fn round(&mut self, _step: usize, _round: usize, _load_factor: f64, _broken: usize) -> Result<(), ObserverError> {
+    fn round(
+        &mut self,
+        _step: usize,
+        _round: usize,
+        _load_factor: f64,
+        _broken: usize,
+    ) -> Result<(), ObserverError> {
         Ok(())
     }
 

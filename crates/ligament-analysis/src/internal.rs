@@ -8,7 +8,10 @@ use crate::unknowns::COMPONENTS;
 
 /// Deformation of every bond, broken or not, shape (n_bonds).
 pub fn deformations(system: &BondSystem, displacement: &[f64]) -> Vec<BondDeformation> {
-    (0..system.bonds.len()).into_par_iter().map(|bond| system.deformation(bond, displacement)).collect()
+    (0..system.bonds.len())
+        .into_par_iter()
+        .map(|bond| system.deformation(bond, displacement))
+        .collect()
 }
 
 /// Internal forces and the sizes that their residual is compared with.
@@ -23,7 +26,11 @@ pub struct InternalForces {
 }
 
 /// Internal forces of the intact bonds: gathered at each point over its bonds in their order.
-pub fn internal_forces(system: &BondSystem, intact: &[bool], deformations: &[BondDeformation]) -> InternalForces {
+pub fn internal_forces(
+    system: &BondSystem,
+    intact: &[bool],
+    deformations: &[BondDeformation],
+) -> InternalForces {
     let of_points: Vec<([f64; COMPONENTS], [f64; COMPONENTS])> = (0..system.cloud.len() as u32)
         .into_par_iter()
         .map(|point| {
@@ -43,7 +50,12 @@ pub fn internal_forces(system: &BondSystem, intact: &[bool], deformations: &[Bon
             (sum, size)
         })
         .collect();
-    let largest = |component: usize| of_points.iter().map(|(_, size)| size[component]).fold(0.0, f64::max);
+    let largest = |component: usize| {
+        of_points
+            .iter()
+            .map(|(_, size)| size[component])
+            .fold(0.0, f64::max)
+    };
     InternalForces {
         force_scale: largest(0).max(largest(1)),
         moment_scale: largest(2),
@@ -52,23 +64,42 @@ pub fn internal_forces(system: &BondSystem, intact: &[bool], deformations: &[Bon
 }
 
 /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
-pub fn stored_energy(system: &BondSystem, intact: &[bool], deformations: &[BondDeformation]) -> f64 {
+pub fn stored_energy(
+    system: &BondSystem,
+    intact: &[bool],
+    deformations: &[BondDeformation],
+) -> f64 {
     ordered_sum(system.bonds.len(), |bond| {
-        if intact[bond] { system.element(bond).energy(&deformations[bond]) } else { 0.0 }
+        if intact[bond] {
+            system.element(bond).energy(&deformations[bond])
+        } else {
+            0.0
+        }
     })
 }
 
 /// Largest |external - internal force| over the given degrees of freedom, relative to the forces that meet at a point.
-pub fn relative_residual(residual: &[f64], degrees_of_freedom: &[u32], internal: &InternalForces) -> f64 {
+pub fn relative_residual(
+    residual: &[f64],
+    degrees_of_freedom: &[u32],
+    internal: &InternalForces,
+) -> f64 {
     let largest = |rotational: bool| {
         residual
             .iter()
             .zip(degrees_of_freedom)
             .filter(|&(_, &dof)| (dof as usize % COMPONENTS == COMPONENTS - 1) == rotational)
             // `f64::max` would pass over a NaN, and with it over a failed solve.
-            .map(|(value, _)| if value.is_nan() { f64::INFINITY } else { value.abs() })
+            .map(|(value, _)| {
+                if value.is_nan() {
+                    f64::INFINITY
+                } else {
+                    value.abs()
+                }
+            })
             .fold(0.0, f64::max)
     };
     let relative = |value: f64, scale: f64| if value == 0.0 { 0.0 } else { value / scale };
-    relative(largest(false), internal.force_scale).max(relative(largest(true), internal.moment_scale))
+    relative(largest(false), internal.force_scale)
+        .max(relative(largest(true), internal.moment_scale))
 }

@@ -57,8 +57,16 @@ pub enum PointField {
 impl Reading {
     /// The force through the straight line from `start` to `end` (mesh-file coordinates): all bonds that cross it, by the
     /// rule of pre-cracks.
-    pub fn section(system: &BondSystem, start: [f64; 2], end: [f64; 2], component: Component) -> Self {
-        let line = PreCrack { points: vec![start, end] }.in_local_coordinates(&system.cloud);
+    pub fn section(
+        system: &BondSystem,
+        start: [f64; 2],
+        end: [f64; 2],
+        component: Component,
+    ) -> Self {
+        let line = PreCrack {
+            points: vec![start, end],
+        }
+        .in_local_coordinates(&system.cloud);
         let position = |point: u32| system.cloud.positions[point as usize];
         let bonds = system
             .bonds
@@ -74,22 +82,34 @@ impl Reading {
     /// The value in a state of equilibrium.
     pub fn value(&self, system: &BondSystem, state: &State, balanced: &Balanced) -> f64 {
         match self {
-            Self::RelativeDisplacement { points: [first, second], component } => {
-                let motion = |point: u32| state.displacement[COMPONENTS * point as usize + component.index()];
+            Self::RelativeDisplacement {
+                points: [first, second],
+                component,
+            } => {
+                let motion = |point: u32| {
+                    state.displacement[COMPONENTS * point as usize + component.index()]
+                };
                 motion(*second) - motion(*first)
             }
             Self::Field { point, field } => match field {
                 PointField::Damage => fields::point_damage(system, &state.intact, *point),
-                PointField::Motion(component) => state.displacement[COMPONENTS * *point as usize + component.index()],
-                PointField::StrainEnergyDensity => {
-                    fields::point_energy_density(system, &state.intact, &balanced.deformations, *point)
+                PointField::Motion(component) => {
+                    state.displacement[COMPONENTS * *point as usize + component.index()]
                 }
+                PointField::StrainEnergyDensity => fields::point_energy_density(
+                    system,
+                    &state.intact,
+                    &balanced.deformations,
+                    *point,
+                ),
             },
             Self::SectionForce { bonds, component } => bonds
                 .iter()
                 .filter(|(bond, _)| state.intact[*bond as usize])
                 .map(|&(bond, first_is_left)| {
-                    let forces = system.element(bond as usize).end_forces(&balanced.deformations[bond as usize]);
+                    let forces = system
+                        .element(bond as usize)
+                        .end_forces(&balanced.deformations[bond as usize]);
                     // The end force is what holds the end in place against the bond: the bond pulls the other way.
                     -forces[usize::from(!first_is_left)][component.index()]
                 })

@@ -67,7 +67,10 @@ impl Unknowns {
     /// Only the rotations among other unknowns.
     pub fn rotations_only(&self) -> Self {
         Self::select(self.number.len() / COMPONENTS, |point, component| {
-            component == Component::Rotation && self.number(COMPONENTS * point + component.index()).is_some()
+            component == Component::Rotation
+                && self
+                    .number(COMPONENTS * point + component.index())
+                    .is_some()
         })
     }
 
@@ -83,7 +86,10 @@ impl Unknowns {
                 }
             }
         }
-        Self { number, degrees_of_freedom }
+        Self {
+            number,
+            degrees_of_freedom,
+        }
     }
 
     /// Number of unknowns.
@@ -108,8 +114,14 @@ impl Unknowns {
     }
 
     /// Range of the numbers of the unknowns of a point, and which components they are.
-    pub(crate) fn of_point(&self, point: usize) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
-        (0..COMPONENTS).filter_map(move |c| self.number(COMPONENTS * point + c).map(|number| (number, c)))
+    pub(crate) fn of_point(
+        &self,
+        point: usize,
+    ) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
+        (0..COMPONENTS).filter_map(move |c| {
+            self.number(COMPONENTS * point + c)
+                .map(|number| (number, c))
+        })
     }
 }
 

@@ -25,7 +25,10 @@ pub trait Factorisation {
     fn inertia(&self) -> Inertia {
         let pivots = self.pivots();
         let negative = pivots.iter().filter(|pivot| **pivot < 0.0).count();
-        Inertia { positive: pivots.len() - negative, negative }
+        Inertia {
+            positive: pivots.len() - negative,
+            negative,
+        }
     }
 }
 
@@ -103,7 +106,8 @@ mod tests {
     /// ```
     /// positive definite for d = 6, indefinite for d = -6.
     fn four_by_four(d: f64) -> SymmetricMatrix {
-        let pattern = Pattern::new(vec![0, 1, 3, 5, 8], vec![0, 0, 1, 1, 2, 0, 2, 3]).expect("pattern");
+        let pattern =
+            Pattern::new(vec![0, 1, 3, 5, 8], vec![0, 0, 1, 1, 2, 0, 2, 3]).expect("pattern");
         let mut matrix = SymmetricMatrix::zero(Arc::new(pattern));
         matrix.values = vec![4.0, 1.0, 5.0, 3.0, d, 2.0, 1.0, 7.0];
         matrix
@@ -122,9 +126,11 @@ mod tests {
     #[test]
     fn both_kinds_solve_and_count_signs() {
         let x = [1.0, -2.0, 0.5, 3.0];
-        for (kind, d, negative) in
-            [(FactorKind::Llt, 6.0, 0), (FactorKind::Ldlt, 6.0, 0), (FactorKind::Ldlt, -6.0, 1)]
-        {
+        for (kind, d, negative) in [
+            (FactorKind::Llt, 6.0, 0),
+            (FactorKind::Ldlt, 6.0, 0),
+            (FactorKind::Ldlt, -6.0, 1),
+        ] {
             let matrix = four_by_four(d);
             let symbolic = Arc::new(Symbolic::analyse(matrix.pattern().clone()).expect("analysis"));
             let mut factor = kind.factorise(&symbolic, &matrix).expect("factor");
@@ -133,7 +139,13 @@ mod tests {
             for (got, expected) in solution.iter().zip(x) {
                 assert!((got - expected).abs() < 1e-13, "{kind:?} {d}: {solution:?}");
             }
-            assert_eq!(factor.inertia(), Inertia { positive: 4 - negative, negative });
+            assert_eq!(
+                factor.inertia(),
+                Inertia {
+                    positive: 4 - negative,
+                    negative
+                }
+            );
             // The product of the pivots is the determinant.
             let determinant: f64 = factor.pivots().iter().product();
             let by_elimination = determinant_by_elimination(d);
@@ -142,7 +154,12 @@ mod tests {
     }
 
     fn determinant_by_elimination(d: f64) -> f64 {
-        let mut a = [[4.0, 1.0, 0.0, 2.0], [1.0, 5.0, 3.0, 0.0], [0.0, 3.0, d, 1.0], [2.0, 0.0, 1.0, 7.0]];
+        let mut a = [
+            [4.0, 1.0, 0.0, 2.0],
+            [1.0, 5.0, 3.0, 0.0],
+            [0.0, 3.0, d, 1.0],
+            [2.0, 0.0, 1.0, 7.0],
+        ];
         let mut determinant = 1.0;
         for k in 0..4 {
             determinant *= a[k][k];
@@ -160,9 +177,14 @@ mod tests {
     fn llt_refuses_an_indefinite_matrix_and_recovers() {
         let matrix = four_by_four(6.0);
         let symbolic = Arc::new(Symbolic::analyse(matrix.pattern().clone()).expect("analysis"));
-        let mut factor = FactorKind::Llt.factorise(&symbolic, &matrix).expect("factor");
+        let mut factor = FactorKind::Llt
+            .factorise(&symbolic, &matrix)
+            .expect("factor");
         let refused = factor.refactorise(&four_by_four(-6.0));
-        assert!(matches!(refused, Err(FactorError::NotPositiveDefinite { .. })));
+        assert!(matches!(
+            refused,
+            Err(FactorError::NotPositiveDefinite { .. })
+        ));
         factor.refactorise(&matrix).expect("factor");
         let mut solution = product(6.0, [1.0; 4]);
         factor.solve_in_place(&mut solution);
@@ -171,7 +193,13 @@ mod tests {
 
     #[test]
     fn patterns_are_checked() {
-        assert!(matches!(Pattern::new(vec![0, 1], vec![1]), Err(PatternError::Rows { column: 0 })));
-        assert!(matches!(Pattern::new(vec![0, 2], vec![0]), Err(PatternError::ColumnStarts { .. })));
+        assert!(matches!(
+            Pattern::new(vec![0, 1], vec![1]),
+            Err(PatternError::Rows { column: 0 })
+        ));
+        assert!(matches!(
+            Pattern::new(vec![0, 2], vec![0]),
+            Err(PatternError::ColumnStarts { .. })
+        ));
     }
 }

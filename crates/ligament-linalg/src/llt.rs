@@ -25,9 +25,14 @@ impl Llt {
         let request = structure
             .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
             .or(structure.solve_in_place_scratch::<f64>(1, Par::Seq));
-        let workspace = MemBuffer::try_new(request)
-            .map_err(|_| FactorError::OutOfMemory { bytes: request.unaligned_bytes_required() })?;
-        Ok(Self { values: reserve_values(structure.len_val())?, symbolic, workspace })
+        let workspace = MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory {
+            bytes: request.unaligned_bytes_required(),
+        })?;
+        Ok(Self {
+            values: reserve_values(structure.len_val())?,
+            symbolic,
+            workspace,
+        })
     }
 }
 
@@ -44,9 +49,9 @@ impl Factorisation for Llt {
         );
         match outcome {
             Ok(_) => Ok(()),
-            Err(LltError::NonPositivePivot { index }) => {
-                Err(FactorError::NotPositiveDefinite { unknown: self.symbolic.unknown_of_row(index) })
-            }
+            Err(LltError::NonPositivePivot { index }) => Err(FactorError::NotPositiveDefinite {
+                unknown: self.symbolic.unknown_of_row(index),
+            }),
         }
     }
 

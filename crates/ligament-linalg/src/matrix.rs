@@ -39,11 +39,15 @@ impl Pattern {
                 return Err(PatternError::ColumnStarts { column });
             }
             let entries = &rows[ends[0]..ends[1]];
-            if entries.last() != Some(&column) || entries.windows(2).any(|pair| pair[0] >= pair[1]) {
+            if entries.last() != Some(&column) || entries.windows(2).any(|pair| pair[0] >= pair[1])
+            {
                 return Err(PatternError::Rows { column });
             }
         }
-        Ok(Self { column_starts, rows })
+        Ok(Self {
+            column_starts,
+            rows,
+        })
     }
 
     /// Number of rows and columns n.

@@ -6,7 +6,8 @@ use faer::Side;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
@@ -30,12 +31,18 @@ impl Symbolic {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let cholesky =
-            factorize_symbolic_cholesky(symbolic_view(&pattern), Side::Upper, SymmetricOrdering::Amd, parameters)
-                .map_err(|error| match error {
-                    FaerError::IndexOverflow => FactorError::IndexOverflow,
-                    _ => FactorError::OutOfMemory { bytes: size_of::<usize>() * pattern.n_entries() },
-                })?;
+        let cholesky = factorize_symbolic_cholesky(
+            symbolic_view(&pattern),
+            Side::Upper,
+            SymmetricOrdering::Amd,
+            parameters,
+        )
+        .map_err(|error| match error {
+            FaerError::IndexOverflow => FactorError::IndexOverflow,
+            _ => FactorError::OutOfMemory {
+                bytes: size_of::<usize>() * pattern.n_entries(),
+            },
+        })?;
         Ok(Self { pattern, cholesky })
     }
 
@@ -57,7 +64,9 @@ impl Symbolic {
 
     /// Index in the matrix of a row of the factor.
     pub(crate) fn unknown_of_row(&self, row: usize) -> usize {
-        self.cholesky.perm().map_or(row, |permutation| permutation.arrays().0[row])
+        self.cholesky
+            .perm()
+            .map_or(row, |permutation| permutation.arrays().0[row])
     }
 
     /// Diagonal of the factor's values in the order of the matrix, shape (n).
@@ -67,7 +76,8 @@ impl Symbolic {
             let factor = SupernodalLltRef::new(structure, values);
             for supernode in (0..structure.n_supernodes()).map(|s| factor.supernode(s)) {
                 for column in 0..supernode.val().ncols() {
-                    diagonal[self.unknown_of_row(supernode.start() + column)] = supernode.val()[(column, column)];
+                    diagonal[self.unknown_of_row(supernode.start() + column)] =
+                        supernode.val()[(column, column)];
                 }
             }
         }
@@ -83,7 +93,11 @@ fn symbolic_view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
 /// Memory of `count` zeros, or an error instead of an abort.
 pub(crate) fn reserve_values(count: usize) -> Result<Vec<f64>, FactorError> {
     let mut values = Vec::new();
-    values.try_reserve_exact(count).map_err(|_| FactorError::OutOfMemory { bytes: count * size_of::<f64>() })?;
+    values
+        .try_reserve_exact(count)
+        .map_err(|_| FactorError::OutOfMemory {
+            bytes: count * size_of::<f64>(),
+        })?;
     values.resize(count, 0.0);
     Ok(values)
 }

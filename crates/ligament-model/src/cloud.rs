@@ -36,22 +36,46 @@ impl PointCloud {
     ///
     /// `material_of_cell` (n_cells) holds the index of each cell's material. A point at an interface takes its share
     /// of volume from the cells of either side.
-    pub fn from_mesh(mesh: &Mesh, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> Self {
+    pub fn from_mesh(
+        mesh: &Mesh,
+        thickness: f64,
+        material_of_cell: &[u32],
+        n_materials: usize,
+    ) -> Self {
         let origin = middle_of_bounding_box(&mesh.positions);
-        let positions: Vec<[f64; 2]> = mesh.positions.iter().map(|p| [p[0] - origin[0], p[1] - origin[1]]).collect();
+        let positions: Vec<[f64; 2]> = mesh
+            .positions
+            .iter()
+            .map(|p| [p[0] - origin[0], p[1] - origin[1]])
+            .collect();
         let mut material_volumes = vec![0.0; positions.len() * n_materials];
         for (cell, &material) in mesh.cells.iter().zip(material_of_cell) {
             let corners = cell.corners();
             let volume_of_corner = corner_area(cell, &positions) * thickness;
             for &corner in corners {
-                material_volumes[corner as usize * n_materials + material as usize] += volume_of_corner;
+                material_volumes[corner as usize * n_materials + material as usize] +=
+                    volume_of_corner;
             }
         }
-        let volumes: Vec<f64> = material_volumes.chunks(n_materials).map(|shares| shares.iter().sum()).collect();
-        let material_shares =
-            material_volumes.iter().enumerate().map(|(k, volume)| volume / volumes[k / n_materials]).collect();
+        let volumes: Vec<f64> = material_volumes
+            .chunks(n_materials)
+            .map(|shares| shares.iter().sum())
+            .collect();
+        let material_shares = material_volumes
+            .iter()
+            .enumerate()
+            .map(|(k, volume)| volume / volumes[k / n_materials])
+            .collect();
         let spacing = nearest_neighbour_distances(&positions);
-        Self { positions, origin, thickness, volumes, spacing, n_materials, material_shares }
+        Self {
+            positions,
+            origin,
+            thickness,
+            volumes,
+            spacing,
+            n_materials,
+            material_shares,
+        }
     }
 
     /// Number of points.
@@ -76,7 +100,11 @@ impl PointCloud {
 
     /// Volume-weighted mean of a property of the materials (n_materials) at a point.
     pub fn mean_property(&self, point: usize, property: &[f64]) -> f64 {
-        self.shares(point).iter().zip(property).map(|(share, value)| share * value).sum()
+        self.shares(point)
+            .iter()
+            .zip(property)
+            .map(|(share, value)| share * value)
+            .sum()
     }
 
     /// The point nearest to a position of the mesh file (the one with the smallest number where several are).
@@ -86,9 +114,13 @@ impl PointCloud {
     /// Panics if there is no point at all, which no mesh with a cell gives.
     pub fn nearest_point(&self, position: [f64; 2]) -> u32 {
         let target = self.local(position);
-        let squared_distance = |p: &[f64; 2]| (p[0] - target[0]).powi(2) + (p[1] - target[1]).powi(2);
+        let squared_distance =
+            |p: &[f64; 2]| (p[0] - target[0]).powi(2) + (p[1] - target[1]).powi(2);
         (0..self.len())
-            .min_by(|&i, &j| squared_distance(&self.positions[i]).total_cmp(&squared_distance(&self.positions[j])))
+            .min_by(|&i, &j| {
+                squared_distance(&self.positions[i])
+                    .total_cmp(&squared_distance(&self.positions[j]))
+            })
             .expect("a cloud has points") as u32
     }
 
@@ -112,14 +144,26 @@ fn middle_of_bounding_box(positions: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|axis| {
         let (lower, upper) = positions
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| (lower.min(p[axis]), upper.max(p[axis])));
-        if lower <= upper { 0.5 * (lower + upper) } else { 0.0 }
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| {
+                (lower.min(p[axis]), upper.max(p[axis]))
+            });
+        if lower <= upper {
+            0.5 * (lower + upper)
+        } else {
+            0.0
+        }
     })
 }
 
 /// A search tree over the points.
 pub(crate) fn search_tree(positions: &[[f64; 2]]) -> RTree<NumberedPoint> {
-    RTree::bulk_load(positions.iter().enumerate().map(|(number, &p)| GeomWithData::new(p, number as u32)).collect())
+    RTree::bulk_load(
+        positions
+            .iter()
+            .enumerate()
+            .map(|(number, &p)| GeomWithData::new(p, number as u32))
+            .collect(),
+    )
 }
 
 /// Distance of two points, m; the same bits whichever comes first.
@@ -135,7 +179,9 @@ fn nearest_neighbour_distances(positions: &[[f64; 2]]) -> Vec<f64> {
         .map(|(point, &position)| {
             tree.nearest_neighbor_iter(position)
                 .find(|neighbour| neighbour.data as usize != point)
-                .map_or(f64::INFINITY, |neighbour| distance(position, *neighbour.geom()))
+                .map_or(f64::INFINITY, |neighbour| {
+                    distance(position, *neighbour.geom())
+                })
         })
         .collect()
 }

@@ -16,7 +16,9 @@ pub struct Horizons {
 impl Horizons {
     /// h_i = lambda dmin_i (NHPD section 2.1): `factor` lambda >= 1 times the distance to the nearest point, (n_points), m.
     pub fn from_spacing(spacing: &[f64], factor: f64) -> Self {
-        Self { radius: spacing.iter().map(|nearest| factor * nearest).collect() }
+        Self {
+            radius: spacing.iter().map(|nearest| factor * nearest).collect(),
+        }
     }
 
     /// Whether something at this distance from the point lies in the point's horizon.

@@ -32,7 +32,9 @@ impl Material {
         let (young, poisson) = (self.young, self.poisson);
         match plane {
             Plane::Stress => young / (2.0 * (1.0 - poisson * poisson)),
-            Plane::Strain => young * (1.0 - poisson) / (2.0 * (1.0 + poisson) * (1.0 - 2.0 * poisson)),
+            Plane::Strain => {
+                young * (1.0 - poisson) / (2.0 * (1.0 + poisson) * (1.0 - 2.0 * poisson))
+            }
         }
     }
 
@@ -66,8 +68,13 @@ mod tests {
     /// Energies against 1/2 sigma : eps with sigma from the inverse of the compliance, in both planes.
     #[test]
     fn strain_energies_agree_with_hookes_law() {
-        let material =
-            Material { name: String::new(), young: 7.0, poisson: 0.3, tensile_strength: None, density: None };
+        let material = Material {
+            name: String::new(),
+            young: 7.0,
+            poisson: 0.3,
+            tensile_strength: None,
+            density: None,
+        };
         let (young, poisson) = (material.young, material.poisson);
         for plane in [Plane::Stress, Plane::Strain] {
             // Plane strain is plane stress with E/(1 - nu^2) and nu/(1 - nu).
@@ -79,7 +86,9 @@ mod tests {
                 let c = e / (1.0 - n * n);
                 0.5 * (c * (ex + n * ey) * ex + c * (ey + n * ex) * ey)
             };
-            assert!((material.uniaxial_strain_energy(plane) / energy(1.0, 0.0) - 1.0).abs() < 1e-14);
+            assert!(
+                (material.uniaxial_strain_energy(plane) / energy(1.0, 0.0) - 1.0).abs() < 1e-14
+            );
             assert!((material.biaxial_strain_energy(plane) / energy(1.0, 1.0) - 1.0).abs() < 1e-14);
         }
         // Pure shear is tension and compression of half the size along the diagonals.

@@ -37,7 +37,10 @@ mod tests {
     #[test]
     fn same_bits_for_one_and_three_threads() {
         let sum_with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("pool");
             pool.install(|| ordered_sum(50_000, |i| (i as f64 * 0.37).sin()))
         };
         assert_eq!(sum_with(1).to_bits(), sum_with(3).to_bits());

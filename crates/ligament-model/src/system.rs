@@ -25,17 +25,31 @@ pub struct BondSystem {
 
 impl BondSystem {
     /// Puts the results of the earlier stages together; all arrays are over the bonds of `bonds`.
-    pub fn new(cloud: PointCloud, bonds: BondSet, stiffness: &BondStiffness, correction: &Correction) -> Self {
-        let weight: Vec<f64> =
-            correction.domain_factor.iter().zip(&correction.length_factor).map(|(omega, alpha)| omega * alpha).collect();
+    pub fn new(
+        cloud: PointCloud,
+        bonds: BondSet,
+        stiffness: &BondStiffness,
+        correction: &Correction,
+    ) -> Self {
+        let weight: Vec<f64> = correction
+            .domain_factor
+            .iter()
+            .zip(&correction.length_factor)
+            .map(|(omega, alpha)| omega * alpha)
+            .collect();
         let factor = |bond: usize| {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
             weight[bond] * a * b
         };
-        let over_bonds = |rigidity: &dyn Fn(usize) -> f64| (0..bonds.len()).map(rigidity).collect::<Vec<f64>>();
+        let over_bonds =
+            |rigidity: &dyn Fn(usize) -> f64| (0..bonds.len()).map(rigidity).collect::<Vec<f64>>();
         Self {
-            axial_rigidity: over_bonds(&|bond| factor(bond) * stiffness.axial[bond] * bonds.length[bond]),
-            shear_rigidity: over_bonds(&|bond| factor(bond) * stiffness.shear[bond] * bonds.length[bond]),
+            axial_rigidity: over_bonds(&|bond| {
+                factor(bond) * stiffness.axial[bond] * bonds.length[bond]
+            }),
+            shear_rigidity: over_bonds(&|bond| {
+                factor(bond) * stiffness.shear[bond] * bonds.length[bond]
+            }),
             rotational_rigidity: over_bonds(&|bond| factor(bond) * stiffness.rotational[bond]),
             weight,
             bonds,
@@ -57,6 +71,7 @@ impl BondSystem {
     /// Deformation of a bond for the unknowns of all points, shape (3 n_points).
     pub fn deformation(&self, bond: usize, unknowns: &[f64]) -> BondDeformation {
         let [a, b] = self.bonds.ends[bond].map(|end| UNKNOWNS * end as usize);
-        self.element(bond).deformation(&unknowns[a..a + UNKNOWNS], &unknowns[b..b + UNKNOWNS])
+        self.element(bond)
+            .deformation(&unknowns[a..a + UNKNOWNS], &unknowns[b..b + UNKNOWNS])
     }
 }

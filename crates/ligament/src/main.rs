@@ -7,9 +7,9 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser};
 use ligament::case::CaseFile;
 use ligament::cli::{CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs};
+use ligament::mesh_command::{MeshRequest, make_mesh};
 use ligament::progress::ProgressMode;
 use ligament::{check, inspect, run};
-use ligament::mesh_command::{MeshRequest, make_mesh};
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
@@ -32,7 +32,9 @@ fn main() -> ExitCode {
 fn run(args: RunArgs) -> anyhow::Result<()> {
     set_threads(args.case.threads)?;
     let case = CaseFile::load(&args.case.file, &args.case.overrides)?;
-    let out = args.out.unwrap_or_else(|| Path::new("results").join(case.name()));
+    let out = args
+        .out
+        .unwrap_or_else(|| Path::new("results").join(case.name()));
     let summary = run::run(&case, &out, args.force, ProgressMode::detect(args.quiet))?;
     let mut stdout = io::stdout().lock();
     summary.write(&mut stdout)?;

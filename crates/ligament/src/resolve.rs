@@ -94,25 +94,27 @@ fn surface_cells(
 /// Models with more bonds than this take the size-independent stop rule unless told otherwise.
 const LARGE_MODEL: usize = 1_000_000;
 
-/// Default tolerances of the two stop rules: the paper's for the sum; the mean's is what makes the energies of a large
-/// model as right as the sum does those of a small one.
-const SUM_TOLERANCE: f64 = 1e-3;
-const MEAN_TOLERANCE: f64 = 1e-7;
-
 /// Stop rule and limit of the domain correction for a model of so many bonds.
 pub fn sweeps(case: &CaseFile, n_bonds: usize) -> Sweeps {
     let correction = &case.case.correction;
-    let by_sum = match correction.rule {
-        CorrectionRule::Auto => n_bonds <= LARGE_MODEL,
-        CorrectionRule::Sum => true,
-        CorrectionRule::Mean => false,
+    let rule = match correction.rule {
+        CorrectionRule::Auto if n_bonds > LARGE_MODEL => CorrectionRule::Mean,
+        CorrectionRule::Auto => CorrectionRule::Sum,
+        rule => rule,
     };
-    let stop = if by_sum {
-        StopRule::Sum(correction.tolerance.unwrap_or(SUM_TOLERANCE))
+    let tolerance = correction
+        .tolerance
+        .or(rule.default_tolerance())
+        .unwrap_or_default();
+    let stop = if rule == CorrectionRule::Mean {
+        StopRule::Mean(tolerance)
     } else {
-        StopRule::Mean(correction.tolerance.unwrap_or(MEAN_TOLERANCE))
+        StopRule::Sum(tolerance)
     };
-    Sweeps { stop, limit: correction.max_sweeps as usize }
+    Sweeps {
+        stop,
+        limit: correction.max_sweeps as usize,
+    }
 }
 
 /// The pre-cracks.

@@ -8,7 +8,11 @@ use crate::history::{Notice, Observer, ObserverError, StepRecord, Termination, V
 use crate::state::State;
 
 /// Solves the problem at load factor one; no bond breaks.
-pub fn run(problem: &Problem<'_>, energy_tolerance: f64, observer: &mut dyn Observer) -> Result<Outcome, SetupError> {
+pub fn run(
+    problem: &Problem<'_>,
+    energy_tolerance: f64,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
     let mut equilibrium = Equilibrium::new(problem.system, problem.boundary, energy_tolerance)?;
     let start = begin(problem, &mut equilibrium, &[], observer)?;
     let mut history = Vec::new();
@@ -27,9 +31,21 @@ pub fn run(problem: &Problem<'_>, energy_tolerance: f64, observer: &mut dyn Obse
             }
         };
         energies.add_work(problem, &state, &balanced);
-        let counters =
-            StepCounters { step, solves: equilibrium.costs().solves - solves, at_rest: true, ..Default::default() };
-        let record = step_record(problem, &state, &balanced, &energies, &start.fragments, &[], counters);
+        let counters = StepCounters {
+            step,
+            solves: equilibrium.costs().solves - solves,
+            at_rest: true,
+            ..Default::default()
+        };
+        let record = step_record(
+            problem,
+            &state,
+            &balanced,
+            &energies,
+            &start.fragments,
+            &[],
+            counters,
+        );
         let view = View {
             system: problem.system,
             state: &state,
@@ -75,36 +91,70 @@ pub(super) fn begin(
     if let Some(first) = holds.first() {
         observer.notice(&came_loose(0, &fragments, &holds, first.fragment))?;
     }
-    let mut probe = State { load_factor: 1.0, ..unloaded.clone() };
+    let mut probe = State {
+        load_factor: 1.0,
+        ..unloaded.clone()
+    };
     let balanced = match equilibrium.balance(&mut probe, &mut Unobserved)? {
         Ok(balanced) => balanced,
         Err(_) => {
             let (elastic_stiffness, first_break, stability) = (f64::NAN, None, None);
-            return Ok(Start { unloaded, fragments, elastic_stiffness, first_break, stability });
+            return Ok(Start {
+                unloaded,
+                fragments,
+                elastic_stiffness,
+                first_break,
+                stability,
+            });
         }
     };
     if !balanced.mechanisms.is_empty() {
         let degrees_of_freedom = balanced.mechanisms.clone();
-        observer.notice(&Notice::Mechanisms { step: 0, degrees_of_freedom })?;
+        observer.notice(&Notice::Mechanisms {
+            step: 0,
+            degrees_of_freedom,
+        })?;
         unloaded.held.clone_from(&probe.held);
     }
-    let indefinite = problem.system.shear_rigidity.iter().any(|&rigidity| rigidity < 0.0);
-    let stability = if indefinite { equilibrium.stability(&probe)? } else { None };
+    let indefinite = problem
+        .system
+        .shear_rigidity
+        .iter()
+        .any(|&rigidity| rigidity < 0.0);
+    let stability = if indefinite {
+        equilibrium.stability(&probe)?
+    } else {
+        None
+    };
     if let Some(Stability { negative, expected }) = stability
         && negative != expected
     {
         observer.notice(&Notice::Unstable { negative, expected })?;
     }
     let counters = StepCounters::default();
-    let at_one =
-        step_record(problem, &probe, &balanced, &Energies::default(), &fragments, critical_stretch, counters);
-    let first_break = first_break(&probe, &balanced, critical_stretch).map(|load_factor| LoadPoint {
-        load_factor,
-        displacement: at_one.displacement * load_factor,
-        reaction: at_one.reaction * load_factor,
-    });
+    let at_one = step_record(
+        problem,
+        &probe,
+        &balanced,
+        &Energies::default(),
+        &fragments,
+        critical_stretch,
+        counters,
+    );
+    let first_break =
+        first_break(&probe, &balanced, critical_stretch).map(|load_factor| LoadPoint {
+            load_factor,
+            displacement: at_one.displacement * load_factor,
+            reaction: at_one.reaction * load_factor,
+        });
     let elastic_stiffness = at_one.reaction / at_one.displacement;
-    Ok(Start { unloaded, fragments, elastic_stiffness, first_break, stability })
+    Ok(Start {
+        unloaded,
+        fragments,
+        elastic_stiffness,
+        first_break,
+        stability,
+    })
 }
 
 /// Load factor of the first breakage: with linear bonds the inverse of the largest s/s_0 at load factor one.
@@ -123,7 +173,10 @@ pub(super) fn came_loose(
     loose.dedup();
     Notice::CameLoose {
         step,
-        points: loose.iter().map(|&fragment| fragments.points[fragment as usize].len()).sum(),
+        points: loose
+            .iter()
+            .map(|&fragment| fragments.points[fragment as usize].len())
+            .sum(),
         motions: holds.len(),
         first: fragments.points[first_fragment as usize][0],
     }

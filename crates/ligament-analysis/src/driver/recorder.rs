@@ -44,7 +44,13 @@ pub struct LoadPoint {
 impl Outcome {
     /// The load step with the largest reaction.
     pub fn peak(&self) -> Option<LoadPoint> {
-        let largest = self.history.iter().reduce(|best, step| if step.reaction > best.reaction { step } else { best })?;
+        let largest = self.history.iter().reduce(|best, step| {
+            if step.reaction > best.reaction {
+                step
+            } else {
+                best
+            }
+        })?;
         Some(largest.into())
     }
 
@@ -67,7 +73,11 @@ impl Outcome {
 
 impl From<&StepRecord> for LoadPoint {
     fn from(step: &StepRecord) -> Self {
-        Self { displacement: step.displacement, reaction: step.reaction, load_factor: step.load_factor }
+        Self {
+            displacement: step.displacement,
+            reaction: step.reaction,
+            load_factor: step.load_factor,
+        }
     }
 }
 
@@ -118,7 +128,10 @@ impl Energies {
             .iter()
             .map(|(bond, before)| {
                 let bond = *bond as usize;
-                problem.system.element(bond).mutual_energy(before, &balanced.deformations[bond])
+                problem
+                    .system
+                    .element(bond)
+                    .mutual_energy(before, &balanced.deformations[bond])
             })
             .sum::<f64>();
     }
@@ -170,7 +183,11 @@ pub(super) fn step_record(
         fragments: fragments.points.len(),
         at_rest: counters.at_rest,
         group_forces: group_forces(problem, internal),
-        probes: problem.probes.iter().map(|probe| probe.reading.value(problem.system, state, balanced)).collect(),
+        probes: problem
+            .probes
+            .iter()
+            .map(|probe| probe.reading.value(problem.system, state, balanced))
+            .collect(),
     }
 }
 

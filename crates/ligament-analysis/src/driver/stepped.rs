@@ -57,9 +57,15 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let mut equilibrium = Equilibrium::new(problem.system, problem.boundary, settings.energy_tolerance)?;
-    let Start { unloaded, fragments, elastic_stiffness, first_break, stability } =
-        begin(problem, &mut equilibrium, critical_stretch, observer)?;
+    let mut equilibrium =
+        Equilibrium::new(problem.system, problem.boundary, settings.energy_tolerance)?;
+    let Start {
+        unloaded,
+        fragments,
+        elastic_stiffness,
+        first_break,
+        stability,
+    } = begin(problem, &mut equilibrium, critical_stretch, observer)?;
     let load_factors = refined(settings, first_break);
     let mut path = Path {
         problem,
@@ -85,22 +91,46 @@ pub fn run(
     }
     let costs = *path.equilibrium.costs();
     let Path { history, state, .. } = path;
-    Ok(Outcome { history, state, termination, elastic_stiffness, first_break, stability, costs })
+    Ok(Outcome {
+        history,
+        state,
+        termination,
+        elastic_stiffness,
+        first_break,
+        stability,
+        costs,
+    })
 }
 
 /// The load factors with the step of the first breakage divided.
 fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f64> {
     let factors = &settings.load_factors;
-    let (parts, Some(LoadPoint { load_factor: first, .. })) = (settings.refine_first_break, first_break) else {
+    let (
+        parts,
+        Some(LoadPoint {
+            load_factor: first, ..
+        }),
+    ) = (settings.refine_first_break, first_break)
+    else {
         return factors.clone();
     };
-    let Some(divided) = factors.iter().position(|&factor| factor > first).filter(|_| parts > 0) else {
+    let Some(divided) = factors
+        .iter()
+        .position(|&factor| factor > first)
+        .filter(|_| parts > 0)
+    else {
         return factors.clone();
     };
     let end = factors[divided];
     let inner = (0..=parts).map(|part| first + (end - first) * part as f64 / parts as f64);
-    let before = factors[..divided].iter().copied().filter(|&factor| factor < first);
-    before.chain(inner).chain(factors[divided + 1..].iter().copied()).collect()
+    let before = factors[..divided]
+        .iter()
+        .copied()
+        .filter(|&factor| factor < first);
+    before
+        .chain(inner)
+        .chain(factors[divided + 1..].iter().copied())
+        .collect()
 }
 
 /// The run on its way.
@@ -122,10 +152,17 @@ struct Path<'a> {
 
 impl Path<'_> {
     /// One load step; tells why the run ends, if it does.
-    fn load_step(&mut self, step: usize, load_factor: f64) -> Result<Option<Termination>, SetupError> {
+    fn load_step(
+        &mut self,
+        step: usize,
+        load_factor: f64,
+    ) -> Result<Option<Termination>, SetupError> {
         self.state.load_factor = load_factor;
         let solves_before = self.equilibrium.costs().solves;
-        let mut counters = StepCounters { step, ..Default::default() };
+        let mut counters = StepCounters {
+            step,
+            ..Default::default()
+        };
         let mut just_broken = Vec::new();
         loop {
             let round = counters.rounds;
@@ -136,8 +173,12 @@ impl Path<'_> {
             };
             self.account(step, &just_broken, &balanced)?;
             let start = Instant::now();
-            let next =
-                next_to_break(&self.settings.rule, &balanced.deformations, self.critical_stretch, &self.state.intact);
+            let next = next_to_break(
+                &self.settings.rule,
+                &balanced.deformations,
+                self.critical_stretch,
+                &self.state.intact,
+            );
             self.equilibrium.count_bond_work(start);
             counters.at_rest = next.is_empty();
             counters.solves = self.equilibrium.costs().solves - solves_before;
@@ -159,10 +200,14 @@ impl Path<'_> {
         balanced: &Balanced,
     ) -> Result<(), SetupError> {
         self.energies.add_work(self.problem, &self.state, balanced);
-        self.energies.add_released(self.problem, just_broken, balanced);
+        self.energies
+            .add_released(self.problem, just_broken, balanced);
         if !balanced.mechanisms.is_empty() {
             let degrees_of_freedom = balanced.mechanisms.clone();
-            self.observer.notice(&Notice::Mechanisms { step, degrees_of_freedom })?;
+            self.observer.notice(&Notice::Mechanisms {
+                step,
+                degrees_of_freedom,
+            })?;
         }
         Ok(())
     }
@@ -178,18 +223,34 @@ impl Path<'_> {
         for &bond in bonds {
             self.state.intact[bond as usize] = false;
             self.broken += 1;
-            let ratio = balanced.deformations[bond as usize].stretch / self.critical_stretch[bond as usize];
+            let ratio =
+                balanced.deformations[bond as usize].stretch / self.critical_stretch[bond as usize];
             let (order, load_factor) = (self.broken, self.state.load_factor);
-            records.push(BreakRecord { order, step: counters.step, round: counters.rounds, load_factor, bond, ratio });
+            records.push(BreakRecord {
+                order,
+                step: counters.step,
+                round: counters.rounds,
+                load_factor,
+                bond,
+                ratio,
+            });
         }
         self.observer.broke(&records)?;
         let (fragments, holds) = self.equilibrium.bonds_changed(&mut self.state);
         self.fragments = fragments;
         if let Some(first) = holds.first() {
             self.collapsed |= self.load_came_loose(&holds);
-            self.observer.notice(&came_loose(counters.step, &self.fragments, &holds, first.fragment))?;
+            self.observer.notice(&came_loose(
+                counters.step,
+                &self.fragments,
+                &holds,
+                first.fragment,
+            ))?;
         }
-        Ok(bonds.iter().map(|&bond| (bond, balanced.deformations[bond as usize])).collect())
+        Ok(bonds
+            .iter()
+            .map(|&bond| (bond, balanced.deformations[bond as usize]))
+            .collect())
     }
 
     /// Whether a given force acts on a part that nothing holds any more.
@@ -197,7 +258,9 @@ impl Path<'_> {
         let control = &self.problem.boundary.control;
         control.kind == ControlKind::Force
             && control.points.iter().any(|&point| {
-                holds.iter().any(|hold| hold.fragment == self.fragments.of_point[point as usize])
+                holds
+                    .iter()
+                    .any(|hold| hold.fragment == self.fragments.of_point[point as usize])
             })
     }
 
@@ -215,15 +278,25 @@ impl Path<'_> {
             return Some(Termination::WallTime { seconds });
         }
         let exhausted = !counters.at_rest && counters.rounds >= self.settings.round_limit;
-        exhausted.then_some(Termination::NotAtRest { step: counters.step, rounds: counters.rounds })
+        exhausted.then_some(Termination::NotAtRest {
+            step: counters.step,
+            rounds: counters.rounds,
+        })
     }
 
     /// What ends the run after a load step at rest.
     fn end_of_step(&self) -> Option<Termination> {
         let last = self.history.last()?;
-        let peak = self.history.iter().map(|step| step.reaction).fold(0.0, f64::max);
+        let peak = self
+            .history
+            .iter()
+            .map(|step| step.reaction)
+            .fold(0.0, f64::max);
         let stop = &self.settings.stop;
-        if let Some(displacement) = stop.displacement.filter(|&wanted| last.displacement >= wanted) {
+        if let Some(displacement) = stop
+            .displacement
+            .filter(|&wanted| last.displacement >= wanted)
+        {
             return Some(Termination::DisplacementReached { displacement });
         }
         if last.broken_bonds == 0 {
@@ -232,7 +305,9 @@ impl Path<'_> {
         if last.reaction <= NO_LOAD * peak {
             return Some(Termination::FellApart);
         }
-        let fraction = stop.load_fraction.filter(|&fraction| last.reaction <= fraction * peak)?;
+        let fraction = stop
+            .load_fraction
+            .filter(|&fraction| last.reaction <= fraction * peak)?;
         Some(Termination::LoadFraction { fraction })
     }
 
@@ -279,7 +354,11 @@ mod tests {
         SteppedSettings {
             load_factors: load_factors.to_vec(),
             refine_first_break,
-            rule: BreakingRule { order: BreakingOrder::Excess, bonds_per_iteration: 5, tie_tolerance: 1e-8 },
+            rule: BreakingRule {
+                order: BreakingOrder::Excess,
+                bonds_per_iteration: 5,
+                tie_tolerance: 1e-8,
+            },
             energy_tolerance: 1e-4,
             round_limit: 100,
             stop: StopRules::default(),
@@ -288,9 +367,19 @@ mod tests {
 
     #[test]
     fn only_the_step_of_the_first_breakage_is_divided() {
-        let first = Some(LoadPoint { displacement: 0.0, reaction: 0.0, load_factor: 0.3 });
-        assert_eq!(refined(&settings(&[0.25, 0.5, 1.0], 2), first), [0.25, 0.3, 0.4, 0.5, 1.0]);
-        assert_eq!(refined(&settings(&[0.25, 0.5, 1.0], 0), first), [0.25, 0.5, 1.0]);
+        let first = Some(LoadPoint {
+            displacement: 0.0,
+            reaction: 0.0,
+            load_factor: 0.3,
+        });
+        assert_eq!(
+            refined(&settings(&[0.25, 0.5, 1.0], 2), first),
+            [0.25, 0.3, 0.4, 0.5, 1.0]
+        );
+        assert_eq!(
+            refined(&settings(&[0.25, 0.5, 1.0], 0), first),
+            [0.25, 0.5, 1.0]
+        );
         assert_eq!(refined(&settings(&[0.1, 0.2], 3), first), [0.1, 0.2]);
         assert_eq!(refined(&settings(&[0.3, 0.5], 1), first), [0.3, 0.5]);
     }

@@ -60,7 +60,12 @@ impl BondSet {
 
 /// The entries of `values` for which `keep` is true, in order.
 pub(crate) fn retained<T: Copy>(values: &[T], keep: &[bool]) -> Vec<T> {
-    values.iter().zip(keep).filter(|&(_, &kept)| kept).map(|(&value, _)| value).collect()
+    values
+        .iter()
+        .zip(keep)
+        .filter(|&(_, &kept)| kept)
+        .map(|(&value, _)| value)
+        .collect()
 }
 
 impl Incidence {

@@ -21,7 +21,10 @@ pub struct PreCrack {
 
 /// Which bonds the pre-cracks cut, shape (n_bonds).
 pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
-    let cracks: Vec<PreCrack> = cracks.iter().map(|crack| crack.in_local_coordinates(cloud)).collect();
+    let cracks: Vec<PreCrack> = cracks
+        .iter()
+        .map(|crack| crack.in_local_coordinates(cloud))
+        .collect();
     bonds
         .ends
         .par_iter()
@@ -35,7 +38,9 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
 impl PreCrack {
     /// The same polyline in the coordinates of the cloud.
     pub fn in_local_coordinates(&self, cloud: &PointCloud) -> Self {
-        Self { points: self.points.iter().map(|&p| cloud.local(p)).collect() }
+        Self {
+            points: self.points.iter().map(|&p| cloud.local(p)).collect(),
+        }
     }
 
     /// Whether a point lies on the left of the polyline's first piece (or on its line).
@@ -65,7 +70,11 @@ fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
     let determinant = orient2d(coord(a), coord(b), coord(c));
     // Only the sign is exact; the product of two small determinants may underflow.
-    if determinant == 0.0 { 0.0 } else { determinant.signum() }
+    if determinant == 0.0 {
+        0.0
+    } else {
+        determinant.signum()
+    }
 }
 
 fn is_left(p: [f64; 2], q: [f64; 2], point: [f64; 2]) -> bool {
@@ -83,7 +92,9 @@ mod tests {
     use super::*;
 
     fn crack(points: &[[f64; 2]]) -> PreCrack {
-        PreCrack { points: points.to_vec() }
+        PreCrack {
+            points: points.to_vec(),
+        }
     }
 
     #[test]
@@ -92,14 +103,20 @@ mod tests {
         assert!(slot.cuts([0.3, -0.5], [0.1, 0.5]));
         assert!(slot.cuts([0.1, 0.5], [0.3, -0.5]));
         assert!(!slot.cuts([1.3, -0.5], [1.1, 0.5]));
-        assert!(!slot.cuts([-0.5, 0.0], [0.5, 0.0]), "collinear bonds survive");
+        assert!(
+            !slot.cuts([-0.5, 0.0], [0.5, 0.0]),
+            "collinear bonds survive"
+        );
         assert!(!slot.cuts([0.5, 0.1], [0.6, 2.0]));
     }
 
     #[test]
     fn a_point_on_the_crack_counts_as_left() {
         let slot = crack(&[[-1.0, 0.0], [1.0, 0.0]]);
-        assert!(!slot.cuts([0.0, 0.0], [0.0, 1.0]), "left of the crack is above it");
+        assert!(
+            !slot.cuts([0.0, 0.0], [0.0, 1.0]),
+            "left of the crack is above it"
+        );
         assert!(slot.cuts([0.0, 0.0], [0.0, -1.0]));
         let reversed = crack(&[[1.0, 0.0], [-1.0, 0.0]]);
         assert!(reversed.cuts([0.0, 0.0], [0.0, 1.0]));
@@ -109,7 +126,10 @@ mod tests {
     #[test]
     fn a_touched_tip_survives_and_an_inner_vertex_cuts() {
         let straight = crack(&[[-1.0, 0.0], [0.0, 0.0]]);
-        assert!(!straight.cuts([0.0, -1.0], [0.0, 1.0]), "the bond passes through the tip");
+        assert!(
+            !straight.cuts([0.0, -1.0], [0.0, 1.0]),
+            "the bond passes through the tip"
+        );
         let prolonged = crack(&[[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]);
         assert!(prolonged.cuts([0.0, -1.0], [0.0, 1.0]));
         let closed = crack(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
@@ -119,7 +139,9 @@ mod tests {
     #[test]
     fn the_order_of_the_ends_does_not_matter() {
         let bent = crack(&[[-1.0, -0.2], [0.1, 0.0], [1.0, 0.7]]);
-        let grid: Vec<[f64; 2]> = (-6..=6).flat_map(|i| (-6..=6).map(move |j| [i as f64 / 5.0, j as f64 / 5.0])).collect();
+        let grid: Vec<[f64; 2]> = (-6..=6)
+            .flat_map(|i| (-6..=6).map(move |j| [i as f64 / 5.0, j as f64 / 5.0]))
+            .collect();
         let mut cut = 0;
         for &a in &grid {
             for &b in &grid {

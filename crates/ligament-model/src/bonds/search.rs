@@ -34,26 +34,53 @@ impl BondSet {
     /// Bonds the given pairs (A < B, ascending, each once) whatever their distance.
     pub(crate) fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud, horizons: &Horizons) -> Self {
         let position = |point: u32| cloud.positions[point as usize];
-        let length: Vec<f64> = ends.par_iter().map(|&[a, b]| distance(position(a), position(b))).collect();
+        let length: Vec<f64> = ends
+            .par_iter()
+            .map(|&[a, b]| distance(position(a), position(b)))
+            .collect();
         let direction = ends
             .par_iter()
             .zip(&length)
-            .map(|(&[a, b], l)| [(position(b)[0] - position(a)[0]) / l, (position(b)[1] - position(a)[1]) / l])
+            .map(|(&[a, b], l)| {
+                [
+                    (position(b)[0] - position(a)[0]) / l,
+                    (position(b)[1] - position(a)[1]) / l,
+                ]
+            })
             .collect();
-        let horizon = ends.par_iter().zip(&length).map(|(&pair, &l)| bond_horizon(pair, l, horizons)).collect();
+        let horizon = ends
+            .par_iter()
+            .zip(&length)
+            .map(|(&pair, &l)| bond_horizon(pair, l, horizons))
+            .collect();
         let incidence = Incidence::new(&ends, cloud.len());
-        Self { ends, length, direction, horizon, incidence }
+        Self {
+            ends,
+            length,
+            direction,
+            horizon,
+            incidence,
+        }
     }
 }
 
 /// Whether the query around `point` is the one that records the pair: the lower point does where its horizon holds the
 /// other, else the upper one.
 fn is_recorded_by(point: u32, neighbour: u32, cloud: &PointCloud, horizons: &Horizons) -> bool {
-    let l = distance(cloud.positions[point as usize], cloud.positions[neighbour as usize]);
-    neighbour != point && horizons.contains(point, l) && (point < neighbour || !horizons.contains(neighbour, l))
+    let l = distance(
+        cloud.positions[point as usize],
+        cloud.positions[neighbour as usize],
+    );
+    neighbour != point
+        && horizons.contains(point, l)
+        && (point < neighbour || !horizons.contains(neighbour, l))
 }
 
 fn bond_horizon([a, b]: [u32; 2], length: f64, horizons: &Horizons) -> f64 {
     let (h_a, h_b) = (horizons.radius[a as usize], horizons.radius[b as usize]);
-    if horizons.contains(a, length) && horizons.contains(b, length) { 0.5 * (h_a + h_b) } else { h_a.max(h_b) }
+    if horizons.contains(a, length) && horizons.contains(b, length) {
+        0.5 * (h_a + h_b)
+    } else {
+        h_a.max(h_b)
+    }
 }

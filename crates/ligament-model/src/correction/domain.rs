@@ -86,23 +86,34 @@ pub fn iterate(
         .map(|mode| bond_energy_densities(mode, bonds, stiffness, &length_factor));
     let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
     let mut domain_factor = vec![1.0; bonds.len()];
-    let mut report =
-        CorrectionReport { sweeps: 0, converged: false, last_change: f64::INFINITY, largest_residual: f64::NAN };
+    let mut report = CorrectionReport {
+        sweeps: 0,
+        converged: false,
+        last_change: f64::INFINITY,
+        largest_residual: f64::NAN,
+    };
     while !report.converged && report.sweeps < sweeps.limit {
         let ratios = [0, 1].map(|axis| {
             let energies = point_energies(&densities[axis], &domain_factor, bonds, cloud);
-            target.par_iter().zip(energies).map(|(e, trial)| e / trial).collect::<Vec<f64>>()
+            target
+                .par_iter()
+                .zip(energies)
+                .map(|(e, trial)| e / trial)
+                .collect::<Vec<f64>>()
         });
         let updated: Vec<f64> = (0..bonds.len())
             .into_par_iter()
             .map(|bond| {
                 let ends = bonds.ends[bond].map(|end| end as usize);
-                let [p_x, p_y] = [0, 1].map(|axis: usize| 0.5 * (ratios[axis][ends[0]] + ratios[axis][ends[1]]));
+                let [p_x, p_y] =
+                    [0, 1].map(|axis: usize| 0.5 * (ratios[axis][ends[0]] + ratios[axis][ends[1]]));
                 let [a, b] = bonds.direction[bond];
                 domain_factor[bond] / ((a / p_x).powi(2) + (b / p_y).powi(2)).sqrt()
             })
             .collect();
-        report.last_change = ordered_sum(bonds.len(), |bond| (updated[bond] - domain_factor[bond]).abs());
+        report.last_change = ordered_sum(bonds.len(), |bond| {
+            (updated[bond] - domain_factor[bond]).abs()
+        });
         report.converged = match sweeps.stop {
             StopRule::Sum(tolerance) => report.last_change < tolerance,
             StopRule::Mean(tolerance) => report.last_change < tolerance * bonds.len() as f64,
@@ -111,10 +122,18 @@ pub fn iterate(
         domain_factor = updated;
     }
     report.largest_residual = (0..2)
-        .flat_map(|axis| point_energies(&densities[axis], &domain_factor, bonds, cloud).into_iter().zip(&target))
+        .flat_map(|axis| {
+            point_energies(&densities[axis], &domain_factor, bonds, cloud)
+                .into_iter()
+                .zip(&target)
+        })
         .map(|(energy, e)| (energy / e - 1.0).abs())
         .fold(0.0, f64::max);
-    Correction { length_factor, domain_factor, report }
+    Correction {
+        length_factor,
+        domain_factor,
+        report,
+    }
 }
 
 /// Strain energy density of every point over the continuum's, for each of [`StrainMode::ALL`], shape (4, n_points).
@@ -130,7 +149,11 @@ pub fn energy_ratios(
         let densities = bond_energy_densities(mode, bonds, stiffness, &correction.length_factor);
         let energies = point_energies(&densities, &correction.domain_factor, bonds, cloud);
         let target = target_energies(mode, cloud, materials, plane);
-        energies.iter().zip(target).map(|(energy, e)| energy / e).collect()
+        energies
+            .iter()
+            .zip(target)
+            .map(|(energy, e)| energy / e)
+            .collect()
     })
 }
 
@@ -145,14 +168,20 @@ fn bond_energy_densities(
         .into_par_iter()
         .map(|bond| {
             let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
-            let density = stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
+            let density =
+                stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
             length_factor[bond] * density * bonds.length[bond]
         })
         .collect()
 }
 
 /// (1/4) sum over the neighbours B of Omega V_B times the bond's density (NHPD eq. 12), shape (n_points).
-fn point_energies(densities: &[f64], domain_factor: &[f64], bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
+fn point_energies(
+    densities: &[f64],
+    domain_factor: &[f64],
+    bonds: &BondSet,
+    cloud: &PointCloud,
+) -> Vec<f64> {
     (0..cloud.len() as u32)
         .into_par_iter()
         .map(|point| {
@@ -170,7 +199,17 @@ fn point_energies(densities: &[f64], domain_factor: &[f64], bonds: &BondSet, clo
         .collect()
 }
 
-fn target_energies(mode: StrainMode, cloud: &PointCloud, materials: &[Material], plane: Plane) -> Vec<f64> {
-    let energies: Vec<f64> = materials.iter().map(|material| mode.energy(material, plane)).collect();
-    (0..cloud.len()).map(|point| cloud.mean_property(point, &energies)).collect()
+fn target_energies(
+    mode: StrainMode,
+    cloud: &PointCloud,
+    materials: &[Material],
+    plane: Plane,
+) -> Vec<f64> {
+    let energies: Vec<f64> = materials
+        .iter()
+        .map(|material| mode.energy(material, plane))
+        .collect();
+    (0..cloud.len())
+        .map(|point| cloud.mean_property(point, &energies))
+        .collect()
 }

@@ -13,13 +13,23 @@ pub fn length_factors(bonds: &BondSet) -> Vec<f64> {
     let ranges: Vec<(f64, f64)> = (0..bonds.incidence.n_points() as u32)
         .into_par_iter()
         .map(|point| {
-            let lengths = bonds.incidence.of(point).iter().map(|&bond| bonds.length[bond as usize]);
-            lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), l| (l.min(shortest), l.max(longest)))
+            let lengths = bonds
+                .incidence
+                .of(point)
+                .iter()
+                .map(|&bond| bonds.length[bond as usize]);
+            lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), l| {
+                (l.min(shortest), l.max(longest))
+            })
         })
         .collect();
     let contribution = |point: u32, length: f64| {
         let (shortest, longest) = ranges[point as usize];
-        if longest > shortest { ((shortest - length) / (longest - shortest)).exp() } else { 1.0 }
+        if longest > shortest {
+            ((shortest - length) / (longest - shortest)).exp()
+        } else {
+            1.0
+        }
     };
     bonds
         .ends

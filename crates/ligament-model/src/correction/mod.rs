@@ -43,8 +43,9 @@ impl Correction {
 
     /// Smallest and largest Omega.
     pub fn domain_factor_range(&self) -> (f64, f64) {
-        self.domain_factor
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), &omega| (lower.min(omega), upper.max(omega)))
+        self.domain_factor.iter().fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(lower, upper), &omega| (lower.min(omega), upper.max(omega)),
+        )
     }
 }

@@ -69,7 +69,10 @@ impl BeamBond {
         let (force_x, force_y) = (axial * a - shear * b, axial * b + shear * a);
         let half_moment = -0.5 * shear * self.length;
         let moment = self.rotational_rigidity * deformation.rotation;
-        [[-force_x, -force_y, half_moment - moment], [force_x, force_y, half_moment + moment]]
+        [
+            [-force_x, -force_y, half_moment - moment],
+            [force_x, force_y, half_moment + moment],
+        ]
     }
 
     /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
@@ -85,7 +88,10 @@ impl BeamBond {
 
     /// B^T R of NHPD eq. 3: from the unknowns of A and B to (s, gamma, theta_rel), shape (3, 6).
     fn deformation_gradient(&self) -> Matrix3x6<f64> {
-        let [a, b] = [self.direction[0] / self.length, self.direction[1] / self.length];
+        let [a, b] = [
+            self.direction[0] / self.length,
+            self.direction[1] / self.length,
+        ];
         Matrix3x6::new(
             -a, -b, 0.0, a, b, 0.0, //
             b, -a, -0.5, -b, a, -0.5, //
@@ -115,8 +121,17 @@ mod tests {
 
     /// A rigid motion moves a point by translation + rotation x position, and turns it by the rotation.
     fn rigid_motion(bond: &BeamBond, translation: [f64; 2], rotation: f64) -> Vector6<f64> {
-        let at = |p: [f64; 2]| [translation[0] - rotation * p[1], translation[1] + rotation * p[0], rotation];
-        let b = [2.0 + bond.length * bond.direction[0], -1.0 + bond.length * bond.direction[1]];
+        let at = |p: [f64; 2]| {
+            [
+                translation[0] - rotation * p[1],
+                translation[1] + rotation * p[0],
+                rotation,
+            ]
+        };
+        let b = [
+            2.0 + bond.length * bond.direction[0],
+            -1.0 + bond.length * bond.direction[1],
+        ];
         end_unknowns(&at([2.0, -1.0]), &at(b))
     }
 
@@ -126,12 +141,25 @@ mod tests {
         for shear_sign in [1.0, -1.0] {
             let bond = bond(0.6, shear_sign);
             let eigenvalues = bond.stiffness().symmetric_eigenvalues();
-            assert_eq!(eigenvalues.iter().filter(|value| value.abs() < 1e-12).count(), 3);
-            for (translation, rotation) in [([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0), ([0.3, -0.2], 1.0)] {
+            assert_eq!(
+                eigenvalues
+                    .iter()
+                    .filter(|value| value.abs() < 1e-12)
+                    .count(),
+                3
+            );
+            for (translation, rotation) in
+                [([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0), ([0.3, -0.2], 1.0)]
+            {
                 let u = rigid_motion(&bond, translation, rotation);
                 assert!((bond.stiffness() * u).norm() < 1e-12);
                 let deformation = bond.deformation(&u.as_slice()[..3], &u.as_slice()[3..]);
-                assert!(deformation.stretch.abs() + deformation.shear.abs() + deformation.rotation.abs() < 1e-14);
+                assert!(
+                    deformation.stretch.abs()
+                        + deformation.shear.abs()
+                        + deformation.rotation.abs()
+                        < 1e-14
+                );
             }
         }
     }
@@ -142,7 +170,8 @@ mod tests {
     fn forces_and_stiffness_are_derivatives() {
         let bond = bond(2.1, 1.0);
         let u = Vector6::new(0.3, -0.1, 0.2, 0.5, 0.4, -0.3);
-        let deformation = |u: &Vector6<f64>| bond.deformation(&u.as_slice()[..3], &u.as_slice()[3..]);
+        let deformation =
+            |u: &Vector6<f64>| bond.deformation(&u.as_slice()[..3], &u.as_slice()[3..]);
         let force = |u: &Vector6<f64>| {
             let [a, b] = bond.end_forces(&deformation(u));
             end_unknowns(&a, &b)
@@ -153,10 +182,15 @@ mod tests {
             forward[i] += step;
             let mut backward = u;
             backward[i] -= step;
-            let slope = (bond.energy(&deformation(&forward)) - bond.energy(&deformation(&backward))) / (2.0 * step);
+            let slope = (bond.energy(&deformation(&forward))
+                - bond.energy(&deformation(&backward)))
+                / (2.0 * step);
             assert!((slope - force(&u)[i]).abs() < 1e-10, "force {i}");
             let column = (force(&forward) - force(&backward)) / (2.0 * step);
-            assert!((column - bond.stiffness().column(i)).norm() < 1e-9, "column {i}");
+            assert!(
+                (column - bond.stiffness().column(i)).norm() < 1e-9,
+                "column {i}"
+            );
         }
         assert!(force(&u).norm() > 0.1, "the test must see forces");
     }
@@ -166,7 +200,8 @@ mod tests {
     fn energy_does_not_depend_on_the_orientation() {
         let u = Vector6::new(0.3, -0.1, 0.2, 0.5, 0.4, -0.3);
         let straight = bond(0.4, 1.0);
-        let reference = straight.energy(&straight.deformation(&u.as_slice()[..3], &u.as_slice()[3..]));
+        let reference =
+            straight.energy(&straight.deformation(&u.as_slice()[..3], &u.as_slice()[3..]));
         for turn in [0.3, 1.2, 2.9, -2.0] {
             let (sin, cos) = f64::sin_cos(turn);
             let turned = bond(0.4 + turn, 1.0);

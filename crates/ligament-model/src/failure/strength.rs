@@ -25,13 +25,23 @@ pub fn critical_energy(young: f64, poisson: f64, tensile_strength: f64, plane: P
 ///
 /// A bond between materials takes the smaller e_0 of all that have a share in one of its ends. A bond of which an end is
 /// marked in `no_fail` (n_points) never breaks: s_0 is infinite; so it is where a material has no tensile strength.
-pub fn critical_stretches(system: &BondSystem, materials: &[Material], plane: Plane, no_fail: &[bool]) -> Vec<f64> {
+pub fn critical_stretches(
+    system: &BondSystem,
+    materials: &[Material],
+    plane: Plane,
+    no_fail: &[bool],
+) -> Vec<f64> {
     let energies: Vec<f64> = materials
         .iter()
-        .map(|m| m.tensile_strength.map_or(f64::INFINITY, |f_t| critical_energy(m.young, m.poisson, f_t, plane)))
+        .map(|m| {
+            m.tensile_strength.map_or(f64::INFINITY, |f_t| {
+                critical_energy(m.young, m.poisson, f_t, plane)
+            })
+        })
         .collect();
-    let energy_at: Vec<f64> =
-        (0..system.cloud.len()).map(|point| smallest_energy(&system.cloud, point, &energies)).collect();
+    let energy_at: Vec<f64> = (0..system.cloud.len())
+        .map(|point| smallest_energy(&system.cloud, point, &energies))
+        .collect();
     system
         .bonds
         .ends
@@ -49,6 +59,12 @@ pub fn critical_stretches(system: &BondSystem, materials: &[Material], plane: Pl
 }
 
 fn smallest_energy(cloud: &PointCloud, point: usize, energies: &[f64]) -> f64 {
-    let present = cloud.shares(point).iter().zip(energies).filter(|(share, _)| **share > 0.0);
-    present.map(|(_, &energy)| energy).fold(f64::INFINITY, f64::min)
+    let present = cloud
+        .shares(point)
+        .iter()
+        .zip(energies)
+        .filter(|(share, _)| **share > 0.0);
+    present
+        .map(|(_, &energy)| energy)
+        .fold(f64::INFINITY, f64::min)
 }

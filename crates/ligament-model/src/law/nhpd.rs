@@ -25,16 +25,32 @@ const CENTRAL_FORCE_TOLERANCE: f64 = 1e-9;
 ///
 /// A point at an interface has the volume-weighted mean of its materials' densities; a bond has the mean of its two
 /// ends'. `d` is negative for nu > 1/3 (plane stress) or nu > 1/4 (plane strain).
-pub fn stiffness(bonds: &BondSet, cloud: &PointCloud, materials: &[Material], plane: Plane) -> BondStiffness {
+pub fn stiffness(
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    materials: &[Material],
+    plane: Plane,
+) -> BondStiffness {
     // c H^3 and d H do not depend on the bond.
-    let axial: Vec<f64> = materials.iter().map(|m| axial_constant(m, plane, cloud.thickness)).collect();
-    let bending: Vec<f64> = materials.iter().map(|m| bending_constant(m, plane, cloud.thickness)).collect();
+    let axial: Vec<f64> = materials
+        .iter()
+        .map(|m| axial_constant(m, plane, cloud.thickness))
+        .collect();
+    let bending: Vec<f64> = materials
+        .iter()
+        .map(|m| bending_constant(m, plane, cloud.thickness))
+        .collect();
     let mean = |bond: usize, property: &[f64]| {
         let [a, b] = bonds.ends[bond];
-        0.5 * (cloud.mean_property(a as usize, property) + cloud.mean_property(b as usize, property))
+        0.5 * (cloud.mean_property(a as usize, property)
+            + cloud.mean_property(b as usize, property))
     };
-    let over_bonds =
-        |density: &(dyn Fn(usize) -> f64 + Sync)| (0..bonds.len()).into_par_iter().map(density).collect::<Vec<f64>>();
+    let over_bonds = |density: &(dyn Fn(usize) -> f64 + Sync)| {
+        (0..bonds.len())
+            .into_par_iter()
+            .map(density)
+            .collect::<Vec<f64>>()
+    };
     let d = |bond: usize| mean(bond, &bending) / bonds.horizon[bond];
     BondStiffness {
         axial: over_bonds(&|bond| mean(bond, &axial) / bonds.horizon[bond].powi(3)),

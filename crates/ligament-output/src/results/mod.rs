@@ -78,13 +78,37 @@ impl<'a> ResultWriter<'a> {
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let (system, balanced) = (view.system, view.balanced);
         let bonds = 0..system.bonds.len();
-        let stretch: Vec<f64> = balanced.deformations.iter().map(|deformation| deformation.stretch).collect();
-        let shear: Vec<f64> = balanced.deformations.iter().map(|deformation| deformation.shear).collect();
-        let ratio: Vec<f64> =
-            bonds.clone().map(|bond| view.critical_stretch.get(bond).map_or(0.0, |limit| stretch[bond] / limit)).collect();
-        let state: Vec<i64> = view.state.intact.iter().map(|&intact| i64::from(intact)).collect();
+        let stretch: Vec<f64> = balanced
+            .deformations
+            .iter()
+            .map(|deformation| deformation.stretch)
+            .collect();
+        let shear: Vec<f64> = balanced
+            .deformations
+            .iter()
+            .map(|deformation| deformation.shear)
+            .collect();
+        let ratio: Vec<f64> = bonds
+            .clone()
+            .map(|bond| {
+                view.critical_stretch
+                    .get(bond)
+                    .map_or(0.0, |limit| stretch[bond] / limit)
+            })
+            .collect();
+        let state: Vec<i64> = view
+            .state
+            .intact
+            .iter()
+            .map(|&intact| i64::from(intact))
+            .collect();
         let displacement = point_fields::displacements(view);
-        let lines: Vec<vtu::Cell> = system.bonds.ends.iter().map(|&ends| vtu::Cell::Line(ends)).collect();
+        let lines: Vec<vtu::Cell> = system
+            .bonds
+            .ends
+            .iter()
+            .map(|&ends| vtu::Cell::Line(ends))
+            .collect();
         let grid = UnstructuredGrid {
             points: &self.cells.positions,
             cells: &lines,
@@ -113,12 +137,23 @@ fn time(record: &StepRecord, view: &View<'_>) -> f64 {
 }
 
 impl Observer for ResultWriter<'_> {
-    fn round(&mut self, step: usize, round: usize, load_factor: f64, broken: usize) -> Result<(), ObserverError> {
+    fn round(
+        &mut self,
+        step: usize,
+        round: usize,
+        load_factor: f64,
+        broken: usize,
+    ) -> Result<(), ObserverError> {
         self.tables.enter_round(step, round, load_factor, broken);
         Ok(())
     }
 
-    fn iteration(&mut self, iteration: usize, residual: f64, stored_energy: f64) -> Result<(), ObserverError> {
+    fn iteration(
+        &mut self,
+        iteration: usize,
+        residual: f64,
+        stored_energy: f64,
+    ) -> Result<(), ObserverError> {
         failed(self.tables.iteration(iteration, residual, stored_energy))
     }
 

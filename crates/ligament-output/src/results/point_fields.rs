@@ -78,18 +78,42 @@ pub fn point_grid(path: &Path, cells: &MeshCells, fixed: &FixedFields) -> Result
 }
 
 /// Writes the fields of a state.
-pub(super) fn write(path: &Path, cells: &MeshCells, fixed: &FixedFields, view: &View<'_>) -> Result<(), Error> {
+pub(super) fn write(
+    path: &Path,
+    cells: &MeshCells,
+    fixed: &FixedFields,
+    view: &View<'_>,
+) -> Result<(), Error> {
     let (system, state, balanced) = (view.system, view.state, view.balanced);
     let displacement = displacements(view);
-    let rotation: Vec<f64> = state.displacement.chunks(COMPONENTS).map(|motion| motion[2]).collect();
+    let rotation: Vec<f64> = state
+        .displacement
+        .chunks(COMPONENTS)
+        .map(|motion| motion[2])
+        .collect();
     let damage = fields::damage(system, &state.intact);
     let density = fields::strain_energy_density(system, &state.intact, &balanced.deformations);
-    let external: Vec<f64> = view.boundary.force.iter().map(|force| force * state.load_factor).collect();
-    let reactions =
-        fields::reactions(&balanced.internal.values, &external, |dof| view.boundary.prescribed[dof].is_some());
+    let external: Vec<f64> = view
+        .boundary
+        .force
+        .iter()
+        .map(|force| force * state.load_factor)
+        .collect();
+    let reactions = fields::reactions(&balanced.internal.values, &external, |dof| {
+        view.boundary.prescribed[dof].is_some()
+    });
     let reaction: Vec<[f64; 3]> = reactions.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
-    let fragment: Vec<i64> = view.fragments.of_point.iter().map(|&fragment| i64::from(fragment)).collect();
-    let held: Vec<i64> = state.held.chunks(COMPONENTS).map(|held| i64::from(held.contains(&true))).collect();
+    let fragment: Vec<i64> = view
+        .fragments
+        .of_point
+        .iter()
+        .map(|&fragment| i64::from(fragment))
+        .collect();
+    let held: Vec<i64> = state
+        .held
+        .chunks(COMPONENTS)
+        .map(|held| i64::from(held.contains(&true)))
+        .collect();
     let mut point_fields = vec![
         Field::vector("displacement", &displacement),
         Field::scalar("rotation", &rotation),
@@ -106,11 +130,19 @@ pub(super) fn write(path: &Path, cells: &MeshCells, fixed: &FixedFields, view: &
 
 /// Displacements with three components, as readers expect vectors, shape (n_points).
 pub(super) fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
-    view.state.displacement.chunks(COMPONENTS).map(|motion| [motion[0], motion[1], 0.0]).collect()
+    view.state
+        .displacement
+        .chunks(COMPONENTS)
+        .map(|motion| [motion[0], motion[1], 0.0])
+        .collect()
 }
 
 fn write_grid(path: &Path, cells: &MeshCells, point_fields: &[Field<'_>]) -> Result<(), Error> {
-    let grid =
-        UnstructuredGrid { points: &cells.positions, cells: &cells.cells, point_fields, cell_fields: &[] };
+    let grid = UnstructuredGrid {
+        points: &cells.positions,
+        cells: &cells.cells,
+        point_fields,
+        cell_fields: &[],
+    };
     vtu::write_vtu(path, &grid)
 }

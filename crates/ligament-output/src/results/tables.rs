@@ -27,11 +27,32 @@ const HISTORY: [&str; 15] = [
     "fragments",
     "at_rest",
 ];
-const ITERATIONS: [&str; 7] =
-    ["step", "round", "iteration", "load_factor", "residual", "stored_energy", "broken_bonds"];
-const BREAKS: [&str; 7] = ["order", "step", "round", "load_factor", "node_a", "node_b", "stretch_ratio"];
-const TIMINGS: [&str; 6] =
-    ["step", "assembly_s", "factorisation_s", "solve_s", "bonds_s", "connectivity_s"];
+const ITERATIONS: [&str; 7] = [
+    "step",
+    "round",
+    "iteration",
+    "load_factor",
+    "residual",
+    "stored_energy",
+    "broken_bonds",
+];
+const BREAKS: [&str; 7] = [
+    "order",
+    "step",
+    "round",
+    "load_factor",
+    "node_a",
+    "node_b",
+    "stretch_ratio",
+];
+const TIMINGS: [&str; 6] = [
+    "step",
+    "assembly_s",
+    "factorisation_s",
+    "solve_s",
+    "bonds_s",
+    "connectivity_s",
+];
 
 pub(super) struct Tables {
     history: Table,
@@ -46,11 +67,22 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    pub(super) fn create(folder: &ResultFolder, boundary: &Boundary, probes: &[Probe]) -> Result<Self, Error> {
+    pub(super) fn create(
+        folder: &ResultFolder,
+        boundary: &Boundary,
+        probes: &[Probe],
+    ) -> Result<Self, Error> {
         let groups = boundary.groups.iter();
-        let group_columns = groups.flat_map(|group| ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name)));
-        let extra: Vec<String> = group_columns.chain(probes.iter().map(|probe| probe.name.clone())).collect();
-        let history_columns: Vec<&str> = HISTORY.into_iter().chain(extra.iter().map(String::as_str)).collect();
+        let group_columns = groups.flat_map(|group| {
+            ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
+        });
+        let extra: Vec<String> = group_columns
+            .chain(probes.iter().map(|probe| probe.name.clone()))
+            .collect();
+        let history_columns: Vec<&str> = HISTORY
+            .into_iter()
+            .chain(extra.iter().map(String::as_str))
+            .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
             iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
@@ -64,11 +96,22 @@ impl Tables {
         })
     }
 
-    pub(super) fn enter_round(&mut self, step: usize, round: usize, load_factor: f64, broken: usize) {
+    pub(super) fn enter_round(
+        &mut self,
+        step: usize,
+        round: usize,
+        load_factor: f64,
+        broken: usize,
+    ) {
         (self.step, self.round, self.load_factor, self.broken) = (step, round, load_factor, broken);
     }
 
-    pub(super) fn iteration(&mut self, iteration: usize, residual: f64, stored_energy: f64) -> Result<(), Error> {
+    pub(super) fn iteration(
+        &mut self,
+        iteration: usize,
+        residual: f64,
+        stored_energy: f64,
+    ) -> Result<(), Error> {
         self.iterations.append(&[
             self.step.into(),
             self.round.into(),
@@ -119,7 +162,13 @@ impl Tables {
             record.fragments.into(),
             usize::from(record.at_rest).into(),
         ];
-        row.extend(record.group_forces.as_flattened().iter().map(|&force| Value::from(force)));
+        row.extend(
+            record
+                .group_forces
+                .as_flattened()
+                .iter()
+                .map(|&force| Value::from(force)),
+        );
         row.extend(record.probes.iter().map(|&value| Value::from(value)));
         self.history.append(&row)?;
         self.time(record.step, view.costs)
@@ -127,7 +176,9 @@ impl Tables {
 
     fn time(&mut self, step: usize, costs: &Costs) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.costs_before, *costs);
-        let seconds = |now: std::time::Duration, then: std::time::Duration| Value::from((now - then).as_secs_f64());
+        let seconds = |now: std::time::Duration, then: std::time::Duration| {
+            Value::from((now - then).as_secs_f64())
+        };
         self.timings.append(&[
             step.into(),
             seconds(costs.assembly, before.assembly),

@@ -64,6 +64,18 @@ pub enum CorrectionRule {
     Mean,
 }
 
+impl CorrectionRule {
+    /// Tolerance where none is given: the paper's for the sum; the mean's makes the energies of a large model as right
+    /// as the sum does those of a small one. `auto` has that of the rule it chooses.
+    pub fn default_tolerance(self) -> Option<f64> {
+        match self {
+            Self::Auto => None,
+            Self::Sum => Some(1e-3),
+            Self::Mean => Some(1e-7),
+        }
+    }
+}
+
 /// The body that the correction sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -102,7 +114,7 @@ impl RawCorrection {
         require_at_least_one(key, "max_sweeps", max_sweeps)?;
         Ok(Correction {
             rule,
-            tolerance: self.tolerance,
+            tolerance: self.tolerance.or(rule.default_tolerance()),
             max_sweeps,
             domain: self.domain.unwrap_or_default(),
         })

@@ -12,6 +12,7 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
         .collect();
     match keys.as_slice() {
         [.., "young" | "tensile_strength"] => Some("Pa"),
+        [.., "density"] => Some("kg/m^3"),
         [.., "displacement", "rotation"] => Some("rad"),
         [.., "force", "x" | "y"] => Some("N"),
         [.., "force_per_length", "x" | "y"] => Some("N/m"),
