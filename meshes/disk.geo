@@ -38,5 +38,5 @@ Physical Curve("platen-bottom", 4) = {1, 2};
 Physical Curve("rim", 5) = {3, 4, 7, 8};   // the rest of the rim, between the platens
 Physical Surface("disk", 6) = {1};
 
-Mesh.Algorithm = 6;                  // Frontal-Delaunay
+Mesh.Algorithm = 5;                  // Delaunay: spacings that vary, as a study of non-unified horizons wants
 Mesh.MshFileVersion = 4.1;
