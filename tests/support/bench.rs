@@ -1,0 +1,216 @@
+//! A bench: a case, its model, its supports and loads, and what happens when it is run.
+
+use std::path::Path;
+
+use ligament::case::CaseFile;
+use ligament::progress::{Progress, ProgressMode};
+use ligament::resolve;
+use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Model};
+use ligament::stages::Stages;
+use ligament::summary::Summary;
+use ligament_analysis::driver::{self, Outcome, Problem};
+use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::probe::Probe;
+use ligament_analysis::{Boundary, State};
+use ligament_mesh::Mesh;
+use tempfile::TempDir;
+
+use crate::meshes;
+
+/// Everything about a case up to its first solution.
+pub struct Bench {
+    /// The case.
+    pub case: CaseFile,
+    /// Its model.
+    pub model: Model,
+    /// Its supports and loads.
+    pub boundary: Boundary,
+    probes: Vec<Probe>,
+    _folder: Option<TempDir>,
+}
+
+/// What a run gave.
+pub struct Run {
+    /// The outcome of the driver.
+    pub outcome: Outcome,
+    /// Bonds in the order in which they broke.
+    pub breaks: Vec<BreakRecord>,
+    /// Notices.
+    pub notices: Vec<Notice>,
+    /// Number of unknowns held because nothing else would hold them, at the end of each load step.
+    pub held: Vec<usize>,
+    /// Largest residual (relative) of a load step.
+    pub largest_residual: f64,
+    /// Points in the smallest connected part, at the end of each load step.
+    pub smallest_part: Vec<usize>,
+}
+
+/// Reads a case that lies in `tests/`; `settings` are `key=value` each, as with `--set`.
+pub fn case(text: &str, settings: &[&str]) -> CaseFile {
+    let path = crate::repository().join("tests/case.toml");
+    let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
+    match CaseFile::parse(&path, text.to_owned(), &settings) {
+        Ok(case) => case,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Writes a mesh into a folder and returns the setting that makes a case use it.
+pub fn mesh_setting(mesh: &Mesh, folder: &Path) -> String {
+    let path = folder.join("mesh.msh");
+    std::fs::write(&path, meshes::to_gmsh(mesh)).unwrap();
+    format!("mesh.file={}", path.display())
+}
+
+/// Runs the whole program on a case; its files are in `out`.
+pub fn run_program(case: &CaseFile, out: &Path) -> Summary {
+    run::run(case, out, false, ProgressMode::Quiet).unwrap()
+}
+
+impl Bench {
+    /// A bench for a case on a mesh of the repository (named relative to `tests/`).
+    pub fn new(text: &str, settings: &[&str]) -> Self {
+        Self::from_case(case(text, settings), None)
+    }
+
+    /// A bench for a case on another mesh than its own.
+    pub fn on(mesh: &Mesh, text: &str, settings: &[&str]) -> Self {
+        let folder = TempDir::new().unwrap();
+        let file = mesh_setting(mesh, folder.path());
+        let settings: Vec<&str> = settings.iter().copied().chain([file.as_str()]).collect();
+        Self::from_case(case(text, &settings), Some(folder))
+    }
+
+    fn from_case(case: CaseFile, folder: Option<TempDir>) -> Self {
+        let progress = Progress::new(ProgressMode::Quiet);
+        let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
+        let boundary = resolve::boundary(&case, &model.mesh, &model.system.cloud).unwrap();
+        let probes = resolve::probes(&case, &model.system);
+        Self {
+            case,
+            model,
+            boundary,
+            probes,
+            _folder: folder,
+        }
+    }
+
+    /// The problem of the bench.
+    pub fn problem(&self) -> Problem<'_> {
+        Problem {
+            system: &self.model.system,
+            boundary: &self.boundary,
+            probes: &self.probes,
+        }
+    }
+
+    /// Solves the linear problem at load factor 1; no bond breaks.
+    pub fn solve(&self) -> Run {
+        self.watched(|watch| {
+            driver::elastic::run(&self.problem(), ELASTIC_ENERGY_TOLERANCE, watch).unwrap()
+        })
+    }
+
+    /// Follows the loading as the fracture section says.
+    pub fn break_up(&self) -> Run {
+        let fracture = self.case.case.fracture.as_ref().unwrap();
+        self.watched(|watch| {
+            driver::stepped::run(
+                &self.problem(),
+                &self.model.critical_stretch,
+                &resolve::stepped(fracture),
+                watch,
+            )
+            .unwrap()
+        })
+    }
+
+    fn watched(&self, run: impl FnOnce(&mut dyn Observer) -> Outcome) -> Run {
+        let mut watch = Watch::default();
+        let outcome = run(&mut watch);
+        Run {
+            outcome,
+            breaks: watch.breaks,
+            notices: watch.notices,
+            held: watch.held,
+            largest_residual: watch.largest_residual,
+            smallest_part: watch.smallest_part,
+        }
+    }
+
+    /// Number of points.
+    pub fn points(&self) -> usize {
+        self.model.system.cloud.len()
+    }
+
+    /// Positions as in the mesh file.
+    pub fn positions(&self) -> &[[f64; 2]] {
+        &self.model.mesh.positions
+    }
+
+    /// Nodes of a group.
+    pub fn group(&self, name: &str) -> &[u32] {
+        &self.model.mesh.group(name).unwrap().nodes
+    }
+
+    /// Tags of the ends of a bond, the smaller first.
+    pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
+        let [a, b] = self.model.system.bonds.ends[bond]
+            .map(|end| self.model.mesh.node_tags[end as usize]);
+        [a.min(b), a.max(b)]
+    }
+}
+
+impl Run {
+    /// Displacements and rotations of the last state, shape (3 n_points).
+    pub fn displacement(&self) -> &[f64] {
+        &self.outcome.state.displacement
+    }
+
+    /// The last load step.
+    pub fn last(&self) -> &StepRecord {
+        self.outcome.history.last().unwrap()
+    }
+
+    /// The last state.
+    pub fn state(&self) -> &State {
+        &self.outcome.state
+    }
+
+    /// Force along x and y and moments of the points of a group at the last load step.
+    pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
+        let groups = &bench.boundary.groups;
+        let place = groups.iter().position(|group| group.name == name).unwrap();
+        self.last().group_forces[place]
+    }
+}
+
+#[derive(Default)]
+struct Watch {
+    breaks: Vec<BreakRecord>,
+    notices: Vec<Notice>,
+    held: Vec<usize>,
+    largest_residual: f64,
+    smallest_part: Vec<usize>,
+}
+
+impl Observer for Watch {
+    fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
+        self.breaks.extend_from_slice(records);
+        Ok(())
+    }
+
+    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
+        self.notices.push(notice.clone());
+        Ok(())
+    }
+
+    fn step(&mut self, _: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        let held = view.state.held.iter().filter(|held| **held).count();
+        self.held.push(held);
+        self.largest_residual = self.largest_residual.max(view.balanced.residual);
+        let parts = view.fragments.points.iter().map(Vec::len);
+        self.smallest_part.push(parts.min().unwrap_or(0));
+        Ok(())
+    }
+}

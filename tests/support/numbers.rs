@@ -1,0 +1,80 @@
+//! Small mathematics.
+
+/// |value / expected - 1|.
+pub fn relative_error(value: f64, expected: f64) -> f64 {
+    (value / expected - 1.0).abs()
+}
+
+/// Largest |value|; NaN where one is NaN.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest: f64, value| {
+        if value.is_nan() || value.abs() > largest {
+            value.abs()
+        } else {
+            largest
+        }
+    })
+}
+
+/// Largest |one - other| over the largest |other|.
+pub fn deviation(one: &[f64], other: &[f64]) -> f64 {
+    assert_eq!(one.len(), other.len());
+    let difference = largest(one.iter().zip(other).map(|(a, b)| a - b));
+    difference / largest(other.iter().copied())
+}
+
+/// Components `c` of an array over the degrees of freedom (3 a point).
+pub fn component(values: &[f64], c: usize) -> Vec<f64> {
+    values.iter().skip(c).step_by(3).copied().collect()
+}
+
+/// Pseudo-random numbers in [-1, 1), the same on every machine (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    /// The next number.
+    pub fn next(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// A permutation of 0..n.
+    pub fn permutation(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        for last in (1..n).rev() {
+            order.swap(last, (self.bits() % (last as u64 + 1)) as usize);
+        }
+        order
+    }
+
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+}
+
+/// Least-squares fit value = c0 + c1 x + c2 y; returns (c1, c2).
+pub fn gradient(positions: &[[f64; 2]], values: &[f64]) -> [f64; 2] {
+    assert_eq!(positions.len(), values.len());
+    assert!(positions.len() > 3, "too few points to fit a plane");
+    let n = positions.len() as f64;
+    let mean = |of: &dyn Fn(usize) -> f64| (0..positions.len()).map(of).sum::<f64>() / n;
+    let [x, y] = [0, 1].map(|axis| mean(&|i| positions[i][axis]));
+    let v = mean(&|i| values[i]);
+    let moment = |f: &dyn Fn(f64, f64, f64) -> f64| {
+        mean(&|i| f(positions[i][0] - x, positions[i][1] - y, values[i] - v))
+    };
+    let [xx, xy, yy] = [
+        moment(&|x, _, _| x * x),
+        moment(&|x, y, _| x * y),
+        moment(&|_, y, _| y * y),
+    ];
+    let [xv, yv] = [moment(&|x, _, v| x * v), moment(&|_, y, v| y * v)];
+    let determinant = xx * yy - xy * xy;
+    [
+        (xv * yy - yv * xy) / determinant,
+        (yv * xx - xv * xy) / determinant,
+    ]
+}
