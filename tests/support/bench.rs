@@ -155,8 +155,8 @@ impl Bench {
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] = self.model.system.bonds.ends[bond]
-            .map(|end| self.model.mesh.node_tags[end as usize]);
+        let [a, b] =
+            self.model.system.bonds.ends[bond].map(|end| self.model.mesh.node_tags[end as usize]);
         [a.min(b), a.max(b)]
     }
 }

@@ -191,11 +191,7 @@ pub fn to_gmsh(mesh: &Mesh) -> String {
             group.dimension, group.number, group.name
         );
     }
-    let _ = writeln!(
-        text,
-        "$EndPhysicalNames\n$Nodes\n{}",
-        mesh.positions.len()
-    );
+    let _ = writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", mesh.positions.len());
     for (tag, [x, y]) in mesh.node_tags.iter().zip(&mesh.positions) {
         let _ = writeln!(text, "{tag} {x:?} {y:?} 0");
     }
@@ -203,7 +199,12 @@ pub fn to_gmsh(mesh: &Mesh) -> String {
     let mut surface_of_cell = vec![0; mesh.cells.len()];
     for group in &mesh.groups {
         match group.dimension {
-            0 => elements.extend(group.nodes.iter().map(|&node| (15, group.number, vec![node]))),
+            0 => elements.extend(
+                group
+                    .nodes
+                    .iter()
+                    .map(|&node| (15, group.number, vec![node])),
+            ),
             1 => elements.extend(
                 group
                     .edges
@@ -212,7 +213,8 @@ pub fn to_gmsh(mesh: &Mesh) -> String {
             ),
             _ => {
                 for &cell in &group.cells {
-                    let before = std::mem::replace(&mut surface_of_cell[cell as usize], group.number);
+                    let before =
+                        std::mem::replace(&mut surface_of_cell[cell as usize], group.number);
                     assert_eq!(before, 0, "a cell belongs to two surface groups");
                 }
             }

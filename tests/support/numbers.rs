@@ -23,6 +23,12 @@ pub fn deviation(one: &[f64], other: &[f64]) -> f64 {
     difference / largest(other.iter().copied())
 }
 
+/// Numbers in short, for a test's report.
+pub fn short(values: &[f64]) -> String {
+    let words: Vec<String> = values.iter().map(|value| format!("{value:.1e}")).collect();
+    words.join(" ")
+}
+
 /// Components `c` of an array over the degrees of freedom (3 a point).
 pub fn component(values: &[f64], c: usize) -> Vec<f64> {
     values.iter().skip(c).step_by(3).copied().collect()

@@ -106,8 +106,21 @@ impl Boundary {
         self.force[COMPONENTS * point as usize + component.index()] += force;
     }
 
-    /// Adds a group to the history.
-    pub fn report_group(&mut self, name: String, points: Vec<u32>) {
+    /// Adds a group to the history, once however many supports and loads act on it; another group of the same name gets
+    /// a number.
+    pub fn report_group(&mut self, name: &str, points: Vec<u32>) {
+        let same_name: Vec<&BoundaryGroup> = self
+            .groups
+            .iter()
+            .filter(|group| group.name == name)
+            .collect();
+        if same_name.iter().any(|group| group.points == points) {
+            return;
+        }
+        let name = match same_name.len() {
+            0 => name.to_owned(),
+            earlier => format!("{name}-{}", earlier + 1),
+        };
         self.groups.push(BoundaryGroup { name, points });
     }
 }

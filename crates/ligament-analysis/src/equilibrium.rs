@@ -16,7 +16,7 @@ use crate::connectivity::{Fragments, Hold};
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, InternalForces};
 use crate::state::State;
-use crate::unknowns::{Component, Unknowns};
+use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
 ///
@@ -25,6 +25,10 @@ const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
 /// A residual above this is no equilibrium whatever the energies say.
 const LARGEST_RESIDUAL: f64 = 1e-6;
+
+/// What rounding makes of the internal forces of a body that moves freely, relative to the stiffness of a point times the
+/// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
+const ROUNDING: f64 = 1e-14;
 
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
@@ -43,6 +47,8 @@ pub struct Equilibrium<'a> {
     factor: Option<Box<dyn Factorisation>>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     energy_tolerance: f64,
+    /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
+    point_stiffness: [f64; 2],
     costs: Costs,
 }
 
@@ -166,6 +172,7 @@ impl<'a> Equilibrium<'a> {
             kind,
             factor: None,
             energy_tolerance,
+            point_stiffness: largest_point_stiffness(system),
             costs,
         })
     }
@@ -242,7 +249,7 @@ impl<'a> Equilibrium<'a> {
             let change = ((stored_energy - previous_energy) / stored_energy).abs();
             let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
             if residual <= RESIDUAL_TOLERANCE || energy_settled {
-                if stored_energy < 0.0 {
+                if stored_energy < -self.energy_of_rounding(state) {
                     return Ok(Err(Unbalanced::NegativeEnergy {
                         energy: stored_energy,
                     }));
@@ -333,10 +340,25 @@ impl<'a> Equilibrium<'a> {
             values: Vec::new(),
             ..*internal
         };
+        let [force, moment] = self.forces_of_rounding(state);
         scales.force_scale = scales
             .force_scale
-            .max(largest_load * state.load_factor.abs());
+            .max(largest_load * state.load_factor.abs())
+            .max(force / RESIDUAL_TOLERANCE);
+        scales.moment_scale = scales.moment_scale.max(moment / RESIDUAL_TOLERANCE);
         internal::relative_residual(residual, self.unknowns.degrees_of_freedom(), &scales)
+    }
+
+    /// Force and moment at a point that are rounding of the displacements, N and N m.
+    fn forces_of_rounding(&self, state: &State) -> [f64; 2] {
+        let displacement = largest_displacement(state);
+        self.point_stiffness
+            .map(|stiffness| ROUNDING * stiffness * displacement)
+    }
+
+    /// Energy that is rounding of the displacements, J.
+    fn energy_of_rounding(&self, state: &State) -> f64 {
+        self.forces_of_rounding(state)[0] * largest_displacement(state)
     }
 
     fn add_correction(&mut self, state: &mut State, mut correction: Vec<f64>) {
@@ -402,12 +424,36 @@ impl<'a> Equilibrium<'a> {
 
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.unknowns.degrees_of_freedom()[unknown] as usize;
-        let point = (dof / crate::unknowns::COMPONENTS) as u32;
+        let point = (dof / COMPONENTS) as u32;
         Unbalanced::VanishingPivot {
             point,
             component: Component::of(dof).name(),
         }
     }
+}
+
+fn largest_displacement(state: &State) -> f64 {
+    state
+        .displacement
+        .chunks(COMPONENTS)
+        .flat_map(|motion| &motion[..Component::Rotation.index()])
+        .fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}
+
+/// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
+fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
+    let mut largest = [0.0_f64; 2];
+    for point in 0..system.cloud.len() as u32 {
+        let mut sum = [0.0; 2];
+        for &bond in system.bonds.incidence.of(point) {
+            let element = system.element(bond as usize);
+            let shear = element.shear_rigidity.abs();
+            sum[0] += (element.axial_rigidity.abs() + shear) / element.length.powi(2);
+            sum[1] += (shear + element.rotational_rigidity.abs()) / element.length;
+        }
+        largest = [0, 1].map(|k| largest[k].max(sum[k]));
+    }
+    largest
 }
 
 fn vanishing_pivots(factor: &dyn Factorisation, matrix: &SymmetricMatrix) -> Vec<usize> {

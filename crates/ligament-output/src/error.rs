@@ -123,7 +123,7 @@ pub enum Error {
     },
     /// The folder holds files, but nothing shows that they are results, so it is never replaced.
     #[error(
-        "{path} exists and is not a result folder (it holds files, but neither case.resolved.toml nor summary.json), so \
+        "{path} exists and is not a result folder (it holds files, but no case.resolved.toml), so \
          not even --force replaces it; choose another folder with --out, or remove it yourself"
     )]
     NotAResultFolder {

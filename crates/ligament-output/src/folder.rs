@@ -8,13 +8,12 @@ use std::path::{Path, PathBuf};
 use crate::Error;
 use crate::atomic::replace_file;
 
-/// Files written by every run; one of them shows that a folder holds results and nothing else.
-const MARKERS: [&str; 2] = ["case.resolved.toml", "summary.json"];
+/// The file that every run writes first; it shows that a folder holds results and nothing else.
+pub const RESOLVED_CASE: &str = "case.resolved.toml";
 
 /// A folder for the results of one run, new or empty when created.
 ///
-/// A run should write one of the marker files `case.resolved.toml` and `summary.json` first: by them a later run
-/// recognises the folder as one it may replace.
+/// A run writes [`RESOLVED_CASE`] first: by it a later run recognises the folder as one it may replace.
 #[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
@@ -27,15 +26,28 @@ impl ResultFolder {
     /// folder is created and the old one removed. A folder with other files is refused in any case.
     pub fn create(path: impl Into<PathBuf>, replace: bool) -> Result<Self, Error> {
         let path = path.into();
-        match Occupant::of(&path)? {
+        match Self::admit(&path, replace)? {
             Occupant::Nothing => create_folder(&path)?,
-            Occupant::EmptyFolder => {}
-            Occupant::Results if replace => replace_folder(&path)?,
-            Occupant::Results => return Err(Error::ResultsExist { path }),
-            Occupant::OtherFiles => return Err(Error::NotAResultFolder { path }),
-            Occupant::NotAFolder => return Err(Error::NotAFolder { path }),
+            Occupant::Results => replace_folder(&path)?,
+            _ => {}
         }
         Ok(Self { path })
+    }
+
+    /// Fails as [`ResultFolder::create`] would, and touches nothing: for a run to ask before its work begins.
+    pub fn check(path: &Path, replace: bool) -> Result<(), Error> {
+        Self::admit(path, replace).map(|_| ())
+    }
+
+    /// What is in the place of the folder, if a run may put its results there.
+    fn admit(path: &Path, replace: bool) -> Result<Occupant, Error> {
+        let path_buf = || path.to_path_buf();
+        match Occupant::of(path)? {
+            Occupant::Results if !replace => Err(Error::ResultsExist { path: path_buf() }),
+            Occupant::OtherFiles => Err(Error::NotAResultFolder { path: path_buf() }),
+            Occupant::NotAFolder => Err(Error::NotAFolder { path: path_buf() }),
+            occupant => Ok(occupant),
+        }
     }
 
     /// The folder itself.
@@ -77,7 +89,7 @@ impl Occupant {
         if entries.next().is_none() {
             return Ok(Self::EmptyFolder);
         }
-        let is_marked = MARKERS.iter().any(|marker| path.join(marker).is_file());
+        let is_marked = path.join(RESOLVED_CASE).is_file();
         Ok(if is_marked {
             Self::Results
         } else {
@@ -168,7 +180,7 @@ mod tests {
 
     #[test]
     fn refuses_results_without_replace() {
-        let (_parent, path) = results_with(&["summary.json"]);
+        let (_parent, path) = results_with(&[RESOLVED_CASE]);
         let error = ResultFolder::create(&path, false).unwrap_err();
         assert!(matches!(&error, Error::ResultsExist { path: p } if *p == path));
         let message = error.to_string();
@@ -180,18 +192,18 @@ mod tests {
     }
 
     #[test]
-    fn replaces_results_by_either_marker() {
-        for marker in MARKERS {
-            let (parent, path) = results_with(&[marker, "fields_0000.vtu"]);
-            ResultFolder::create(&path, true).unwrap();
-            assert_eq!(n_entries(&path), 0);
-            assert_eq!(n_entries(parent.path()), 1, "the old results are gone");
-        }
+    fn replaces_results() {
+        let (parent, path) = results_with(&[RESOLVED_CASE, "fields_0000.vtu"]);
+        ResultFolder::check(&path, true).unwrap();
+        assert_eq!(n_entries(&path), 2, "a check touches nothing");
+        ResultFolder::create(&path, true).unwrap();
+        assert_eq!(n_entries(&path), 0);
+        assert_eq!(n_entries(parent.path()), 1, "the old results are gone");
     }
 
     #[test]
     fn a_trailing_separator_does_not_matter() {
-        let (parent, path) = results_with(&["summary.json"]);
+        let (parent, path) = results_with(&[RESOLVED_CASE]);
         ResultFolder::create(path.join(""), true).unwrap();
         assert_eq!(n_entries(&path), 0);
         assert_eq!(n_entries(parent.path()), 1);
@@ -229,7 +241,7 @@ mod tests {
 
     #[test]
     fn refuses_when_the_place_aside_is_taken() {
-        let (parent, path) = results_with(&["summary.json"]);
+        let (parent, path) = results_with(&[RESOLVED_CASE]);
         let aside = parent.path().join("results.replaced");
         fs::create_dir(&aside).unwrap();
         let error = ResultFolder::create(&path, true).unwrap_err();
@@ -239,7 +251,7 @@ mod tests {
 
     #[test]
     fn refuses_to_replace_a_path_without_a_name() {
-        let (_parent, path) = results_with(&["summary.json"]);
+        let (_parent, path) = results_with(&[RESOLVED_CASE]);
         fs::create_dir(path.join("sub")).unwrap();
         let error = ResultFolder::create(path.join("sub/.."), true).unwrap_err();
         assert!(matches!(error, Error::UnnamedFolder { .. }));
@@ -249,7 +261,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn replacing_a_link_keeps_what_it_points_to() {
-        let (parent, path) = results_with(&["summary.json"]);
+        let (parent, path) = results_with(&[RESOLVED_CASE]);
         let link = parent.path().join("link");
         std::os::unix::fs::symlink(&path, &link).unwrap();
         ResultFolder::create(&link, true).unwrap();

@@ -10,7 +10,7 @@ use ligament_model::correction::{CorrectionReport, domain, energy_ratios};
 use ligament_model::failure::strength::critical_stretches;
 use ligament_model::law::nhpd;
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
-use ligament_output::folder::ResultFolder;
+use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{FixedFields, MeshCells, ResultWriter, WriteRule};
 
 use crate::case::{CaseFile, CorrectionDomain};
@@ -134,6 +134,7 @@ pub fn run(
     force: bool,
     mode: ProgressMode,
 ) -> anyhow::Result<Summary> {
+    ResultFolder::check(out, force)?;
     let mut stages = Stages::default();
     let mut progress = Progress::new(mode);
     let model = build_model(case, &mut stages, &progress)?;
@@ -147,7 +148,7 @@ pub fn run(
 
     // Nothing is written, and nothing replaced, before all input was found good.
     let folder = ResultFolder::create(out, force)?;
-    folder.write_text("case.resolved.toml", &case.resolved_toml()?)?;
+    folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
     let cells = MeshCells::from(&model.mesh);
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,

@@ -1,0 +1,157 @@
+//! From a case and its mesh to the typed settings of the libraries.
+//!
+//! Names are looked up in the mesh here; what is not there is reported at its place in the case file.
+
+mod boundary;
+mod places;
+
+use ligament_analysis::Component;
+use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
+use ligament_analysis::driver::stepped::{SteppedSettings, StopRules};
+use ligament_analysis::probe::{PointField, Probe, Reading};
+use ligament_model::bonds::precrack::PreCrack;
+use ligament_model::correction::{StopRule, Sweeps};
+use ligament_model::{BondSystem, Material, Plane};
+
+use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Steps};
+
+pub use boundary::boundary;
+pub use places::{material_of_cell, no_fail};
+
+/// State of the plane.
+pub fn plane(case: &CaseFile) -> Plane {
+    match case.case.mesh.plane {
+        case::Plane::Stress => Plane::Stress,
+        case::Plane::Strain => Plane::Strain,
+    }
+}
+
+/// The materials, in the order of the case file.
+pub fn materials(case: &CaseFile) -> Vec<Material> {
+    let material = |material: &case::Material| Material {
+        name: material.name.clone().unwrap_or_default(),
+        young: material.young,
+        poisson: material.poisson,
+        tensile_strength: material.tensile_strength,
+        density: material.density,
+    };
+    case.case.materials.iter().map(material).collect()
+}
+
+/// Models with more bonds than this take the size-independent stop rule unless told otherwise.
+const LARGE_MODEL: usize = 1_000_000;
+
+/// Stop rule and limit of the domain correction for a model of so many bonds.
+pub fn sweeps(case: &CaseFile, n_bonds: usize) -> Sweeps {
+    let correction = &case.case.correction;
+    let rule = match correction.rule {
+        CorrectionRule::Auto if n_bonds > LARGE_MODEL => CorrectionRule::Mean,
+        CorrectionRule::Auto => CorrectionRule::Sum,
+        rule => rule,
+    };
+    let tolerance = correction
+        .tolerance
+        .or(rule.default_tolerance())
+        .unwrap_or_default();
+    let stop = if rule == CorrectionRule::Mean {
+        StopRule::Mean(tolerance)
+    } else {
+        StopRule::Sum(tolerance)
+    };
+    Sweeps {
+        stop,
+        limit: correction.max_sweeps as usize,
+    }
+}
+
+/// The pre-cracks.
+pub fn precracks(case: &CaseFile) -> Vec<PreCrack> {
+    case.case
+        .precracks
+        .iter()
+        .map(|crack| PreCrack {
+            points: crack.points.clone(),
+        })
+        .collect()
+}
+
+/// How to step, for a case with a fracture section.
+pub fn stepped(fracture: &case::Fracture) -> SteppedSettings {
+    let load_factors = match &fracture.steps {
+        Steps::Uniform(count) => (1..=*count)
+            .map(|step| f64::from(step) / f64::from(*count))
+            .collect(),
+        Steps::Factors(factors) => factors.clone(),
+    };
+    let stop = &fracture.stop;
+    SteppedSettings {
+        load_factors,
+        refine_first_break: fracture.refine_first_break as usize,
+        rule: BreakingRule {
+            order: match fracture.order {
+                BreakOrder::Excess => BreakingOrder::Excess,
+                BreakOrder::Ratio => BreakingOrder::Ratio,
+            },
+            bonds_per_iteration: fracture.bonds_per_iteration as usize,
+            tie_tolerance: fracture.tie_tolerance,
+        },
+        energy_tolerance: fracture.energy_tolerance,
+        round_limit: fracture.max_iterations as usize,
+        stop: StopRules {
+            load_fraction: stop.load_fraction,
+            displacement: stop.displacement,
+            bonds: stop.bonds.map(|bonds| bonds as usize),
+            wall_time: stop.wall_time,
+        },
+    }
+}
+
+/// The probes.
+pub fn probes(case: &CaseFile, system: &BondSystem) -> Vec<Probe> {
+    let nearest = |position: [f64; 2]| system.cloud.nearest_point(position);
+    let probe = |probe: &case::Probe| Probe {
+        name: probe.name.clone(),
+        reading: reading(system, nearest, probe.reading),
+    };
+    case.case.probes.iter().map(probe).collect()
+}
+
+fn reading(
+    system: &BondSystem,
+    nearest: impl Fn([f64; 2]) -> u32,
+    reading: case::Reading,
+) -> Reading {
+    match reading {
+        case::Reading::Between { between, component } => {
+            let component = match component {
+                case::Component::X => Component::X,
+                case::Component::Y => Component::Y,
+                case::Component::Rotation => Component::Rotation,
+            };
+            Reading::RelativeDisplacement {
+                points: between.map(nearest),
+                component,
+            }
+        }
+        case::Reading::At { at, field } => Reading::Field {
+            point: nearest(at),
+            field: match field {
+                case::Field::Damage => PointField::Damage,
+                case::Field::DisplacementX => PointField::Motion(Component::X),
+                case::Field::DisplacementY => PointField::Motion(Component::Y),
+                case::Field::Rotation => PointField::Motion(Component::Rotation),
+                case::Field::StrainEnergyDensity => PointField::StrainEnergyDensity,
+            },
+        },
+        case::Reading::Section {
+            section: [start, end],
+            component,
+        } => {
+            let component = match component {
+                case::Axis::X => Component::X,
+                case::Axis::Y => Component::Y,
+            };
+            Reading::section(system, start, end, component)
+        }
+    }
+}
