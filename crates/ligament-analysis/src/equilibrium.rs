@@ -235,33 +235,27 @@ impl<'a> Equilibrium<'a> {
         self.prescribe(state);
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
-        for iterations in 0..=ITERATION_LIMIT {
-            let start = Instant::now();
-            let deformations = internal::deformations(self.system, &state.displacement);
-            let internal = internal::internal_forces(self.system, &state.intact, &deformations);
-            let residual_forces = self.residual_forces(state, &internal);
-            let residual = self.relative_residual(state, &residual_forces, &internal);
-            let stored_energy = internal::stored_energy(self.system, &state.intact, &deformations);
-            self.costs.bonds += start.elapsed();
+        let mut iterations = 0;
+        loop {
+            let (residual_forces, mut balanced) = self.measure(state);
             if iterations > 0 {
-                observer.iteration(iterations, residual, stored_energy)?;
+                observer.iteration(iterations, balanced.residual, balanced.stored_energy)?;
             }
-            let change = ((stored_energy - previous_energy) / stored_energy).abs();
+            let Balanced {
+                residual,
+                stored_energy: energy,
+                ..
+            } = balanced;
+            let change = ((energy - previous_energy) / energy).abs();
             let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
             if residual <= RESIDUAL_TOLERANCE || energy_settled {
-                if stored_energy < -self.energy_of_rounding(state) {
-                    return Ok(Err(Unbalanced::NegativeEnergy {
-                        energy: stored_energy,
-                    }));
-                }
-                return Ok(Ok(Balanced {
-                    deformations,
-                    internal,
-                    stored_energy,
-                    residual,
-                    iterations,
-                    mechanisms,
-                }));
+                (balanced.iterations, balanced.mechanisms) = (iterations, mechanisms);
+                let negative = Unbalanced::NegativeEnergy { energy };
+                return Ok(if energy < -self.energy_of_rounding(state) {
+                    Err(negative)
+                } else {
+                    Ok(balanced)
+                });
             }
             if iterations == ITERATION_LIMIT {
                 return Ok(Err(Unbalanced::NotConverged {
@@ -269,14 +263,37 @@ impl<'a> Equilibrium<'a> {
                     iterations,
                 }));
             }
-            previous_energy = stored_energy;
             match self.factorise_if_stale(state) {
                 Ok(found) => mechanisms.extend(found),
                 Err(unbalanced) => return Ok(Err(unbalanced)),
             }
             self.add_correction(state, residual_forces);
+            previous_energy = energy;
+            iterations += 1;
         }
-        unreachable!("the loop returns at the iteration limit")
+    }
+
+    /// Deformations, forces, residual and energy of a state, and F - K u at the unknowns.
+    fn measure(&mut self, state: &State) -> (Vec<f64>, Balanced) {
+        let start = Instant::now();
+        let deformations = internal::deformations(self.system, &state.displacement);
+        let internal = internal::internal_forces(self.system, &state.intact, &deformations);
+        let residual_forces = self.residual_forces(state, &internal);
+        let residual = self.relative_residual(state, &residual_forces, &internal);
+        let stored_energy = internal::stored_energy(self.system, &state.intact, &deformations);
+        self.costs.bonds += start.elapsed();
+        let mechanisms = Vec::new();
+        (
+            residual_forces,
+            Balanced {
+                deformations,
+                internal,
+                stored_energy,
+                residual,
+                iterations: 0,
+                mechanisms,
+            },
+        )
     }
 
     /// Inertia of the stiffness and of its rotation block for the state's bonds, once the state was balanced.
