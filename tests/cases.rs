@@ -1,1 +1,114 @@
+//! The cases of the repository: each is documented, and loads and checks on its mesh.
+#![allow(clippy::unwrap_used)]
 
+use std::path::PathBuf;
+
+use ligament::case::CaseFile;
+use ligament::check::check;
+use verification::repository;
+
+/// Folders of `cases/` with the case files in them.
+fn folders() -> Vec<(PathBuf, Vec<PathBuf>)> {
+    let list = |folder: &PathBuf| {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        paths
+    };
+    let is_case = |path: &PathBuf| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    };
+    let folders = list(&repository().join("cases"));
+    let folders = folders.into_iter().filter(|path| path.is_dir());
+    let found: Vec<_> = folders
+        .map(|folder| {
+            (
+                folder.clone(),
+                list(&folder)
+                    .into_iter()
+                    .filter(is_case)
+                    .collect::<Vec<_>>(),
+            )
+        })
+        .collect();
+    assert!(!found.is_empty(), "there are no cases");
+    found
+}
+
+/// A case's folder tells what it is about and holds the case.
+#[test]
+fn every_case_has_a_readme() {
+    for (folder, cases) in folders() {
+        assert!(!cases.is_empty(), "{} has no case", folder.display());
+        let readme = folder.join("README.md");
+        let text = std::fs::read_to_string(&readme)
+            .unwrap_or_else(|error| panic!("{}: {error}", readme.display()));
+        assert!(
+            text.starts_with("# ") && text.len() > 200,
+            "{} says too little",
+            readme.display()
+        );
+    }
+}
+
+/// Every case loads, with a title, on a mesh of this repository. A mesh that is not committed is missing where the tests
+/// run on a fresh checkout.
+#[test]
+fn every_case_names_a_mesh_of_the_repository() {
+    let root = repository().canonicalize().unwrap();
+    for path in folders().into_iter().flat_map(|(_, cases)| cases) {
+        let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert!(
+            !case.case.title.is_empty(),
+            "{} has no title",
+            path.display()
+        );
+        let mesh = &case.case.mesh.file;
+        assert!(
+            mesh.is_file(),
+            "{}: no mesh {}",
+            path.display(),
+            mesh.display()
+        );
+        let inside = mesh.canonicalize().unwrap();
+        let place = inside.strip_prefix(&root);
+        let place = place
+            .unwrap_or_else(|_| panic!("{}: {} lies elsewhere", path.display(), mesh.display()));
+        let top = place.components().next().unwrap();
+        let is_kept = ["meshes", "cases"]
+            .iter()
+            .any(|folder| top.as_os_str() == *folder);
+        assert!(
+            is_kept,
+            "{}: {} is no place for a mesh",
+            path.display(),
+            place.display()
+        );
+    }
+}
+
+/// Every case passes `ligament check`: groups exist, supports and loads go together, and the equations can be set up. Its
+/// correction converges unless the case says by a horizon factor below 2 that it may not.
+#[test]
+fn every_case_passes_the_check() {
+    for path in folders().into_iter().flat_map(|(_, cases)| cases) {
+        let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let mut report = Vec::new();
+        check(&case, None, &mut report)
+            .unwrap_or_else(|error| panic!("{}: {error:#}", path.display()));
+        let report = String::from_utf8(report).unwrap();
+        assert!(
+            report.contains(&case.case.title) && report.contains("unknowns"),
+            "{report}"
+        );
+        let converges = report.contains("domain correction converged");
+        let may_not = case.case.model.horizon_factor < 2.0;
+        assert!(converges || may_not, "{}:\n{report}", path.display());
+        assert!(
+            !report.contains("parts that no bond connects"),
+            "{}:\n{report}",
+            path.display()
+        );
+    }
+}

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
 use ligament_model::BondSystem;
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3, Matrix6};
 use rayon::prelude::*;
 
 use crate::unknowns::{COMPONENTS, Unknowns};
@@ -90,6 +90,7 @@ fn columns_of_points<'a>(
         .collect()
 }
 
+/// Fills the columns of a point: couplings to points of smaller number, then its own block down to the diagonal.
 fn fill_columns(
     system: &BondSystem,
     unknowns: &Unknowns,
@@ -98,67 +99,50 @@ fn fill_columns(
     point: usize,
     values: &mut [f64],
 ) {
-    let diagonal_block = diagonal_block(system, intact, point);
+    let own_block = diagonal_block(system, intact, point);
     let couplings: Vec<(usize, Matrix6<f64>)> = lower_neighbours(system, point)
-        .map(|(bond, neighbour)| {
-            let stiffness = if intact[bond] {
-                system.element(bond).stiffness()
-            } else {
-                Matrix6::zeros()
-            };
-            (neighbour, stiffness)
-        })
+        .map(|(bond, neighbour)| (neighbour, stiffness(system, intact, bond)))
         .collect();
-    let mut values = values.iter_mut();
-    let mut put = |value: f64| {
-        if let Some(slot) = values.next() {
-            *slot = value;
-        }
-    };
     let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
+    let mut slots = values.iter_mut();
     for (column, c) in unknowns.of_point(point) {
-        for (neighbour, stiffness) in &couplings {
-            for (_, r) in unknowns.of_point(*neighbour) {
-                let cut_off = is_held(*neighbour, r) || is_held(point, c);
-                put(if cut_off {
-                    0.0
-                } else {
-                    stiffness[(r, COMPONENTS + c)]
-                });
-            }
-        }
-        for (_, r) in unknowns.of_point(point).filter(|&(row, _)| row < column) {
-            put(if is_held(point, r) || is_held(point, c) {
-                0.0
-            } else {
-                diagonal_block[(r, c)]
-            });
-        }
-        let diagonal = diagonal_block[(c, c)];
-        // A held point may have lost all its bonds; any pivot does for an equation that stands alone.
-        put(if is_held(point, c) && diagonal == 0.0 {
-            1.0
-        } else {
-            diagonal
+        let with_neighbours = couplings.iter().flat_map(|(neighbour, stiffness)| {
+            let components = unknowns.of_point(*neighbour).map(|(_, r)| r);
+            components.map(move |r| (stiffness[(r, COMPONENTS + c)], is_held(*neighbour, r)))
         });
+        let own = unknowns
+            .of_point(point)
+            .filter(|&(row, _)| row < column)
+            .map(|(_, r)| (own_block[(r, c)], is_held(point, r)));
+        let column_held = is_held(point, c);
+        for ((value, row_held), slot) in with_neighbours.chain(own).zip(&mut slots) {
+            *slot = if row_held || column_held { 0.0 } else { value };
+        }
+        if let Some(diagonal) = slots.next() {
+            // A held point may have lost all its bonds; any pivot does for an equation that stands alone.
+            let alone = column_held && own_block[(c, c)] == 0.0;
+            *diagonal = if alone { 1.0 } else { own_block[(c, c)] };
+        }
     }
 }
 
-fn diagonal_block(system: &BondSystem, intact: &[bool], point: usize) -> nalgebra::Matrix3<f64> {
-    let mut block = nalgebra::Matrix3::zeros();
+/// Element stiffness of a bond, zero if it is broken.
+fn stiffness(system: &BondSystem, intact: &[bool], bond: usize) -> Matrix6<f64> {
+    if intact[bond] {
+        system.element(bond).stiffness()
+    } else {
+        Matrix6::zeros()
+    }
+}
+
+fn diagonal_block(system: &BondSystem, intact: &[bool], point: usize) -> Matrix3<f64> {
+    let mut block = Matrix3::zeros();
     for &bond in system.bonds.incidence.of(point as u32) {
         let bond = bond as usize;
-        if intact[bond] {
-            let offset = if system.bonds.ends[bond][0] as usize == point {
-                0
-            } else {
-                COMPONENTS
-            };
-            block += system
-                .element(bond)
-                .stiffness()
-                .fixed_view::<3, 3>(offset, offset);
-        }
+        let is_first_end = system.bonds.ends[bond][0] as usize == point;
+        let offset = if is_first_end { 0 } else { COMPONENTS };
+        block +=
+            stiffness(system, intact, bond).fixed_view::<COMPONENTS, COMPONENTS>(offset, offset);
     }
     block
 }

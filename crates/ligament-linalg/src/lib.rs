@@ -7,6 +7,7 @@ mod factorisation;
 mod ldlt;
 mod llt;
 mod matrix;
+mod storage;
 mod symbolic;
 
 pub use factorisation::{FactorError, FactorKind, Factorisation, Inertia};

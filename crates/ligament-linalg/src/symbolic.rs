@@ -89,15 +89,3 @@ fn symbolic_view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
     let n = pattern.dimension();
     SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.rows())
 }
-
-/// Memory of `count` zeros, or an error instead of an abort.
-pub(crate) fn reserve_values(count: usize) -> Result<Vec<f64>, FactorError> {
-    let mut values = Vec::new();
-    values
-        .try_reserve_exact(count)
-        .map_err(|_| FactorError::OutOfMemory {
-            bytes: count * size_of::<f64>(),
-        })?;
-    values.resize(count, 0.0);
-    Ok(values)
-}

@@ -6,10 +6,10 @@ use anyhow::Context;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_mesh::Mesh;
 use ligament_model::bonds::precrack::cut_bonds;
-use ligament_model::correction::{CorrectionReport, domain, energy_ratios};
+use ligament_model::correction::{Correction, CorrectionReport, domain, energy_ratios};
 use ligament_model::failure::strength::critical_stretches;
-use ligament_model::law::nhpd;
-use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
+use ligament_model::law::{BondStiffness, nhpd};
+use ligament_model::{BondSet, BondSystem, Horizons, Material, Plane, PointCloud};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{FixedFields, MeshCells, ResultWriter, WriteRule};
 
@@ -58,51 +58,22 @@ pub fn build_model(
     let materials = resolve::materials(case);
     let mesh = stages.time("read mesh", || read_mesh(&case.case.mesh.file))?;
     let material_of_cell = resolve::material_of_cell(case, &mesh)?;
+    let thickness = case.case.mesh.thickness;
     let cloud = stages.time("points", || {
-        PointCloud::from_mesh(
-            &mesh,
-            case.case.mesh.thickness,
-            &material_of_cell,
-            materials.len(),
-        )
+        PointCloud::from_mesh(&mesh, thickness, &material_of_cell, materials.len())
     });
     let horizons = Horizons::from_spacing(&cloud.spacing, case.case.model.horizon_factor);
-    let whole = stages.time("bonds", || BondSet::search(&cloud, &horizons));
-    progress.stage(&format!("{} points, {} bonds", cloud.len(), whole.len()));
-
-    let is_cut = cut_bonds(&resolve::precracks(case), &whole, &cloud);
-    let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
-    let precrack_share = precrack_share(&whole, &is_cut);
-    let corrected_after_cutting = case.case.correction.domain == CorrectionDomain::Cracked;
-    let bonds = if corrected_after_cutting {
-        whole.retained(&survives)
-    } else {
-        whole
-    };
-    let stiffness = nhpd::stiffness(&bonds, &cloud, &materials, plane);
-    let correction = stages.time("correction", || {
-        domain::iterate(
-            &bonds,
-            &cloud,
-            &stiffness,
-            &materials,
-            plane,
-            resolve::sweeps(case, bonds.len()),
-        )
+    let bonds = stages.time("bonds", || BondSet::search(&cloud, &horizons));
+    progress.stage(&format!("{} points, {} bonds", cloud.len(), bonds.len()));
+    let is_cut = cut_bonds(&resolve::precracks(case), &bonds, &cloud);
+    let precrack_share = precrack_share(&bonds, &is_cut);
+    let corrected = stages.time("correction", || {
+        correct(case, &cloud, bonds, &is_cut, &materials, plane)
     });
-    progress.stage(&summary::correction_line(&correction.report));
-    let energy_ratios = energy_ratios(&bonds, &cloud, &stiffness, &correction, &materials, plane);
-    let (bonds, stiffness, correction) = if corrected_after_cutting {
-        (bonds, stiffness, correction)
-    } else {
-        (
-            bonds.retained(&survives),
-            stiffness.retained(&survives),
-            correction.retained(&survives),
-        )
-    };
+    let (correction, report) = (&corrected.correction, corrected.correction.report);
+    progress.stage(&summary::correction_line(&report));
 
-    let system = BondSystem::new(cloud, bonds, &stiffness, &correction);
+    let system = BondSystem::new(cloud, corrected.bonds, &corrected.stiffness, correction);
     let no_fail = resolve::no_fail(case, &mesh, &system.cloud)?;
     let critical_stretch = critical_stretches(&system, &materials, plane, &no_fail);
     let fixed = FixedFields {
@@ -110,13 +81,13 @@ pub fn build_model(
         horizon: horizons.radius,
         spacing: system.cloud.spacing.clone(),
         precrack_share,
-        energy_ratios,
+        energy_ratios: corrected.energy_ratios,
         ends: system.bonds.ends.clone(),
         domain_factor: correction.domain_factor.clone(),
     };
     Ok(Model {
-        warnings: warnings::of_model(case, &mesh, &correction.report),
-        correction: correction.report,
+        warnings: warnings::of_model(case, &mesh, &report),
+        correction: report,
         correction_range: correction.domain_factor_range(),
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
         no_fail_points: no_fail.iter().filter(|marked| **marked).count(),
@@ -125,6 +96,51 @@ pub fn build_model(
         fixed,
         critical_stretch,
     })
+}
+
+/// Bonds that pre-cracks leave, with their stiffness and correction.
+struct Corrected {
+    bonds: BondSet,
+    stiffness: BondStiffness,
+    correction: Correction,
+    energy_ratios: [Vec<f64>; 4],
+}
+
+/// Corrects the bonds of the whole body and then drops those that pre-cracks cut, or the other way round if the case
+/// says so.
+fn correct(
+    case: &CaseFile,
+    cloud: &PointCloud,
+    bonds: BondSet,
+    is_cut: &[bool],
+    materials: &[Material],
+    plane: Plane,
+) -> Corrected {
+    let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
+    let cut_first = case.case.correction.domain == CorrectionDomain::Cracked;
+    let bonds = if cut_first {
+        bonds.retained(&survives)
+    } else {
+        bonds
+    };
+    let sweeps = resolve::sweeps(case, bonds.len());
+    let stiffness = nhpd::stiffness(&bonds, cloud, materials, plane);
+    let correction = domain::iterate(&bonds, cloud, &stiffness, materials, plane, sweeps);
+    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, materials, plane);
+    if cut_first {
+        return Corrected {
+            bonds,
+            stiffness,
+            correction,
+            energy_ratios,
+        };
+    }
+    Corrected {
+        bonds: bonds.retained(&survives),
+        stiffness: stiffness.retained(&survives),
+        correction: correction.retained(&survives),
+        energy_ratios,
+    }
 }
 
 /// Runs a case and writes its results into a new folder.

@@ -2,6 +2,7 @@
 
 pub mod elastic;
 mod recorder;
+mod start;
 pub mod stepped;
 
 pub use recorder::{LoadPoint, Outcome};

@@ -7,14 +7,14 @@ use std::time::Instant;
 
 use ligament_model::element::beam::BondDeformation;
 
-use super::elastic::{Start, begin, came_loose};
 use super::recorder::{Energies, Outcome, StepCounters, step_record};
+use super::start::{Start, begin, report_loose, report_mechanisms};
 use super::{LoadPoint, Problem};
 use crate::boundary::ControlKind;
 use crate::breaking::{BreakingRule, next_to_break};
 use crate::connectivity::{Fragments, Hold};
 use crate::equilibrium::{Balanced, Equilibrium, SetupError};
-use crate::history::{BreakRecord, Notice, Observer, StepRecord, Termination, View};
+use crate::history::{BreakRecord, Observer, StepRecord, Termination, View};
 use crate::state::State;
 
 /// How to step and when to stop.
@@ -202,13 +202,7 @@ impl Path<'_> {
         self.energies.add_work(self.problem, &self.state, balanced);
         self.energies
             .add_released(self.problem, just_broken, balanced);
-        if !balanced.mechanisms.is_empty() {
-            let degrees_of_freedom = balanced.mechanisms.clone();
-            self.observer.notice(&Notice::Mechanisms {
-                step,
-                degrees_of_freedom,
-            })?;
-        }
+        report_mechanisms(step, balanced, self.observer)?;
         Ok(())
     }
 
@@ -238,15 +232,8 @@ impl Path<'_> {
         self.observer.broke(&records)?;
         let (fragments, holds) = self.equilibrium.bonds_changed(&mut self.state);
         self.fragments = fragments;
-        if let Some(first) = holds.first() {
-            self.collapsed |= self.load_came_loose(&holds);
-            self.observer.notice(&came_loose(
-                counters.step,
-                &self.fragments,
-                &holds,
-                first.fragment,
-            ))?;
-        }
+        self.collapsed |= self.load_came_loose(&holds);
+        report_loose(counters.step, &self.fragments, &holds, self.observer)?;
         Ok(bonds
             .iter()
             .map(|&bond| (bond, balanced.deformations[bond as usize]))

@@ -85,55 +85,76 @@ pub fn iterate(
     let densities = [StrainMode::UniaxialX, StrainMode::UniaxialY]
         .map(|mode| bond_energy_densities(mode, bonds, stiffness, &length_factor));
     let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
-    let mut domain_factor = vec![1.0; bonds.len()];
-    let mut report = CorrectionReport {
-        sweeps: 0,
-        converged: false,
-        last_change: f64::INFINITY,
-        largest_residual: f64::NAN,
+    let tolerance = match sweeps.stop {
+        StopRule::Sum(tolerance) => tolerance,
+        StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
     };
-    while !report.converged && report.sweeps < sweeps.limit {
-        let ratios = [0, 1].map(|axis| {
-            let energies = point_energies(&densities[axis], &domain_factor, bonds, cloud);
-            target
-                .par_iter()
-                .zip(energies)
-                .map(|(e, trial)| e / trial)
-                .collect::<Vec<f64>>()
-        });
-        let updated: Vec<f64> = (0..bonds.len())
-            .into_par_iter()
-            .map(|bond| {
-                let ends = bonds.ends[bond].map(|end| end as usize);
-                let [p_x, p_y] =
-                    [0, 1].map(|axis: usize| 0.5 * (ratios[axis][ends[0]] + ratios[axis][ends[1]]));
-                let [a, b] = bonds.direction[bond];
-                domain_factor[bond] / ((a / p_x).powi(2) + (b / p_y).powi(2)).sqrt()
-            })
-            .collect();
-        report.last_change = ordered_sum(bonds.len(), |bond| {
+    let trial_energies = |domain_factor: &[f64]| {
+        densities
+            .each_ref()
+            .map(|density| point_energies(density, domain_factor, bonds, cloud))
+    };
+    let mut domain_factor = vec![1.0; bonds.len()];
+    let mut last_change = f64::INFINITY;
+    let mut done = 0;
+    while last_change >= tolerance && done < sweeps.limit {
+        let updated = swept(
+            bonds,
+            &domain_factor,
+            &target,
+            trial_energies(&domain_factor),
+        );
+        last_change = ordered_sum(bonds.len(), |bond| {
             (updated[bond] - domain_factor[bond]).abs()
         });
-        report.converged = match sweeps.stop {
-            StopRule::Sum(tolerance) => report.last_change < tolerance,
-            StopRule::Mean(tolerance) => report.last_change < tolerance * bonds.len() as f64,
-        };
-        report.sweeps += 1;
         domain_factor = updated;
+        done += 1;
     }
-    report.largest_residual = (0..2)
-        .flat_map(|axis| {
-            point_energies(&densities[axis], &domain_factor, bonds, cloud)
-                .into_iter()
-                .zip(&target)
-        })
-        .map(|(energy, e)| (energy / e - 1.0).abs())
-        .fold(0.0, f64::max);
+    let residual = |(trial, e): (&f64, &f64)| (trial / e - 1.0).abs();
+    let energies = trial_energies(&domain_factor);
+    let residuals = energies
+        .iter()
+        .flat_map(|trial| trial.iter().zip(&target).map(residual));
+    let report = CorrectionReport {
+        sweeps: done,
+        converged: last_change < tolerance,
+        last_change,
+        largest_residual: residuals.fold(0.0, f64::max),
+    };
     Correction {
         length_factor,
         domain_factor,
         report,
     }
+}
+
+/// Omega of every bond after one sweep of NHPD eq. 13, from the trial energies along x and y, shape (n_bonds).
+fn swept(
+    bonds: &BondSet,
+    domain_factor: &[f64],
+    target: &[f64],
+    trial_energies: [Vec<f64>; 2],
+) -> Vec<f64> {
+    let ratios = trial_energies.map(|trial| -> Vec<f64> {
+        target
+            .iter()
+            .zip(trial)
+            .map(|(e, trial)| e / trial)
+            .collect()
+    });
+    let mean_ratio = |axis: usize, ends: [u32; 2]| {
+        let [a, b] = ends.map(|end| ratios[axis][end as usize]);
+        0.5 * (a + b)
+    };
+    (0..bonds.len())
+        .into_par_iter()
+        .map(|bond| {
+            let ends = bonds.ends[bond];
+            let [a, b] = bonds.direction[bond];
+            let (p_x, p_y) = (mean_ratio(0, ends), mean_ratio(1, ends));
+            domain_factor[bond] / ((a / p_x).powi(2) + (b / p_y).powi(2)).sqrt()
+        })
+        .collect()
 }
 
 /// Strain energy density of every point over the continuum's, for each of [`StrainMode::ALL`], shape (4, n_points).

@@ -1,0 +1,144 @@
+//! What every driver does first: hold what nothing holds, and look at the elastic answer.
+
+use super::Problem;
+use super::recorder::{Energies, LoadPoint, StepCounters, largest_ratio, step_record};
+use crate::connectivity::{Fragments, Hold};
+use crate::equilibrium::{Balanced, Equilibrium, SetupError, Stability};
+use crate::history::{Notice, Observer, ObserverError, StepRecord, View};
+use crate::state::State;
+
+/// What is known before the first load step.
+pub(super) struct Start {
+    /// The unloaded body, with its holds.
+    pub(super) unloaded: State,
+    pub(super) fragments: Fragments,
+    /// NaN where there is no equilibrium.
+    pub(super) elastic_stiffness: f64,
+    pub(super) first_break: Option<LoadPoint>,
+    pub(super) stability: Option<Stability>,
+}
+
+/// Holds what nothing holds, and solves once at load factor one for the stiffness, the first breakage and the inertia.
+pub(super) fn begin(
+    problem: &Problem<'_>,
+    equilibrium: &mut Equilibrium<'_>,
+    critical_stretch: &[f64],
+    observer: &mut dyn Observer,
+) -> Result<Start, SetupError> {
+    let mut unloaded = State::fresh(problem.system);
+    let (fragments, holds) = equilibrium.bonds_changed(&mut unloaded);
+    report_loose(0, &fragments, &holds, observer)?;
+    let mut at_one = State {
+        load_factor: 1.0,
+        ..unloaded.clone()
+    };
+    let mut start = Start {
+        unloaded,
+        fragments,
+        elastic_stiffness: f64::NAN,
+        first_break: None,
+        stability: None,
+    };
+    // Without an equilibrium the first load step fails as well, and says why.
+    if let Ok(balanced) = equilibrium.balance(&mut at_one, &mut Unobserved)? {
+        report_mechanisms(0, &balanced, observer)?;
+        start.unloaded.held.clone_from(&at_one.held);
+        start.stability = stability(problem, equilibrium, &at_one, observer)?;
+        start.read_off(problem, &at_one, &balanced, critical_stretch);
+    }
+    Ok(start)
+}
+
+impl Start {
+    /// Stiffness and first breakage from the elastic answer: everything is proportional to the load factor.
+    fn read_off(
+        &mut self,
+        problem: &Problem<'_>,
+        at_one: &State,
+        balanced: &Balanced,
+        critical_stretch: &[f64],
+    ) {
+        let record = step_record(
+            problem,
+            at_one,
+            balanced,
+            &Energies::default(),
+            &self.fragments,
+            critical_stretch,
+            StepCounters::default(),
+        );
+        self.elastic_stiffness = record.reaction / record.displacement;
+        let ratio = largest_ratio(at_one, balanced, critical_stretch);
+        self.first_break = (ratio > 0.0).then(|| LoadPoint {
+            load_factor: 1.0 / ratio,
+            displacement: record.displacement / ratio,
+            reaction: record.reaction / ratio,
+        });
+    }
+}
+
+/// Inertia of the intact stiffness where it may be indefinite; told to the observer where it is not as it should be.
+fn stability(
+    problem: &Problem<'_>,
+    equilibrium: &Equilibrium<'_>,
+    state: &State,
+    observer: &mut dyn Observer,
+) -> Result<Option<Stability>, SetupError> {
+    let rigidities = &problem.system.shear_rigidity;
+    if rigidities.iter().all(|&rigidity| rigidity >= 0.0) {
+        return Ok(None);
+    }
+    let stability = equilibrium.stability(state)?;
+    if let Some(Stability { negative, expected }) = stability
+        && negative != expected
+    {
+        observer.notice(&Notice::Unstable { negative, expected })?;
+    }
+    Ok(stability)
+}
+
+/// Tells of parts that came loose.
+pub(super) fn report_loose(
+    step: usize,
+    fragments: &Fragments,
+    holds: &[Hold],
+    observer: &mut dyn Observer,
+) -> Result<(), ObserverError> {
+    let mut loose: Vec<u32> = holds.iter().map(|hold| hold.fragment).collect();
+    loose.dedup();
+    let points_of = |fragment: &u32| &fragments.points[*fragment as usize];
+    let Some(first) = loose.first() else {
+        return Ok(());
+    };
+    observer.notice(&Notice::CameLoose {
+        step,
+        points: loose.iter().map(|fragment| points_of(fragment).len()).sum(),
+        motions: holds.len(),
+        first: points_of(first)[0],
+    })
+}
+
+/// Tells of mechanisms that the factorisation met.
+pub(super) fn report_mechanisms(
+    step: usize,
+    balanced: &Balanced,
+    observer: &mut dyn Observer,
+) -> Result<(), ObserverError> {
+    if balanced.mechanisms.is_empty() {
+        return Ok(());
+    }
+    let degrees_of_freedom = balanced.mechanisms.clone();
+    observer.notice(&Notice::Mechanisms {
+        step,
+        degrees_of_freedom,
+    })
+}
+
+/// Watches nothing.
+struct Unobserved;
+
+impl Observer for Unobserved {
+    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+}
