@@ -225,8 +225,9 @@ fn numbering_does_not_matter() {
 /// One thread or two: no bit of a history, a list of breakages or a field file differs. The whole program runs.
 #[test]
 fn threads_do_not_change_a_bit() {
-    let text = format!("{SQUARE}output = {{ fields_every = 1, bonds = true }}\n");
-    let case = bench::case(&text, &[]);
+    // Enough bonds that sums over them are split among the threads.
+    let text = format!("{DISK}output = {{ fields_every = 5, bonds = true }}\n");
+    let case = bench::case(&text, &["fracture.stop.load_fraction=0.97"]);
     let folder = TempDir::new().unwrap();
     let folders = [1, 2].map(|threads| {
         let out = folder.path().join(threads.to_string());
@@ -259,8 +260,8 @@ fn threads_do_not_change_a_bit() {
         fields += usize::from(name.ends_with(".vtu"));
     }
     assert!(
-        fields > 50,
-        "fields and bonds of every load step are compared"
+        fields > 8,
+        "fields and bonds of some load steps are compared"
     );
 }
 
@@ -324,8 +325,7 @@ load = [{{ group = "platen-top", displacement = {{ x = {:?}, y = {:?} }} }}]
 }
 
 /// A body 1 km from the origin. Its coordinates lose digits in the file: rounding of 1e3 m (1.1e-13 m) over the smallest
-/// distance of 4.4e-3 m is 2.5e-11, which the solution multiplies by some ten. Without the shift of coordinates to the
-/// body's middle the squares of coordinates would lose all digits.
+/// distance of 4.4e-3 m is 2.5e-11, which the solution multiplies by some ten.
 #[test]
 fn a_place_far_away_costs_few_digits() {
     let mesh = meshes::read("tests/reference/disk.msh");
@@ -521,6 +521,34 @@ fn energies_balance_while_bonds_break() {
     }
 }
 
+/// The force through a section of the plate, summed over the bonds that cross it, is the load, wherever the section is.
+/// Seen upwards, the right side pulls the left one along +x.
+#[test]
+fn every_section_carries_the_load() {
+    let mut text =
+        format!("{PLATE}load = [{{ group = \"right\", displacement = {{ x = 1e-5 }} }}]\n");
+    let places = [0.02, 0.0777, 0.1, 0.163];
+    for (k, x) in places.iter().enumerate() {
+        for component in ["x", "y"] {
+            text += &format!(
+                "[[probe]]\nname = \"{component}{k}\"\nsection = [[{x:?}, -0.01], [{x:?}, 0.11]]\ncomponent = \"{component}\"\n"
+            );
+        }
+    }
+    let run = Bench::new(&text, &[]).solve();
+    let load = run.last().reaction;
+    assert!(load > 1e3);
+    assert_eq!(run.last().probes.len(), 2 * places.len());
+    for forces in run.last().probes.chunks(2) {
+        assert!(
+            relative_error(forces[0], load) < 1e-9,
+            "{} of {load}",
+            forces[0]
+        );
+        assert!(forces[1].abs() < 1e-9 * load);
+    }
+}
+
 // ---- Breaking ---------------------------------------------------------------------------------------------------------
 
 /// Centre slot of 40 mm in the disk: a fresh specimen has bonds cut, a share of them at some points, and no damage.
@@ -538,14 +566,25 @@ fn a_pre_crack_is_no_damage() {
     assert_eq!(largest(fields::damage(&model.system, &intact)), 0.0);
     let share = &model.fixed.precrack_share;
     assert!(largest(share.iter().copied()) > 0.3 && share.contains(&0.0));
-    // What broke later is damage, and what the crack had cut counts in neither sum: 1 where all of the rest broke.
-    let damage = fields::damage(&model.system, &run.state().intact);
-    let nearly_lost = (0..bench.points()).any(|point| damage[point] > 0.5 && share[point] > 0.2);
+    // What broke later is damage (NHPD eq. 17), of the bonds that the crack had left.
+    let system = &model.system;
+    let (mut broken, mut all) = (vec![0.0; bench.points()], vec![0.0; bench.points()]);
+    for (bond, ends) in system.bonds.ends.iter().enumerate() {
+        let is_broken = run.breaks.iter().any(|record| record.bond as usize == bond);
+        for &end in ends {
+            all[end as usize] += system.weight[bond];
+            broken[end as usize] += if is_broken { system.weight[bond] } else { 0.0 };
+        }
+    }
+    let damage = fields::damage(system, &run.state().intact);
+    for point in 0..bench.points() {
+        assert!((damage[point] - broken[point] / all[point]).abs() < 1e-12);
+    }
+    let damaged = |point: usize| share[point] > 0.0 && damage[point] > 0.3;
     assert!(
-        nearly_lost,
-        "a point at the slot loses most of its other bonds"
+        (0..bench.points()).any(damaged),
+        "points at the slot are damaged"
     );
-    assert!(damage.iter().all(|&phi| (0.0..=1.0 + 1e-12).contains(&phi)));
 }
 
 /// A broken bond is a bond that is not there: the disk with its slot's bonds marked as broken, and the disk built without
@@ -682,12 +721,10 @@ fn a_body_held_by_halves_is_held_and_reported() {
     assert_eq!(held[0] % 3, 0, "a motion along x is held");
     assert_eq!(run.displacement()[held[0]], 0.0);
     let [x, y] = bench.positions()[held[0] / 3];
-    let place = format!("{DISK}").replace("pole-bottom", "nowhere");
     let supported = text.replace(
         "support = [",
         &format!("support = [{{ at = [{x:?}, {y:?}], displacement = {{ x = 0.0 }} }},"),
     );
-    assert!(place.contains("nowhere"));
     let expected = Bench::new(&supported, &[]).solve();
     assert!(expected.notices.is_empty());
     assert!(deviation(run.displacement(), expected.displacement()) < 1e-9);
@@ -789,16 +826,13 @@ tensile_strength = 8e6
 #[test]
 fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
     let bench = Bench::new(&format!("{BAR}{TWO}"), &[]);
-    let [left, right] = ["left-half", "right-half"].map(|half| {
-        let text = format!("{BAR}{}", TWO.replace("left-half", "L").replace("right-half", "R"));
-        let text = text.replace(if half == "left-half" { "\"L\"" } else { "\"R\"" }, "\"all\"");
-        let _ = text;
-        let (young, poisson, strength) = if half == "left-half" { (15e9, 0.21, 3e6) } else { (60e9, 0.3, 8e6) };
+    let alone = |young: f64, poisson: f64, strength: f64| {
         let material = format!(
-            "material = {{ young = {young:?}, poisson = {poisson:?}, tensile_strength = {strength:?} }}\n"
+            "{{ young = {young:?}, poisson = {poisson:?}, tensile_strength = {strength:?} }}"
         );
-        Bench::new(&format!("{BAR}{material}"), &[])
-    });
+        Bench::new(&format!("{BAR}material = {material}\n"), &[])
+    };
+    let (left, right) = (alone(15e9, 0.21, 3e6), alone(60e9, 0.3, 8e6));
     let (system, cloud) = (&bench.model.system, &bench.model.system.cloud);
     let side = |point: u32| {
         let x = bench.positions()[point as usize][0] - 0.05;
@@ -954,14 +988,8 @@ fn body_forces_add_up_to_density_times_volume() {
     // Only the corner holds along y; its own share of the load is part of what it bears.
     let corner = bench.group("corner")[0] as usize;
     let support = run.group_force(&bench, "corner")[1] - bench.boundary.force[3 * corner + 1];
-    println!(
-        "weight {weight} N, borne {support} N and {} N",
-        bench.boundary.force[3 * corner + 1]
-    );
-    assert!(
-        relative_error(-run.group_force(&bench, "corner")[1], total - 0.0) < 1e-9
-            || relative_error(-support, total) < 1e-9
-    );
+    println!("weight {weight:.6} N, borne {support:.6} N");
+    assert!(relative_error(-support, weight) < 1e-9);
     // A part: the points of a box, by their volumes.
     let part = format!(
         "{PLATE}load = [{{ box = [[-0.01, -0.01], [0.1, 0.11]], body_force = {{ x = 1e4 }} }}]\n"

@@ -9,10 +9,9 @@ use std::f64::consts::PI;
 
 use ligament_analysis::driver::elastic;
 use ligament_analysis::history::{ObserverError, StepRecord, View};
-use ligament_analysis::{Component, Observer};
+use ligament_analysis::{Component, Observer, Termination};
 use verification::bench::Bench;
-use verification::meshes;
-use verification::numbers::{component, gradient, largest, relative_error};
+use verification::numbers::{gradient, largest, relative_error};
 
 const YOUNG: f64 = 15e9; // Pa
 const POISSON: f64 = 0.21;
@@ -37,7 +36,7 @@ support = [
     { group = "pole-bottom", displacement = { x = 0.0 } },
 ]
 load = [{ group = "platen-top", displacement = { y = -4e-4 } }]
-fracture = { steps = 100, bonds_per_iteration = 5, order = "excess", stop = { load_fraction = 0.7 } }
+fracture = { steps = 100, bonds_per_iteration = 5, order = "excess", stop = { load_fraction = 0.97 } }
 "#;
 
 /// Strains (e_xx, e_yy, g_xy) from least-squares planes through the displacements of the points that `inside` picks.
@@ -61,26 +60,39 @@ fn strains(bench: &Bench, displacement: &[f64], inside: impl Fn([f64; 2]) -> boo
 /// irregular mesh that an independent program has as well.
 #[test]
 fn apparent_moduli_of_a_plate_in_tension() {
-    for (factor, tolerance) in [(2, [0.05, 0.16]), (3, [0.015, 0.06]), (4, [0.01, 0.05])] {
-        let bench = Bench::new(PLATE, &[&format!("model.horizon_factor={factor}")]);
+    for (plane, factor, tolerance) in [
+        ("stress", 2, [0.05, 0.16]),
+        ("stress", 3, [0.015, 0.06]),
+        ("stress", 4, [0.01, 0.05]),
+        ("strain", 3, [0.015, 0.06]),
+    ] {
+        let (expected_young, expected_poisson) = match plane {
+            "stress" => (YOUNG, POISSON),
+            _ => (YOUNG / (1.0 - POISSON * POISSON), POISSON / (1.0 - POISSON)),
+        };
+        let settings = [
+            format!("model.horizon_factor={factor}"),
+            format!("mesh.plane={plane}"),
+        ];
+        let bench = Bench::new(PLATE, &[&settings[0], &settings[1]]);
         let run = bench.solve();
         let middle = |[x, y]: [f64; 2]| (x - 0.1).abs() <= 0.05 && (y - 0.05).abs() <= 0.025;
         let [e_xx, e_yy, g_xy] = strains(&bench, run.displacement(), middle);
         let stress = run.last().reaction / (0.1 * 0.02);
         let (young, poisson) = (stress / e_xx, -e_yy / e_xx);
         println!(
-            "lambda {factor}: E {:.3} GPa ({:+.2} %), nu {poisson:.4} ({:+.1} %), shear strain {:.1e} of e_xx",
+            "{plane}, lambda {factor}: E {:.3} GPa ({:+.2} %), nu {poisson:.4} ({:+.1} %), shear strain {:.1e} of e_xx",
             young / 1e9,
-            100.0 * (young / YOUNG - 1.0),
-            100.0 * (poisson / POISSON - 1.0),
+            100.0 * (young / expected_young - 1.0),
+            100.0 * (poisson / expected_poisson - 1.0),
             g_xy / e_xx
         );
         assert!(
-            relative_error(young, YOUNG) < tolerance[0],
+            relative_error(young, expected_young) < tolerance[0],
             "lambda {factor}: E {young:e}"
         );
         assert!(
-            relative_error(poisson, POISSON) < tolerance[1],
+            relative_error(poisson, expected_poisson) < tolerance[1],
             "lambda {factor}: nu {poisson}"
         );
         assert!(g_xy.abs() < 0.01 * e_xx);
@@ -89,9 +101,14 @@ fn apparent_moduli_of_a_plate_in_tension() {
 }
 
 /// Patch test: the rim of the irregular plate is moved as an affine field says (uniaxial, then shear), rotations free;
-/// inside, the continuum has the same field. Nonlocal bonds see an irregular neighbourhood, and the correction is for
-/// energies, not for forces, so the field is met only in the mean: the mean strain to 0.5 %, each displacement to
-/// a share of the strain times the size of the plate.
+/// inside, the continuum has the same field. Errors are those of the displacements in the middle half, over the strain
+/// times the size of the plate (0.2 m).
+///
+/// Where a frame as deep as the bonds are long is moved, what is left is the irregular mesh: the correction makes energies
+/// right, not forces, so points move from the affine place by up to a tenth of what the strain makes of the mesh size
+/// (4 mm); 0.2 of it are allowed, and 1 % of the mean strain. Where just the rim is moved, the bonds at it lack the
+/// partners beyond: the layer next to it strains otherwise than the middle, by what the strain makes of a quarter of the
+/// mesh size (half is allowed) or 4 % (5 %) of the mean strain.
 #[test]
 fn patch_test_on_an_irregular_mesh() {
     let cases = [
@@ -99,45 +116,47 @@ fn patch_test_on_an_irregular_mesh() {
         ("e_yy", [0.0, 1e-4, 0.0]),
         ("g_xy", [0.0, 0.0, 1e-4]),
     ];
-    for (name, strain) in cases {
-        let mut bench = Bench::new(PLATE, &[]);
-        let field = |[x, y]: [f64; 2]| {
-            [
-                strain[0] * x + 0.5 * strain[2] * y,
-                0.5 * strain[2] * x + strain[1] * y,
-            ]
-        };
-        bench.boundary.prescribed.fill(None);
-        for [node, _] in meshes::rim(&bench.model.mesh) {
-            let [u_x, u_y] = field(bench.model.mesh.positions[node as usize]);
-            bench
-                .boundary
-                .prescribe(&[node], Component::X, u_x)
-                .unwrap();
-            bench
-                .boundary
-                .prescribe(&[node], Component::Y, u_y)
-                .unwrap();
+    let middle = |[x, y]: [f64; 2]| (x - 0.1).abs() <= 0.05 && (y - 0.05).abs() <= 0.025;
+    for (depth, of_displacement, of_strain) in [(0.012, 0.004, 0.01), (0.0, 0.01, 0.05)] {
+        for (name, strain) in cases {
+            let field = |[x, y]: [f64; 2]| {
+                [
+                    strain[0] * x + 0.5 * strain[2] * y,
+                    0.5 * strain[2] * x + strain[1] * y,
+                ]
+            };
+            let mut bench = Bench::new(PLATE, &[]);
+            let positions = bench.positions().to_vec();
+            let is_moved = |[x, y]: [f64; 2]| x.min(0.2 - x).min(y).min(0.1 - y) <= depth + 1e-9;
+            bench.boundary.prescribed.fill(None);
+            for (point, position) in positions.iter().enumerate().filter(|(_, p)| is_moved(**p)) {
+                let [u_x, u_y] = field(*position);
+                for (component, value) in [(Component::X, u_x), (Component::Y, u_y)] {
+                    bench
+                        .boundary
+                        .prescribe(&[point as u32], component, value)
+                        .unwrap();
+                }
+            }
+            let outcome = elastic::run(&bench.problem(), 1e-4, &mut Unobserved).unwrap();
+            let u = &outcome.state.displacement;
+            let inside = || (0..positions.len()).filter(|&point| middle(positions[point]));
+            assert!(inside().count() > 300);
+            let displacement_error = largest(inside().flat_map(|point| {
+                let expected = field(positions[point]);
+                [0, 1].map(|axis| u[3 * point + axis] - expected[axis])
+            })) / (1e-4 * 0.2);
+            let fitted = strains(&bench, u, middle);
+            let strain_error = largest((0..3).map(|k| fitted[k] - strain[k])) / 1e-4;
+            println!(
+                "{name}, {depth} m moved: displacement off by {displacement_error:.1e}, mean strain by {strain_error:.1e}"
+            );
+            assert!(displacement_error < of_displacement, "{name}, {depth} m");
+            assert!(strain_error < of_strain, "{name}, {depth} m");
+            assert!(displacement_error > 0.0);
         }
-        let outcome = elastic::run(&bench.problem(), 1e-4, &mut Unobserved).unwrap();
-        let u = &outcome.state.displacement;
-        let fitted = strains(&bench, u, |_| true);
-        let error = largest((0..bench.points()).flat_map(|point| {
-            let expected = field(bench.positions()[point]);
-            [u[3 * point] - expected[0], u[3 * point + 1] - expected[1]]
-        })) / (1e-4 * 0.2);
-        let of_strain = largest((0..3).map(|k| fitted[k] - strain[k])) / 1e-4;
-        let rotation = largest(component(u, 2)) / 1e-4;
-        println!(
-            "{name}: displacement off by {error:.1e}, mean strain by {of_strain:.1e}, rotations up to {rotation:.2} of the strain"
-        );
-        assert!(error < PATCH_DISPLACEMENT, "{name}: {error:.1e}");
-        assert!(of_strain < PATCH_STRAIN, "{name}: {of_strain:.1e}");
     }
 }
-
-const PATCH_DISPLACEMENT: f64 = 0.02;
-const PATCH_STRAIN: f64 = 0.005;
 
 struct Unobserved;
 
@@ -190,7 +209,12 @@ fn strength_of_a_brazilian_disk() {
         run.outcome.termination
     );
     assert!((0.9..1.3).contains(&ratio), "{ratio}");
-    assert!(run.last().reaction < 0.75 * peak.reaction, "it splits");
+    let fraction = 0.97;
+    assert_eq!(
+        run.outcome.termination,
+        Termination::LoadFraction { fraction },
+        "the load falls"
+    );
     for record in &run.breaks[..10] {
         let ends = bench.model.system.bonds.ends[record.bond as usize];
         let [p, q] = ends.map(|end| bench.positions()[end as usize]);

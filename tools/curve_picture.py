@@ -34,8 +34,8 @@ def main():
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     for folder in arguments.folders:
         axes.plot(*read_curve(folder), marker=".", markersize=3, linewidth=1.2, label=folder.resolve().name)
-    axes.set_xlabel("displacement")
-    axes.set_ylabel("reaction")
+    axes.set_xlabel("displacement (m)")
+    axes.set_ylabel("reaction (N)")
     axes.grid(alpha=0.3)
     axes.legend()
     figure.savefig(arguments.out, dpi=150)

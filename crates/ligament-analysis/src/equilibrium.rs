@@ -59,6 +59,8 @@ pub struct Costs {
     pub factorisations: usize,
     /// Solves with a factor.
     pub solves: usize,
+    /// Time in numbering, pattern and symbolic analysis.
+    pub analysis: Duration,
     /// Time in assembly.
     pub assembly: Duration,
     /// Time in factorisation.
@@ -152,6 +154,7 @@ impl<'a> Equilibrium<'a> {
         boundary: &'a Boundary,
         energy_tolerance: f64,
     ) -> Result<Self, SetupError> {
+        let start = Instant::now();
         let unknowns = Unknowns::of_problem(system, boundary);
         let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone())?);
@@ -162,7 +165,10 @@ impl<'a> Equilibrium<'a> {
         } else {
             FactorKind::Ldlt
         };
-        let costs = Costs::default();
+        let costs = Costs {
+            analysis: start.elapsed(),
+            ..Costs::default()
+        };
         Ok(Self {
             system,
             boundary,

@@ -45,7 +45,8 @@ pub struct Summary {
     pub broken_bonds: usize,
     /// Load steps done.
     pub steps: usize,
-    /// Why the run ended.
+    /// Why the run ended: `termination` and `termination_message`.
+    #[serde(flatten)]
     pub termination: TerminationSummary,
     /// Largest |external work - stored - released energy| over the largest external work.
     pub energy_balance_error: f64,
@@ -123,8 +124,10 @@ impl From<LoadPoint> for PathPoint {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TerminationSummary {
     /// Short name.
+    #[serde(rename = "termination")]
     pub reason: &'static str,
     /// In words.
+    #[serde(rename = "termination_message")]
     pub message: String,
 }
 
@@ -144,6 +147,8 @@ pub struct SolverSummary {
     pub factorisations: usize,
     /// Solves.
     pub solves: usize,
+    /// Time in numbering, pattern and symbolic analysis, s.
+    pub analysis_seconds: f64,
     /// Time in assembly, s.
     pub assembly_seconds: f64,
     /// Time in factorisations, s.
@@ -219,9 +224,11 @@ impl Summary {
         if let Some(stiffness) = self.elastic_stiffness {
             writeln!(out, "  elastic stiffness  {stiffness:.6e} N/m")?;
         }
+        let broke = self.broken_bonds > 0;
+        let of_breaking = |point: Option<PathPoint>| point.filter(|_| broke);
         for (name, point) in [
             ("first breakage", self.first_break),
-            ("first peak", self.first_peak),
+            ("first peak", of_breaking(self.first_peak)),
             ("largest load", self.peak),
         ] {
             if let Some(PathPoint {
@@ -296,6 +303,7 @@ impl SolverSummary {
         Self {
             factorisations: costs.factorisations,
             solves: costs.solves,
+            analysis_seconds: costs.analysis.as_secs_f64(),
             assembly_seconds: costs.assembly.as_secs_f64(),
             factorisation_seconds: costs.factorisation.as_secs_f64(),
             solve_seconds: costs.solve.as_secs_f64(),
