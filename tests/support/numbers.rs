@@ -38,8 +38,8 @@ pub fn component(values: &[f64], c: usize) -> Vec<f64> {
 pub struct Random(pub u64);
 
 impl Random {
-    /// The next number.
-    pub fn next(&mut self) -> f64 {
+    /// The next number, uniformly distributed.
+    pub fn uniform(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
