@@ -18,12 +18,14 @@ pub struct Boundary {
 }
 
 /// A supported or loaded set of points.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BoundaryGroup {
     /// Name in the history.
     pub name: String,
     /// Points, ascending.
     pub points: Vec<u32>,
+    /// Resultant of the given forces that act through this group at load factor 1, N and N m.
+    pub force: [f64; COMPONENTS],
 }
 
 /// The load whose displacement and force are the axes of the force-displacement curve.
@@ -106,22 +108,40 @@ impl Boundary {
         self.force[COMPONENTS * point as usize + component.index()] += force;
     }
 
-    /// Adds a group to the history, once however many supports and loads act on it; another group of the same name gets
-    /// a number.
-    pub fn report_group(&mut self, name: &str, points: Vec<u32>) {
-        let same_name: Vec<&BoundaryGroup> = self
+    /// Adds a group to the history, with the resultant of its own given forces at load factor 1.
+    ///
+    /// The same points under the same name are one group however many supports and loads act on them; other points
+    /// under the same name get a number.
+    pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: [f64; COMPONENTS]) {
+        let mut same_name = self.groups.iter_mut().filter(|group| group.name == name);
+        if let Some(group) = same_name.find(|group| group.points == points) {
+            group.force = [0, 1, 2].map(|component| group.force[component] + force[component]);
+            return;
+        }
+        let earlier = self
             .groups
             .iter()
             .filter(|group| group.name == name)
-            .collect();
-        if same_name.iter().any(|group| group.points == points) {
-            return;
-        }
-        let name = match same_name.len() {
+            .count();
+        let name = match earlier {
             0 => name.to_owned(),
-            earlier => format!("{name}-{}", earlier + 1),
+            _ => format!("{name}-{}", earlier + 1),
         };
-        self.groups.push(BoundaryGroup { name, points });
+        self.groups.push(BoundaryGroup {
+            name,
+            points,
+            force,
+        });
+    }
+
+    /// Reaction of supports and prescribed motions at every degree of freedom: internal less given force where something
+    /// prescribes the motion, zero elsewhere; shape (3 n_points), N and N m.
+    pub fn reactions(&self, load_factor: f64, internal_forces: &[f64]) -> Vec<f64> {
+        let reaction = |dof: usize| internal_forces[dof] - load_factor * self.force[dof];
+        let prescribed = self.prescribed.iter().enumerate();
+        prescribed
+            .map(|(dof, value)| if value.is_some() { reaction(dof) } else { 0.0 })
+            .collect()
     }
 }
 
@@ -134,10 +154,11 @@ impl Control {
         }
     }
 
-    /// Force that the load exerts along the direction: the sum of the internal forces at its points, or the given one, N.
-    pub fn reaction(&self, load_factor: f64, internal_forces: &[f64]) -> f64 {
+    /// Force that the load exerts along the direction: the sum of the reactions (3 n_points) at its points, or the given
+    /// one, N.
+    pub fn force(&self, load_factor: f64, reactions: &[f64]) -> f64 {
         match self.kind {
-            ControlKind::Displacement => self.along(internal_forces),
+            ControlKind::Displacement => self.along(reactions),
             ControlKind::Force => self.magnitude * load_factor,
         }
     }

@@ -3,8 +3,6 @@
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
 
-use crate::unknowns::COMPONENTS;
-
 /// Damage of every point (NHPD eq. 17): 1 - (sum over its intact bonds of Omega alpha)/(sum over all its bonds).
 ///
 /// The bonds are those that were there at the start: what a pre-crack cut is no damage, and a point that lost all its
@@ -56,27 +54,6 @@ pub fn point_energy_density(
         .map(|bond| system.element(bond).energy(&deformations[bond]))
         .sum();
     0.5 * energy / system.cloud.volumes[point as usize]
-}
-
-/// Force of supports and prescribed motions on every point: internal minus external force where something prescribes
-/// the motion, zero elsewhere; shape (n_points, 3).
-pub fn reactions(
-    internal: &[f64],
-    external: &[f64],
-    is_prescribed: impl Fn(usize) -> bool,
-) -> Vec<[f64; COMPONENTS]> {
-    (0..internal.len() / COMPONENTS)
-        .map(|point| {
-            [0, 1, 2].map(|component| {
-                let dof = COMPONENTS * point + component;
-                if is_prescribed(dof) {
-                    internal[dof] - external[dof]
-                } else {
-                    0.0
-                }
-            })
-        })
-        .collect()
 }
 
 fn gather(system: &BondSystem, value: impl Fn(u32) -> f64) -> Vec<f64> {

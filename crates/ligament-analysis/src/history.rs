@@ -40,7 +40,7 @@ pub struct StepRecord {
     pub fragments: usize,
     /// Whether no bond was left to break.
     pub at_rest: bool,
-    /// Resultant of supports and loads on each group of the boundary: force along x and y, and moments of its points.
+    /// What each group of the boundary exerts on the body: force along x and y, and the moments on its points.
     pub group_forces: Vec<[f64; COMPONENTS]>,
     /// Values of the probes.
     pub probes: Vec<f64>,

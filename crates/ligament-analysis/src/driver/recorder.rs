@@ -3,10 +3,8 @@
 use ligament_model::element::beam::BondDeformation;
 
 use super::Problem;
-use crate::boundary::ControlKind;
 use crate::connectivity::Fragments;
 use crate::equilibrium::{Balanced, Costs, Stability};
-use crate::fields;
 use crate::history::{StepRecord, Termination};
 use crate::state::State;
 use crate::unknowns::COMPONENTS;
@@ -158,20 +156,14 @@ pub(super) fn step_record(
     counters: StepCounters,
 ) -> StepRecord {
     let control = &problem.boundary.control;
-    let internal = &balanced.internal.values;
-    // The internal force at a loaded point is what the load and the support exert together.
-    let reaction = match control.kind {
-        ControlKind::Displacement => {
-            let own_loads = control.reaction(1.0, &problem.boundary.force) * state.load_factor;
-            control.reaction(state.load_factor, internal) - own_loads
-        }
-        ControlKind::Force => control.reaction(state.load_factor, internal),
-    };
+    let reactions = problem
+        .boundary
+        .reactions(state.load_factor, &balanced.internal.values);
     StepRecord {
         step: counters.step,
         load_factor: state.load_factor,
         displacement: control.displacement(state.load_factor, &state.displacement),
-        reaction,
+        reaction: control.force(state.load_factor, &reactions),
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
@@ -182,7 +174,7 @@ pub(super) fn step_record(
         solves: counters.solves,
         fragments: fragments.points.len(),
         at_rest: counters.at_rest,
-        group_forces: group_forces(problem, internal),
+        group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: problem
             .probes
             .iter()
@@ -191,17 +183,19 @@ pub(super) fn step_record(
     }
 }
 
-/// Resultant on each group: the internal forces at its points, which supports, motions and loads balance.
-fn group_forces(problem: &Problem<'_>, internal: &[f64]) -> Vec<[f64; COMPONENTS]> {
-    let none = vec![0.0; internal.len()];
-    let forces = fields::reactions(internal, &none, |_| true);
-    problem
-        .boundary
-        .groups
-        .iter()
+/// What each group exerts on the body: the reactions at its points and its own given forces.
+fn group_forces(
+    problem: &Problem<'_>,
+    load_factor: f64,
+    reactions: &[f64],
+) -> Vec<[f64; COMPONENTS]> {
+    let groups = problem.boundary.groups.iter();
+    groups
         .map(|group| {
-            group.points.iter().fold([0.0; COMPONENTS], |sum, &point| {
-                [0, 1, 2].map(|component| sum[component] + forces[point as usize][component])
+            let given = group.force.map(|force| load_factor * force);
+            group.points.iter().fold(given, |sum, &point| {
+                let reaction = &reactions[COMPONENTS * point as usize..];
+                [0, 1, 2].map(|component| sum[component] + reaction[component])
             })
         })
         .collect()

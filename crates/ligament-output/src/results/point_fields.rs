@@ -93,16 +93,10 @@ pub(super) fn write(
         .collect();
     let damage = fields::damage(system, &state.intact);
     let density = fields::strain_energy_density(system, &state.intact, &balanced.deformations);
-    let external: Vec<f64> = view
+    let reactions = view
         .boundary
-        .force
-        .iter()
-        .map(|force| force * state.load_factor)
-        .collect();
-    let reactions = fields::reactions(&balanced.internal.values, &external, |dof| {
-        view.boundary.prescribed[dof].is_some()
-    });
-    let reaction: Vec<[f64; 3]> = reactions.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
+        .reactions(state.load_factor, &balanced.internal.values);
+    let reaction: Vec<[f64; 3]> = in_plane(&reactions);
     let fragment: Vec<i64> = view
         .fragments
         .of_point
@@ -128,12 +122,16 @@ pub(super) fn write(
     write_grid(path, cells, &point_fields)
 }
 
-/// Displacements with three components, as readers expect vectors, shape (n_points).
+/// Displacements of the points.
 pub(super) fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
-    view.state
-        .displacement
+    in_plane(&view.state.displacement)
+}
+
+/// The x and y components with a third of zero, as readers expect vectors, shape (n_points).
+fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
+    values
         .chunks(COMPONENTS)
-        .map(|motion| [motion[0], motion[1], 0.0])
+        .map(|components| [components[0], components[1], 0.0])
         .collect()
 }
 

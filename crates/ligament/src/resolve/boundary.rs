@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ligament_analysis::{Boundary, BoundaryError, Component, Control, ControlKind};
+use ligament_analysis::{Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind};
 use ligament_mesh::Mesh;
 use ligament_model::PointCloud;
 
@@ -17,7 +17,11 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
         let key = format!("support.{index}");
         let points = places.points(&key, Some(&support.place))?;
         places.prescribe(&mut boundary, &key, &points, &support.displacement)?;
-        boundary.report_group(&place_name(&support.place, index), points);
+        boundary.report_group(
+            &place_name(&support.place, index),
+            points,
+            [0.0; COMPONENTS],
+        );
     }
     for (index, load) in case.case.loads.iter().enumerate() {
         let key = format!("load.{index}");
@@ -25,11 +29,13 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
         if let Action::Displacement(displacement) = &load.action {
             places.prescribe(&mut boundary, &key, &points, displacement)?;
         }
+        let mut total = [0.0; COMPONENTS];
         for (point, [x, y]) in places.forces(&key, load, &points)? {
             boundary.add_force(point, Component::X, x);
             boundary.add_force(point, Component::Y, y);
+            total = [total[0] + x, total[1] + y, 0.0];
         }
-        boundary.report_group(&load.name, points);
+        boundary.report_group(&load.name, points, total);
     }
     Ok(boundary)
 }
