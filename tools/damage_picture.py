@@ -93,15 +93,16 @@ def main():
     displacements = read_displacements(arguments.folder)
     meshes = [meshio.read(outputs[step]) for step in steps]
     fields = [point_values(mesh, arguments.field) for mesh in meshes]
-    limits = min(np.nanmin(values) for values in fields), max(np.nanmax(values) for values in fields)
+    lowest, highest = min(np.nanmin(values) for values in fields), max(np.nanmax(values) for values in fields)
+    limits = lowest, highest if highest > lowest else lowest + 1.0
     figure, all_axes = plt.subplots(1, len(steps), figsize=(1 + 5 * len(steps), 5), layout="constrained", squeeze=False)
     for axes, step, mesh, values in zip(all_axes[0], steps, meshes, fields):
         picture = draw(axes, mesh, values, arguments.scale, limits)
-        applied = f"displacement {displacements[step]:.6g}" if step in displacements else f"step {step}"
-        axes.set_title(f"{arguments.field}, {applied}")
+        applied = f"at {1e3 * displacements[step]:.4g} mm" if step in displacements else f"in step {step}"
+        axes.set_title(f"{arguments.field} {applied}")
     figure.colorbar(picture, ax=all_axes[0].tolist(), shrink=0.8)
     out = arguments.out or arguments.folder / f"{arguments.field}.png"
-    figure.savefig(out, dpi=150)
+    figure.savefig(out, dpi=90)
     print(out)
 
 

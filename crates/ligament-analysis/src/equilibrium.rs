@@ -86,6 +86,8 @@ pub struct Balanced {
     pub residual: f64,
     /// Newton-Raphson iterations.
     pub iterations: usize,
+    /// Whether that energy is negative, beyond rounding.
+    pub energy_is_negative: bool,
     /// Degrees of freedom that turned out to be mechanisms and are held from now on.
     pub mechanisms: Vec<usize>,
 }
@@ -203,6 +205,14 @@ impl<'a> Equilibrium<'a> {
         &self.costs
     }
 
+    /// Negative eigenvalues of the stiffness that was factorised last; 0 where it is known to be positive definite.
+    pub fn negative_eigenvalues(&self) -> usize {
+        match (&self.factor, self.kind) {
+            (Some(factor), FactorKind::Ldlt) => factor.inertia().negative,
+            _ => 0,
+        }
+    }
+
     /// Adds the time since `start` to the work on bonds.
     pub(crate) fn count_bond_work(&mut self, start: Instant) {
         self.costs.bonds += start.elapsed();
@@ -256,12 +266,7 @@ impl<'a> Equilibrium<'a> {
             let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
             if residual <= RESIDUAL_TOLERANCE || energy_settled {
                 (balanced.iterations, balanced.mechanisms) = (iterations, mechanisms);
-                let negative = Unbalanced::NegativeEnergy { energy };
-                return Ok(if energy < -self.energy_of_rounding(state) {
-                    Err(negative)
-                } else {
-                    Ok(balanced)
-                });
+                return Ok(Ok(balanced));
             }
             if iterations == ITERATION_LIMIT {
                 return Ok(Err(Unbalanced::NotConverged {
@@ -288,6 +293,7 @@ impl<'a> Equilibrium<'a> {
         let residual = self.relative_residual(state, &residual_forces, &internal);
         let stored_energy = internal::stored_energy(self.system, &state.intact, &deformations);
         self.costs.bonds += start.elapsed();
+        let energy_is_negative = stored_energy < -self.energy_of_rounding(state);
         let mechanisms = Vec::new();
         (
             residual_forces,
@@ -297,6 +303,7 @@ impl<'a> Equilibrium<'a> {
                 stored_energy,
                 residual,
                 iterations: 0,
+                energy_is_negative,
                 mechanisms,
             },
         )

@@ -38,8 +38,10 @@ pub struct StepRecord {
     pub solves: usize,
     /// Connected parts of the body.
     pub fragments: usize,
-    /// Whether no bond was left to break.
+    /// Whether no bond was left to break. A step that is not at rest shows the last equilibrium before the run ended.
     pub at_rest: bool,
+    /// Negative eigenvalues of the stiffness; 0 where it is positive definite.
+    pub negative_eigenvalues: usize,
     /// What each group of the boundary exerts on the body: force along x and y, and the moments on its points.
     pub group_forces: Vec<[f64; COMPONENTS]>,
     /// Values of the probes.
@@ -99,6 +101,14 @@ pub enum Notice {
         step: usize,
         /// Degrees of freedom held.
         degrees_of_freedom: Vec<usize>,
+    },
+    /// The stored energy became negative, and the run goes on because it was asked to.
+    #[error(
+        "step {step}: the stored energy became negative: results from here on are not those of a stable body"
+    )]
+    NegativeEnergy {
+        /// Load step.
+        step: usize,
     },
     /// The intact model has more negative eigenvalues than its rotations explain.
     #[error(

@@ -4,7 +4,9 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
+use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::{Boundary, Equilibrium};
+use ligament_mesh::Mesh;
 use ligament_model::Material;
 use ligament_output::results::{MeshCells, point_grid};
 
@@ -44,7 +46,7 @@ pub fn check(case: &CaseFile, fields: Option<&Path>, out: &mut dyn Write) -> any
     write_materials(out, case, &model)?;
     write_bonds(out, &model)?;
     write_energy_ratios(out, &model)?;
-    write_boundary(out, &boundary, probes.len())?;
+    write_boundary(out, &model.mesh, &boundary, &probes)?;
     write_equations(out, &model, &equilibrium)?;
     for stage in stages.done() {
         writeln!(out, "  time, {:<15} {:.3} s", stage.name, stage.seconds)?;
@@ -184,19 +186,43 @@ fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     Ok(())
 }
 
-fn write_boundary(out: &mut dyn Write, boundary: &Boundary, n_probes: usize) -> io::Result<()> {
+fn write_boundary(
+    out: &mut dyn Write,
+    mesh: &Mesh,
+    boundary: &Boundary,
+    probes: &[Probe],
+) -> io::Result<()> {
     writeln!(out, "supports and loads")?;
     for group in &boundary.groups {
-        writeln!(out, "  {:<21} {} points", group.name, group.points.len())?;
+        let where_at = match group.points.as_slice() {
+            [only] => place(mesh, *only),
+            points => format!("{} points", points.len()),
+        };
+        writeln!(out, "  {:<21} {where_at}", group.name)?;
     }
     let control = &boundary.control;
+    let (count, size) = (control.points.len(), control.magnitude);
     writeln!(
         out,
-        "  controlled by         {} points, size {:.4e}",
-        control.points.len(),
-        control.magnitude
+        "  controlled by         {count} points, size {size:.4e}"
     )?;
-    writeln!(out, "  probes                {n_probes}")
+    for probe in probes {
+        let reads = match &probe.reading {
+            Reading::RelativeDisplacement { points, .. } => {
+                points.map(|point| place(mesh, point)).join(" to ")
+            }
+            Reading::Field { point, .. } => place(mesh, *point),
+            Reading::SectionForce { bonds, .. } => format!("{} bonds", bonds.len()),
+        };
+        writeln!(out, "  probe {:<15} {reads}", probe.name)?;
+    }
+    Ok(())
+}
+
+fn place(mesh: &Mesh, point: u32) -> String {
+    let [x, y] = mesh.positions[point as usize];
+    let tag = mesh.node_tags[point as usize];
+    format!("node {tag} at ({x:.6}, {y:.6})")
 }
 
 fn write_equations(

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 /// Peridynamics for the plane: mesh in, cracks out.
 ///
 /// A case file (TOML) names a Gmsh mesh, materials, supports and loads; `ligament run` computes
-/// displacements, stresses and the breaking of bonds and writes them for ParaView.
+/// displacements, reactions and the breaking of bonds and writes them for ParaView.
 #[derive(Debug, Parser)]
 #[command(name = "ligament", version, after_help = OVERVIEW, arg_required_else_help = true)]
 pub struct Cli {

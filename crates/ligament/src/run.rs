@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_mesh::Mesh;
-use ligament_model::bonds::precrack::cut_bonds;
+use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Correction, CorrectionReport, domain, energy_ratios};
 use ligament_model::failure::strength::critical_stretches;
 use ligament_model::law::{BondStiffness, nhpd};
@@ -65,7 +65,9 @@ pub fn build_model(
     let horizons = Horizons::from_spacing(&cloud.spacing, case.case.model.horizon_factor);
     let bonds = stages.time("bonds", || BondSet::search(&cloud, &horizons));
     progress.stage(&format!("{} points, {} bonds", cloud.len(), bonds.len()));
-    let is_cut = cut_bonds(&resolve::precracks(case), &bonds, &cloud);
+    let precracks = resolve::precracks(case);
+    let is_cut = cut_bonds(&precracks, &bonds, &cloud);
+    let touched = count_touched_bonds(&precracks, &bonds, &cloud, &is_cut);
     let precrack_share = precrack_share(&bonds, &is_cut);
     let corrected = stages.time("correction", || {
         correct(case, &cloud, bonds, &is_cut, &materials, plane)
@@ -86,7 +88,7 @@ pub fn build_model(
         domain_factor: correction.domain_factor.clone(),
     };
     Ok(Model {
-        warnings: warnings::of_model(case, &mesh, &report),
+        warnings: warnings::of_model(case, &mesh, &report, &fixed, touched),
         correction: report,
         correction_range: correction.domain_factor_range(),
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),

@@ -3,6 +3,7 @@
 use ligament_mesh::Mesh;
 use ligament_model::correction::CorrectionReport;
 use ligament_model::{Material, Plane};
+use ligament_output::results::FixedFields;
 
 use crate::case::CaseFile;
 use crate::resolve;
@@ -10,8 +11,18 @@ use crate::resolve;
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
 
-/// Warnings about the mesh, the horizon factor, the correction and the materials.
-pub fn of_model(case: &CaseFile, mesh: &Mesh, correction: &CorrectionReport) -> Vec<String> {
+/// A point whose energy under uniaxial strain is off by more than this is told of.
+const ENERGY_TOLERANCE: f64 = 1e-4;
+
+/// Warnings about the mesh, the horizon factor, the correction, pre-cracks (`touched`: bonds that only touch an end of
+/// one) and the materials.
+pub fn of_model(
+    case: &CaseFile,
+    mesh: &Mesh,
+    correction: &CorrectionReport,
+    fixed: &FixedFields,
+    touched: usize,
+) -> Vec<String> {
     let mut warnings: Vec<String> = mesh
         .remarks
         .iter()
@@ -25,10 +36,12 @@ pub fn of_model(case: &CaseFile, mesh: &Mesh, correction: &CorrectionReport) -> 
         ));
     }
     if !correction.converged {
+        warnings.push(correction_warning(mesh, correction, fixed));
+    }
+    if touched > 0 {
         warnings.push(format!(
-            "the domain correction did not converge in {} sweeps (last change {:.2e}, energy off by up to {:.1e} at a \
-             point): raise correction.max_sweeps or model.horizon_factor",
-            correction.sweeps, correction.last_change, correction.largest_residual
+            "{touched} bonds only touch an end of a pre-crack and stay whole: if the crack begins at the outline, let \
+             it begin a little outside"
         ));
     }
     let plane = resolve::plane(case);
@@ -38,6 +51,28 @@ pub fn of_model(case: &CaseFile, mesh: &Mesh, correction: &CorrectionReport) -> 
             .filter_map(|material| poisson_warning(material, plane)),
     );
     warnings
+}
+
+fn correction_warning(mesh: &Mesh, correction: &CorrectionReport, fixed: &FixedFields) -> String {
+    let [x, y, ..] = &fixed.energy_ratios;
+    let error = |point: usize| (x[point] - 1.0).abs().max((y[point] - 1.0).abs());
+    let off = (0..x.len())
+        .filter(|&point| error(point) > ENERGY_TOLERANCE)
+        .count();
+    let worst = (0..x.len())
+        .max_by(|&i, &j| error(i).total_cmp(&error(j)))
+        .unwrap_or_default();
+    let [at_x, at_y] = mesh.positions[worst];
+    format!(
+        "the domain correction did not converge in {} sweeps (last change {:.2e}): {off} of {} points have energies off \
+         by more than {ENERGY_TOLERANCE}, the worst by {:.1e} (node {} at {at_x:.4}, {at_y:.4}); more \
+         correction.max_sweeps may help",
+        correction.sweeps,
+        correction.last_change,
+        x.len(),
+        error(worst),
+        mesh.node_tags[worst],
+    )
 }
 
 fn poisson_warning(material: &Material, plane: Plane) -> Option<String> {

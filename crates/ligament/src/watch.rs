@@ -91,7 +91,7 @@ impl<'a> Watch<'a> {
                     nodes.join(", ")
                 )
             }
-            Notice::Unstable { .. } => notice.to_string(),
+            Notice::Unstable { .. } | Notice::NegativeEnergy { .. } => notice.to_string(),
         }
     }
 }
@@ -110,7 +110,7 @@ impl Observer for Watch<'_> {
             broken_bonds: broken as u64,
             ..self.last
         };
-        if step > 0 {
+        if step > 0 && round > 0 {
             self.progress.round(&self.last);
         }
         self.writer.round(step, round, load_factor, broken)

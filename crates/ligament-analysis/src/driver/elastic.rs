@@ -3,7 +3,7 @@
 use super::Problem;
 use super::recorder::{Energies, Outcome, StepCounters, step_record};
 use super::start::begin;
-use crate::equilibrium::{Equilibrium, SetupError};
+use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{Observer, Termination, View};
 
 /// Solves the problem at load factor one; no bond breaks. The history has the unloaded body as step 0.
@@ -23,6 +23,15 @@ pub fn run(
         let solves_before = equilibrium.costs().solves;
         observer.round(step, 0, load_factor, 0)?;
         let balanced = match equilibrium.balance(&mut state, observer)? {
+            Ok(Balanced {
+                energy_is_negative: true,
+                stored_energy: energy,
+                ..
+            }) => {
+                let reason = Unbalanced::NegativeEnergy { energy };
+                termination = Termination::NoEquilibrium { step, reason };
+                break;
+            }
             Ok(balanced) => balanced,
             Err(reason) => {
                 termination = Termination::NoEquilibrium { step, reason };
@@ -34,6 +43,7 @@ pub fn run(
             step,
             solves: equilibrium.costs().solves - solves_before,
             at_rest: true,
+            negative_eigenvalues: equilibrium.negative_eigenvalues(),
             ..Default::default()
         };
         history.push(step_record(

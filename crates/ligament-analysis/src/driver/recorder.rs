@@ -40,25 +40,18 @@ pub struct LoadPoint {
 }
 
 impl Outcome {
-    /// The load step with the largest reaction.
+    /// The load step at rest with the largest reaction.
     pub fn peak(&self) -> Option<LoadPoint> {
-        let largest = self.history.iter().reduce(|best, step| {
-            if step.reaction > best.reaction {
-                step
-            } else {
-                best
-            }
-        })?;
-        Some(largest.into())
+        self.first_peak(f64::INFINITY)
     }
 
-    /// The load step with the largest reaction before the reaction first fell by more than `drop` of it.
+    /// The load step at rest with the largest reaction before the reaction first fell by more than `drop` of it.
     ///
     /// A body that is split may carry more load again, as the halves of a disk between platens do; this is the strength
     /// of the whole body. It is the peak where the load never falls so far.
     pub fn first_peak(&self, drop: f64) -> Option<LoadPoint> {
         let mut best: Option<&StepRecord> = None;
-        for step in &self.history {
+        for step in self.history.iter().filter(|step| step.at_rest) {
             match best {
                 Some(peak) if step.reaction < (1.0 - drop) * peak.reaction => break,
                 Some(peak) if step.reaction <= peak.reaction => {}
@@ -143,6 +136,7 @@ pub(super) struct StepCounters {
     pub(super) rounds: usize,
     pub(super) solves: usize,
     pub(super) at_rest: bool,
+    pub(super) negative_eigenvalues: usize,
 }
 
 /// The record of a state of equilibrium.
@@ -174,6 +168,7 @@ pub(super) fn step_record(
         solves: counters.solves,
         fragments: fragments.points.len(),
         at_rest: counters.at_rest,
+        negative_eigenvalues: counters.negative_eigenvalues,
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: problem
             .probes

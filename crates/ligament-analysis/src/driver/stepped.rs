@@ -13,8 +13,8 @@ use super::{LoadPoint, Problem};
 use crate::boundary::ControlKind;
 use crate::breaking::{BreakingRule, next_to_break};
 use crate::connectivity::{Fragments, Hold};
-use crate::equilibrium::{Balanced, Equilibrium, SetupError};
-use crate::history::{BreakRecord, Observer, StepRecord, Termination, View};
+use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
+use crate::history::{BreakRecord, Notice, Observer, StepRecord, Termination, View};
 use crate::state::State;
 
 /// How to step and when to stop.
@@ -35,7 +35,7 @@ pub struct SteppedSettings {
 }
 
 /// Rules that end the run before its last step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopRules {
     /// The load at rest fell to this fraction of the largest so far, after bonds broke.
     pub load_fraction: Option<f64>,
@@ -45,6 +45,19 @@ pub struct StopRules {
     pub bonds: Option<usize>,
     /// So many seconds passed.
     pub wall_time: Option<f64>,
+    /// The stored energy became negative: the body has lost its stability.
+    pub negative_energy: bool,
+}
+
+impl StopRules {
+    /// All load steps, as long as the body is stable.
+    pub const NONE: Self = Self {
+        load_fraction: None,
+        displacement: None,
+        bonds: None,
+        wall_time: None,
+        negative_energy: true,
+    };
 }
 
 /// Below this fraction of the peak a body carries no load any more: what is left is rounding.
@@ -79,6 +92,7 @@ pub fn run(
         history: Vec::new(),
         broken: 0,
         collapsed: false,
+        energy_was_negative: false,
         last_step: load_factors.len(),
         started: Instant::now(),
     };
@@ -146,12 +160,15 @@ struct Path<'a> {
     history: Vec<StepRecord>,
     broken: usize,
     collapsed: bool,
+    energy_was_negative: bool,
     last_step: usize,
     started: Instant,
 }
 
 impl Path<'_> {
     /// One load step; tells why the run ends, if it does.
+    ///
+    /// Where breakages leave no equilibrium, the step shows the last one before them.
     fn load_step(
         &mut self,
         step: usize,
@@ -164,24 +181,27 @@ impl Path<'_> {
             ..Default::default()
         };
         let mut just_broken = Vec::new();
+        let mut last: Option<Balanced> = None;
         loop {
             let round = counters.rounds;
             self.observer.round(step, round, load_factor, self.broken)?;
-            let balanced = match self.equilibrium.balance(&mut self.state, self.observer)? {
+            let displacement = self.state.displacement.clone();
+            let balanced = match self.balance(step)? {
                 Ok(balanced) => balanced,
-                Err(reason) => return Ok(Some(Termination::NoEquilibrium { step, reason })),
+                Err(reason) => {
+                    let end = Termination::NoEquilibrium { step, reason };
+                    self.state.displacement = displacement;
+                    return match last {
+                        Some(balanced) => self.record(&balanced, counters, Some(end)),
+                        None => Ok(Some(end)),
+                    };
+                }
             };
             self.account(step, &just_broken, &balanced)?;
-            let start = Instant::now();
-            let next = next_to_break(
-                &self.settings.rule,
-                &balanced.deformations,
-                self.critical_stretch,
-                &self.state.intact,
-            );
-            self.equilibrium.count_bond_work(start);
+            let next = self.next_to_break(&balanced);
             counters.at_rest = next.is_empty();
             counters.solves = self.equilibrium.costs().solves - solves_before;
+            counters.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
             let interrupted = self.interruption(&counters);
             if counters.at_rest || interrupted.is_some() {
                 return self.record(&balanced, counters, interrupted);
@@ -189,7 +209,43 @@ impl Path<'_> {
             counters.rounds += 1;
             counters.broken_in_step += next.len();
             just_broken = self.break_bonds(&next, &balanced, &counters)?;
+            if self.collapsed {
+                return self.record(&balanced, counters, Some(Termination::Collapsed));
+            }
+            last = Some(balanced);
         }
+    }
+
+    /// Equilibrium of the state; a negative energy is none unless the case says to go on.
+    fn balance(&mut self, step: usize) -> Result<Result<Balanced, Unbalanced>, SetupError> {
+        let balanced = self.equilibrium.balance(&mut self.state, self.observer)?;
+        let Some(energy) = balanced
+            .as_ref()
+            .ok()
+            .filter(|balanced| balanced.energy_is_negative)
+            .map(|balanced| balanced.stored_energy)
+        else {
+            return Ok(balanced);
+        };
+        if self.settings.stop.negative_energy {
+            return Ok(Err(Unbalanced::NegativeEnergy { energy }));
+        }
+        if !std::mem::replace(&mut self.energy_was_negative, true) {
+            self.observer.notice(&Notice::NegativeEnergy { step })?;
+        }
+        Ok(balanced)
+    }
+
+    fn next_to_break(&mut self, balanced: &Balanced) -> Vec<u32> {
+        let start = Instant::now();
+        let next = next_to_break(
+            &self.settings.rule,
+            &balanced.deformations,
+            self.critical_stretch,
+            &self.state.intact,
+        );
+        self.equilibrium.count_bond_work(start);
+        next
     }
 
     /// Adds up work and released energy, and reports mechanisms.
@@ -255,9 +311,6 @@ impl Path<'_> {
     fn interruption(&self, counters: &StepCounters) -> Option<Termination> {
         let stop = &self.settings.stop;
         let seconds = self.started.elapsed().as_secs_f64();
-        if self.collapsed {
-            return Some(Termination::Collapsed);
-        }
         if let Some(bonds) = stop.bonds.filter(|&bonds| self.broken >= bonds) {
             return Some(Termination::BondsBroken { bonds });
         }
@@ -348,7 +401,7 @@ mod tests {
             },
             energy_tolerance: 1e-4,
             round_limit: 100,
-            stop: StopRules::default(),
+            stop: StopRules::NONE,
         }
     }
 

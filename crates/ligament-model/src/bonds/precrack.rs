@@ -35,12 +35,40 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
         .collect()
 }
 
+/// Number of bonds that the pre-cracks leave whole although an end of theirs lies exactly on the bond: where a crack begins
+/// on the outline of a mesh, these are the bonds along the outline.
+pub fn count_touched_bonds(
+    cracks: &[PreCrack],
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    is_cut: &[bool],
+) -> usize {
+    let cracks: Vec<PreCrack> = cracks
+        .iter()
+        .map(|crack| crack.in_local_coordinates(cloud))
+        .collect();
+    let is_touched = |&[a, b]: &[u32; 2]| {
+        let (a, b) = (cloud.positions[a as usize], cloud.positions[b as usize]);
+        cracks.iter().any(|crack| crack.ends_on(a, b))
+    };
+    let whole = bonds.ends.iter().zip(is_cut).filter(|(_, cut)| !**cut);
+    whole.filter(|(ends, _)| is_touched(ends)).count()
+}
+
 impl PreCrack {
     /// The same polyline in the coordinates of the cloud.
     pub fn in_local_coordinates(&self, cloud: &PointCloud) -> Self {
         Self {
             points: self.points.iter().map(|&p| cloud.local(p)).collect(),
         }
+    }
+
+    /// Whether an end of the polyline lies on the bond from `a` to `b`, between its ends.
+    fn ends_on(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        let ends = [self.points[0], self.points[self.points.len() - 1]];
+        ends.into_iter().any(|end| {
+            end != a && end != b && boxes_touch(end, end, a, b) && orientation(a, b, end) == 0.0
+        })
     }
 
     /// Whether a point lies on the left of the polyline's first piece (or on its line).
@@ -134,6 +162,18 @@ mod tests {
         assert!(prolonged.cuts([0.0, -1.0], [0.0, 1.0]));
         let closed = crack(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
         assert!(closed.cuts([0.5, -0.5], [-0.5, 0.5]) || closed.cuts([-0.5, 0.5], [0.5, -0.5]));
+    }
+
+    #[test]
+    fn an_end_on_a_bond_is_noticed() {
+        let edge = crack(&[[0.0, 0.0], [0.0, 1.0]]);
+        let (a, b) = ([-1.0, 0.0], [1.0, 0.0]);
+        assert!(edge.ends_on(a, b) && !edge.cuts(a, b));
+        assert!(
+            !edge.ends_on([0.5, 0.0], b)
+                && !edge.ends_on(a, [1.0, 0.1])
+                && !edge.ends_on(a, [0.0, 0.0])
+        );
     }
 
     #[test]

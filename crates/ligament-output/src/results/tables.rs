@@ -10,7 +10,7 @@ use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 
-const HISTORY: [&str; 15] = [
+const HISTORY: [&str; 16] = [
     "step",
     "load_factor",
     "displacement",
@@ -26,6 +26,7 @@ const HISTORY: [&str; 15] = [
     "solves",
     "fragments",
     "at_rest",
+    "negative_eigenvalues",
 ];
 const ITERATIONS: [&str; 7] = [
     "step",
@@ -161,6 +162,7 @@ impl Tables {
             record.solves.into(),
             record.fragments.into(),
             usize::from(record.at_rest).into(),
+            record.negative_eigenvalues.into(),
         ];
         row.extend(
             record

@@ -118,13 +118,13 @@ impl Steps {
 }
 
 /// When to stop before the last load step; whichever comes first.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Stop {
     /// When the load has fallen to this share of its largest value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_fraction: Option<f64>,
-    /// When the largest displacement exceeds this, m.
+    /// When the displacement of the first load reaches this, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement: Option<f64>,
     /// When so many bonds are broken.
@@ -133,6 +133,20 @@ pub struct Stop {
     /// After so much time, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_time: Option<f64>,
+    /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
+    pub negative_energy: bool,
+}
+
+impl Default for Stop {
+    fn default() -> Self {
+        Self {
+            load_fraction: None,
+            displacement: None,
+            bonds: None,
+            wall_time: None,
+            negative_energy: true,
+        }
+    }
 }
 
 impl Stop {

@@ -102,6 +102,7 @@ pub fn stepped(fracture: &case::Fracture) -> SteppedSettings {
             displacement: stop.displacement,
             bonds: stop.bonds.map(|bonds| bonds as usize),
             wall_time: stop.wall_time,
+            negative_energy: stop.negative_energy,
         },
     }
 }
