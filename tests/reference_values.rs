@@ -10,6 +10,7 @@ use ligament_analysis::Termination;
 use ligament_analysis::history::Notice;
 use verification::bench::{Bench, Run};
 use verification::numbers::{component, deviation, largest, relative_error, short};
+use verification::problems::DISK;
 use verification::table::Table;
 
 /// A square of side 0.1 m, E = 15 GPa, F_t = 3.81 MPa, t = 1 m, pulled upwards by 1e-5 m.
@@ -21,19 +22,12 @@ support = [{ group = "bottom", displacement = { y = 0.0 } }, { group = "corner",
 load = [{ group = "top", displacement = { y = 1e-5 } }]
 "#;
 
-/// A disk of diameter 0.1 m of the same material between platens that come 4e-4 m closer.
-const DISK: &str = r#"
-mesh = { file = "reference/disk.msh", thickness = 1.0, plane = "stress" }
-material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }
-model = { law = "nhpd", horizon_factor = 3.0 }
-support = [
-    { group = "platen-bottom", displacement = { y = 0.0 } },
-    { group = "pole-top", displacement = { x = 0.0 } },
-    { group = "pole-bottom", displacement = { x = 0.0 } },
-]
-load = [{ group = "platen-top", displacement = { y = -4e-4 } }]
-fracture = { steps = 100, stop = { load_fraction = 0.5 } }
-"#;
+/// The shared disk with the mesh, the steps and the stop rule of the reference.
+const AS_IN_REFERENCE: [&str; 3] = [
+    "mesh.file=reference/disk.msh",
+    "fracture.steps=100",
+    "fracture.stop.load_fraction=0.5",
+];
 
 /// Lengths, horizons and length factors are a few operations on the coordinates of the file: rounding of 1e-16 over
 /// coordinate differences of 1/20 of the coordinates.
@@ -307,7 +301,7 @@ fn separation_of_the_square() {
 /// Brazilian disk: all 100 steps (the stop rule never applies), 922 breakages, through the split at step 45.
 #[test]
 fn path_of_the_disk() {
-    let bench = Bench::new(DISK, &[]);
+    let bench = Bench::new(DISK, &AS_IN_REFERENCE);
     assert_eq!(bench.model.correction.sweeps, 72);
     let run = bench.break_up();
     compare_path(&bench, &run, "disk", 100);
@@ -322,7 +316,7 @@ fn path_of_the_disk() {
 #[test]
 fn first_breakage_of_the_disk() {
     let events = Table::reference("disk-event.csv");
-    let first = Bench::new(DISK, &[])
+    let first = Bench::new(DISK, &AS_IN_REFERENCE)
         .break_up()
         .outcome
         .first_break
