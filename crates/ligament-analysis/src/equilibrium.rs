@@ -430,12 +430,7 @@ impl<'a> Equilibrium<'a> {
                 Err(other) => return Err(Unbalanced::NoFactor(other.clone())),
             };
             if let Some(&unknown) = mechanisms.first() {
-                let indefinite = self
-                    .system
-                    .shear_rigidity
-                    .iter()
-                    .any(|&rigidity| rigidity < 0.0);
-                if indefinite {
+                if self.system.has_negative_stiffness() {
                     return Err(self.vanishing_pivot(unknown));
                 }
                 for unknown in mechanisms {

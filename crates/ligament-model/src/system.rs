@@ -57,6 +57,11 @@ impl BondSystem {
         }
     }
 
+    /// Whether some bond has a negative shear stiffness, so that the stiffness of the body may be indefinite.
+    pub fn has_negative_stiffness(&self) -> bool {
+        self.shear_rigidity.iter().any(|&rigidity| rigidity < 0.0)
+    }
+
     /// The element of a bond.
     pub fn element(&self, bond: usize) -> BeamBond {
         BeamBond {

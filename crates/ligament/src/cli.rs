@@ -68,7 +68,7 @@ const CHECK_EXAMPLES: &str = "\
 Examples:
   ligament check cases/disk/case.toml
   ligament check case.toml --set model.horizon_factor=4
-  ligament check case.toml --out check     writes points and bonds to look at in ParaView";
+  ligament check case.toml --out check     writes check/points.vtu to look at in ParaView";
 
 const INSPECT_EXAMPLES: &str = "\
 Examples:
@@ -114,7 +114,7 @@ pub struct CheckArgs {
     /// The case file and changes to it.
     #[command(flatten)]
     pub case: CaseArgs,
-    /// Write the points and bonds as .vtu files to this folder
+    /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

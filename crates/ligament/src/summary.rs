@@ -63,6 +63,9 @@ pub struct Summary {
 /// Fall of the reaction, relative to the largest so far, that ends the first rise of the load.
 pub const DROP: f64 = 0.02;
 
+/// Warnings that are shown at the end of a run; small pieces that come loose can give hundreds.
+const WARNINGS_SHOWN: usize = 10;
+
 /// Range and mean of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
@@ -251,8 +254,12 @@ impl Summary {
             self.energy_balance_error
         )?;
         writeln!(out, "  ended because      {}", self.termination.message)?;
-        for warning in &self.warnings {
+        for warning in self.warnings.iter().take(WARNINGS_SHOWN) {
             writeln!(out, "  warning: {warning}")?;
+        }
+        if self.warnings.len() > WARNINGS_SHOWN {
+            let more = self.warnings.len() - WARNINGS_SHOWN;
+            writeln!(out, "  warning: {more} more in summary.json")?;
         }
         Ok(())
     }

@@ -1,13 +1,14 @@
 //! Watches a run: writes its results, shows its progress and keeps its notices.
 
+use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
 use crate::case::{Fracture, Steps};
 use crate::progress::{Progress, StepLine};
 
-/// Notices of one kind after which no more are shown.
-const NOTICES_SHOWN: usize = 5;
+/// Notices that are shown while the run goes on, and nodes that a notice lists; all are in `summary.json`.
+const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
 pub struct Watch<'a> {
@@ -15,7 +16,7 @@ pub struct Watch<'a> {
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    points: &'a [i64],
+    node_tags: &'a [i64],
 }
 
 impl<'a> Watch<'a> {
@@ -43,7 +44,7 @@ impl<'a> Watch<'a> {
             progress,
             notices: Vec::new(),
             last,
-            points: node_tags,
+            node_tags,
         }
     }
 
@@ -54,7 +55,7 @@ impl<'a> Watch<'a> {
 
     /// A notice with points given by their node tags.
     fn words(&self, notice: &Notice) -> String {
-        let tag = |point: usize| self.points.get(point).copied().unwrap_or_default();
+        let tag = |point: usize| self.node_tags.get(point).copied().unwrap_or_default();
         match notice {
             Notice::CameLoose {
                 step: 0,
@@ -82,8 +83,8 @@ impl<'a> Watch<'a> {
             } => {
                 let nodes: Vec<String> = degrees_of_freedom
                     .iter()
-                    .take(NOTICES_SHOWN)
-                    .map(|dof| tag(dof / 3).to_string())
+                    .take(SHOWN)
+                    .map(|dof| tag(dof / COMPONENTS).to_string())
                     .collect();
                 format!(
                     "step {step}: {} mechanism(s) without stiffness held, at node(s) {}",
@@ -131,7 +132,7 @@ impl Observer for Watch<'_> {
 
     fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
         let words = self.words(notice);
-        if self.notices.len() < NOTICES_SHOWN {
+        if self.notices.len() < SHOWN {
             self.progress.stage(&words);
         }
         self.notices.push(words);

@@ -42,7 +42,15 @@ pub struct LoadPoint {
 impl Outcome {
     /// The load step at rest with the largest reaction.
     pub fn peak(&self) -> Option<LoadPoint> {
-        self.first_peak(f64::INFINITY)
+        let at_rest = self.history.iter().filter(|step| step.at_rest);
+        let largest = at_rest.reduce(|best, step| {
+            if step.reaction > best.reaction {
+                step
+            } else {
+                best
+            }
+        });
+        largest.map(LoadPoint::from)
     }
 
     /// The load step at rest with the largest reaction before the reaction first fell by more than `drop` of it.

@@ -84,8 +84,7 @@ fn stability(
     state: &State,
     observer: &mut dyn Observer,
 ) -> Result<Option<Stability>, SetupError> {
-    let rigidities = &problem.system.shear_rigidity;
-    if rigidities.iter().all(|&rigidity| rigidity >= 0.0) {
+    if !problem.system.has_negative_stiffness() {
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;

@@ -32,7 +32,7 @@ impl BondSet {
     }
 
     /// Bonds the given pairs (A < B, ascending, each once) whatever their distance.
-    pub(crate) fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud, horizons: &Horizons) -> Self {
+    fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud, horizons: &Horizons) -> Self {
         let position = |point: u32| cloud.positions[point as usize];
         let length: Vec<f64> = ends
             .par_iter()

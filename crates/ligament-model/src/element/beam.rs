@@ -3,7 +3,7 @@
 //! Rotations are counter-clockwise. With them the shear row of B reads [0, -1, -l/2, 0, 1, -l/2]/l; the signs +l/2 of
 //! the printed eq. 3 belong to clockwise rotations.
 
-use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 
 /// Unknowns of a point: displacement along x, along y, rotation.
 pub const UNKNOWNS: usize = 3;
@@ -78,7 +78,7 @@ impl BeamBond {
     /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
     pub fn stiffness(&self) -> Matrix6<f64> {
         let gradient = self.deformation_gradient();
-        let rigidity = Matrix3::from_diagonal(&nalgebra::Vector3::new(
+        let rigidity = Matrix3::from_diagonal(&Vector3::new(
             self.axial_rigidity,
             self.shear_rigidity,
             self.rotational_rigidity,
@@ -100,14 +100,16 @@ impl BeamBond {
     }
 }
 
-/// The unknowns of both ends, one after the other.
-pub fn end_unknowns(end_a: &[f64], end_b: &[f64]) -> Vector6<f64> {
-    Vector6::new(end_a[0], end_a[1], end_a[2], end_b[0], end_b[1], end_b[2])
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector6;
+
     use super::*;
+
+    /// The unknowns of both ends, one after the other.
+    fn end_unknowns(end_a: &[f64], end_b: &[f64]) -> Vector6<f64> {
+        Vector6::new(end_a[0], end_a[1], end_a[2], end_b[0], end_b[1], end_b[2])
+    }
 
     fn bond(angle: f64, shear_sign: f64) -> BeamBond {
         BeamBond {

@@ -18,7 +18,7 @@ pub struct Fracture {
     pub steps: Steps,
     /// Bonds broken at most between two solutions.
     pub bonds_per_iteration: u32,
-    /// Which of the overstressed bonds break first.
+    /// Which of the bonds beyond their critical stretch break first.
     pub order: BreakOrder,
     /// Bonds closer than this (relative) to the worst one break together with it.
     pub tie_tolerance: f64,
@@ -36,19 +36,19 @@ pub struct Fracture {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Control {
-    /// Given load steps; in each, bonds break until none is overstressed.
+    /// Given load steps; in each, bonds break until none is beyond its critical stretch.
     #[default]
     Stepped,
 }
 
-/// Which of the overstressed bonds break first.
+/// Which of the bonds beyond their critical stretch break first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BreakOrder {
-    /// Those with the largest difference between stress and strength.
+    /// Those with the largest excess of stretch over critical stretch (the paper's).
     #[default]
     Excess,
-    /// Those with the largest ratio of stress to strength.
+    /// Those with the largest ratio of stretch to critical stretch.
     Ratio,
 }
 

@@ -12,7 +12,7 @@ use super::values::{require, require_at_least_one, require_positive};
 pub struct ModelSection {
     /// The bond law.
     pub law: Law,
-    /// The factor lambda on the size of a point that gives its horizon; at least 1.
+    /// The factor lambda: a point's horizon over the distance to its nearest neighbour; at least 1.
     pub horizon_factor: f64,
 }
 
@@ -20,7 +20,7 @@ pub struct ModelSection {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Law {
-    /// Non-uniform horizon bonds with normal and shear stiffness and rotating points.
+    /// Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.
     Nhpd,
 }
 
