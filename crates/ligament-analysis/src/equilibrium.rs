@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ligament_linalg::{
-    FactorError, FactorKind, Factorisation, Pattern, PatternError, Symbolic, SymmetricMatrix,
+    Elimination, FactorError, FactorKind, Factorisation, Pattern, PatternError, Symbolic,
+    SymmetricMatrix,
 };
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
@@ -13,6 +14,7 @@ use thiserror::Error;
 use crate::assembly;
 use crate::boundary::Boundary;
 use crate::connectivity::{Fragments, Hold};
+use crate::dissection;
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, InternalForces};
 use crate::state::State;
@@ -159,7 +161,10 @@ impl<'a> Equilibrium<'a> {
         let start = Instant::now();
         let unknowns = Unknowns::of_problem(system, boundary);
         let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
-        let symbolic = Arc::new(Symbolic::analyse(pattern.clone())?);
+        let symbolic = Arc::new(Symbolic::analyse(
+            pattern.clone(),
+            Elimination::Given(dissection::elimination_order(system, &unknowns)),
+        )?);
         // Without a positive shear stiffness positive definiteness is not to be counted on.
         let definite = system.shear_rigidity.iter().all(|&rigidity| rigidity > 0.0);
         let kind = if definite {
@@ -323,7 +328,7 @@ impl<'a> Equilibrium<'a> {
             &state.intact,
             &state.held,
         );
-        let symbolic = Arc::new(Symbolic::analyse(pattern)?);
+        let symbolic = Arc::new(Symbolic::analyse(pattern, Elimination::MinimumDegree)?);
         let expected = FactorKind::Ldlt
             .factorise(&symbolic, &block)?
             .inertia()

@@ -8,6 +8,7 @@ pub mod assembly;
 pub mod boundary;
 pub mod breaking;
 pub mod connectivity;
+pub mod dissection;
 pub mod driver;
 pub mod equilibrium;
 pub mod fields;

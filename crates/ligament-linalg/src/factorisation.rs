@@ -7,6 +7,7 @@ use thiserror::Error;
 use crate::ldlt::Ldlt;
 use crate::llt::Llt;
 use crate::matrix::SymmetricMatrix;
+use crate::modification::RankOne;
 use crate::symbolic::Symbolic;
 
 /// A factorised symmetric matrix.
@@ -18,18 +19,23 @@ pub trait Factorisation {
     /// Solves A x = b in place, b of shape (n).
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]);
 
+    /// Changes the matrix A by the terms c w w^T, in place of its factor, and solves A' x = b for a b of few entries (unknown
+    /// and value); x of shape (n).
+    ///
+    /// The cost is that of the parts of the factor that the terms reach and of one backward substitution. After an error
+    /// (a pivot that vanished, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used before
+    /// [`Factorisation::refactorise`] succeeded.
+    fn change_and_solve(
+        &mut self,
+        terms: &[RankOne],
+        right_hand_side: &[(usize, f64)],
+    ) -> Result<Vec<f64>, FactorError>;
+
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
     fn pivots(&self) -> Vec<f64>;
 
     /// Numbers of positive and negative pivots, which are those of the eigenvalues (Sylvester's law of inertia).
-    fn inertia(&self) -> Inertia {
-        let pivots = self.pivots();
-        let negative = pivots.iter().filter(|pivot| **pivot < 0.0).count();
-        Inertia {
-            positive: pivots.len() - negative,
-            negative,
-        }
-    }
+    fn inertia(&self) -> Inertia;
 }
 
 /// Numbers of eigenvalues by sign.
@@ -96,6 +102,7 @@ impl FactorKind {
 mod tests {
     use super::*;
     use crate::matrix::{Pattern, PatternError};
+    use crate::symbolic::Elimination;
 
     /// Upper triangle of
     /// ```text
@@ -132,7 +139,10 @@ mod tests {
             (FactorKind::Ldlt, -6.0, 1),
         ] {
             let matrix = four_by_four(d);
-            let symbolic = Arc::new(Symbolic::analyse(matrix.pattern().clone()).expect("analysis"));
+            let symbolic = Arc::new(
+                Symbolic::analyse(matrix.pattern().clone(), Elimination::MinimumDegree)
+                    .expect("analysis"),
+            );
             let mut factor = kind.factorise(&symbolic, &matrix).expect("factor");
             let mut solution = product(d, x);
             factor.solve_in_place(&mut solution);
@@ -155,7 +165,10 @@ mod tests {
     #[test]
     fn llt_refuses_an_indefinite_matrix_and_recovers() {
         let matrix = four_by_four(6.0);
-        let symbolic = Arc::new(Symbolic::analyse(matrix.pattern().clone()).expect("analysis"));
+        let symbolic = Arc::new(
+            Symbolic::analyse(matrix.pattern().clone(), Elimination::MinimumDegree)
+                .expect("analysis"),
+        );
         let mut factor = FactorKind::Llt
             .factorise(&symbolic, &matrix)
             .expect("factor");

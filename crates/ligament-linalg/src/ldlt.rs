@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
-use faer::sparse::linalg::cholesky::LdltRef;
-use faer::{Conj, Par, Side};
+use faer::{Par, Side};
 
-use crate::factorisation::{FactorError, Factorisation};
+use crate::factorisation::{FactorError, Factorisation, Inertia};
 use crate::matrix::SymmetricMatrix;
-use crate::storage::{Storage, column};
+use crate::modification::{RankOne, VanishingPivot};
+use crate::storage::{Form, Storage};
 use crate::symbolic::Symbolic;
 
 /// Factor L D L^T of a symmetric matrix that may be indefinite.
@@ -20,18 +20,23 @@ impl Ldlt {
         let request = symbolic
             .cholesky
             .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
-        Storage::new(symbolic, request).map(Self)
+        Storage::new(Form::Ldlt, symbolic, request).map(Self)
+    }
+
+    fn zero_pivot(&self, row: usize) -> FactorError {
+        let unknown = self.0.symbolic.unknown_of_row()[row];
+        FactorError::ZeroPivot { unknown }
     }
 }
 
 impl Factorisation for Ldlt {
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError> {
-        let view = self.0.symbolic.view(matrix);
+        let symbolic = self.0.symbolic.clone();
         let (structure, values, stack) = self.0.parts();
         let (regularization, parameters) = (LdltRegularization::default(), Default::default());
         let outcome = structure.factorize_numeric_ldlt(
             values,
-            view,
+            symbolic.view(matrix),
             Side::Upper,
             regularization,
             Par::Seq,
@@ -39,21 +44,32 @@ impl Factorisation for Ldlt {
             parameters,
         );
         match outcome {
-            Ok(_) => Ok(()),
-            Err(LdltError::ZeroPivot { index }) => {
-                let unknown = self.0.symbolic.unknown_of_row(index);
-                Err(FactorError::ZeroPivot { unknown })
+            Ok(_) => {
+                self.0.factorised(matrix);
+                Ok(())
             }
+            Err(LdltError::ZeroPivot { index }) => Err(self.zero_pivot(index)),
         }
     }
 
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]) {
-        let (structure, values, stack) = self.0.parts();
-        let factor = LdltRef::new(structure, values);
-        factor.solve_in_place_with_conj(Conj::No, column(right_hand_side), Par::Seq, stack);
+        self.0.solve_in_place(right_hand_side);
+    }
+
+    fn change_and_solve(
+        &mut self,
+        terms: &[RankOne],
+        right_hand_side: &[(usize, f64)],
+    ) -> Result<Vec<f64>, FactorError> {
+        let solution = self.0.change_and_solve(terms, right_hand_side);
+        solution.map_err(|VanishingPivot(row)| self.zero_pivot(row))
     }
 
     fn pivots(&self) -> Vec<f64> {
-        self.0.symbolic.diagonal(&self.0.values)
+        self.0.pivots()
+    }
+
+    fn inertia(&self) -> Inertia {
+        self.0.inertia()
     }
 }

@@ -7,9 +7,13 @@ mod factorisation;
 mod ldlt;
 mod llt;
 mod matrix;
+mod modification;
 mod storage;
+mod substitution;
+mod supernodes;
 mod symbolic;
 
 pub use factorisation::{FactorError, FactorKind, Factorisation, Inertia};
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};
-pub use symbolic::Symbolic;
+pub use modification::{RankOne, VANISHING_PIVOT};
+pub use symbolic::{Elimination, Symbolic};

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
-use faer::sparse::linalg::cholesky::LltRef;
-use faer::{Conj, Par, Side};
+use faer::{Par, Side};
 
-use crate::factorisation::{FactorError, Factorisation};
+use crate::factorisation::{FactorError, Factorisation, Inertia};
 use crate::matrix::SymmetricMatrix;
-use crate::storage::{Storage, column};
+use crate::modification::{RankOne, VanishingPivot};
+use crate::storage::{Form, Storage};
 use crate::symbolic::Symbolic;
 
 /// Factor L L^T of a positive definite matrix.
@@ -20,18 +20,23 @@ impl Llt {
         let request = symbolic
             .cholesky
             .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        Storage::new(symbolic, request).map(Self)
+        Storage::new(Form::Llt, symbolic, request).map(Self)
+    }
+
+    fn not_positive_definite(&self, row: usize) -> FactorError {
+        let unknown = self.0.symbolic.unknown_of_row()[row];
+        FactorError::NotPositiveDefinite { unknown }
     }
 }
 
 impl Factorisation for Llt {
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError> {
-        let view = self.0.symbolic.view(matrix);
+        let symbolic = self.0.symbolic.clone();
         let (structure, values, stack) = self.0.parts();
         let (regularization, parameters) = (LltRegularization::default(), Default::default());
         let outcome = structure.factorize_numeric_llt(
             values,
-            view,
+            symbolic.view(matrix),
             Side::Upper,
             regularization,
             Par::Seq,
@@ -39,22 +44,32 @@ impl Factorisation for Llt {
             parameters,
         );
         match outcome {
-            Ok(_) => Ok(()),
-            Err(LltError::NonPositivePivot { index }) => {
-                let unknown = self.0.symbolic.unknown_of_row(index);
-                Err(FactorError::NotPositiveDefinite { unknown })
+            Ok(_) => {
+                self.0.factorised(matrix);
+                Ok(())
             }
+            Err(LltError::NonPositivePivot { index }) => Err(self.not_positive_definite(index)),
         }
     }
 
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]) {
-        let (structure, values, stack) = self.0.parts();
-        let factor = LltRef::new(structure, values);
-        factor.solve_in_place_with_conj(Conj::No, column(right_hand_side), Par::Seq, stack);
+        self.0.solve_in_place(right_hand_side);
+    }
+
+    fn change_and_solve(
+        &mut self,
+        terms: &[RankOne],
+        right_hand_side: &[(usize, f64)],
+    ) -> Result<Vec<f64>, FactorError> {
+        let solution = self.0.change_and_solve(terms, right_hand_side);
+        solution.map_err(|VanishingPivot(row)| self.not_positive_definite(row))
     }
 
     fn pivots(&self) -> Vec<f64> {
-        let diagonal = self.0.symbolic.diagonal(&self.0.values);
-        diagonal.into_iter().map(|entry| entry * entry).collect()
+        self.0.pivots()
+    }
+
+    fn inertia(&self) -> Inertia {
+        self.0.inertia()
     }
 }

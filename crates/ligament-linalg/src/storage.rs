@@ -1,35 +1,56 @@
-//! Memory of a supernodal factor.
+//! Memory of a supernodal factor, and what both forms of it do in the same way.
 
 use std::sync::Arc;
 
-use faer::MatMut;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::linalg::cholesky::SymbolicCholesky;
 
-use crate::factorisation::FactorError;
+use crate::factorisation::{FactorError, Inertia};
+use crate::matrix::SymmetricMatrix;
+use crate::modification::{Modification, RankOne, Target, VanishingPivot};
+use crate::substitution::{Backward, Forward};
 use crate::symbolic::Symbolic;
 
-/// Values of a factor and the workspace that factorising and solving need.
+/// How a factor stores its pivots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// L L^T, with the square root of the pivot on the diagonal.
+    Llt,
+    /// L D L^T, with the pivot on the diagonal of a unit L.
+    Ldlt,
+}
+
+/// Values of a factor and the workspace that factorising needs.
 pub(crate) struct Storage {
     pub(crate) symbolic: Arc<Symbolic>,
-    pub(crate) values: Vec<f64>,
+    form: Form,
+    values: Vec<f64>,
     workspace: MemBuffer,
+    /// Diagonal of the matrix in the order of elimination, shape (n).
+    diagonal: Vec<f64>,
+    negative_pivots: usize,
+    /// Made when the factor is first changed in place.
+    modification: Option<Modification>,
 }
 
 impl Storage {
     /// Room for a factor; `request` is the workspace of its numeric factorisation.
-    pub(crate) fn new(symbolic: Arc<Symbolic>, request: StackReq) -> Result<Self, FactorError> {
-        let solve = symbolic
-            .cholesky
-            .solve_in_place_scratch::<f64>(1, faer::Par::Seq);
-        let request = request.or(solve);
+    pub(crate) fn new(
+        form: Form,
+        symbolic: Arc<Symbolic>,
+        request: StackReq,
+    ) -> Result<Self, FactorError> {
         let bytes = request.unaligned_bytes_required();
         let workspace =
             MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory { bytes })?;
         Ok(Self {
+            form,
             values: zeros(symbolic.cholesky.len_val())?,
             symbolic,
             workspace,
+            diagonal: Vec::new(),
+            negative_pivots: 0,
+            modification: None,
         })
     }
 
@@ -38,12 +59,87 @@ impl Storage {
         let stack = MemStack::new(&mut self.workspace);
         (&self.symbolic.cholesky, &mut self.values, stack)
     }
-}
 
-/// A vector as a matrix of one column.
-pub(crate) fn column(vector: &mut [f64]) -> MatMut<'_, f64> {
-    let n = vector.len();
-    MatMut::from_column_major_slice_mut(vector, n, 1)
+    /// Takes note of the matrix that was just factorised.
+    pub(crate) fn factorised(&mut self, matrix: &SymmetricMatrix) {
+        let unknowns = self.symbolic.unknown_of_row().iter();
+        self.diagonal = unknowns.map(|&unknown| matrix.diagonal(unknown)).collect();
+        let diagonal = self.symbolic.diagonal(&self.values);
+        self.negative_pivots = diagonal.iter().filter(|pivot| **pivot < 0.0).count();
+    }
+
+    pub(crate) fn inertia(&self) -> Inertia {
+        Inertia {
+            positive: self.diagonal.len() - self.negative_pivots,
+            negative: self.negative_pivots,
+        }
+    }
+
+    /// Pivots in the order of the matrix, shape (n).
+    pub(crate) fn pivots(&self) -> Vec<f64> {
+        let diagonal = self.symbolic.diagonal(&self.values);
+        let rows = self.symbolic.row_of_unknown().iter();
+        rows.map(|&row| match self.form {
+            Form::Llt => diagonal[row] * diagonal[row],
+            Form::Ldlt => diagonal[row],
+        })
+        .collect()
+    }
+
+    pub(crate) fn solve_in_place(&self, right_hand_side: &mut [f64]) {
+        let unknowns = self.symbolic.unknown_of_row();
+        let mut vector: Vec<f64> = unknowns.iter().map(|&i| right_hand_side[i]).collect();
+        let (form, supernodes, values) = (self.form, self.symbolic.supernodes(), &self.values);
+        Forward {
+            form,
+            supernodes,
+            values,
+            vector: &mut vector,
+        }
+        .run();
+        self.backward(&mut vector);
+        for (&unknown, value) in unknowns.iter().zip(vector) {
+            right_hand_side[unknown] = value;
+        }
+    }
+
+    /// Solves L^T x = y (L^T x = D^-1 y) in place, in the order of elimination.
+    pub(crate) fn backward(&self, vector: &mut [f64]) {
+        Backward {
+            form: self.form,
+            supernodes: self.symbolic.supernodes(),
+            values: &self.values,
+            vector,
+        }
+        .run();
+    }
+
+    pub(crate) fn change_and_solve(
+        &mut self,
+        terms: &[RankOne],
+        right_hand_side: &[(usize, f64)],
+    ) -> Result<Vec<f64>, VanishingPivot> {
+        let rows = self.symbolic.row_of_unknown();
+        let mut vector = vec![0.0; rows.len()];
+        for &(unknown, value) in right_hand_side {
+            vector[rows[unknown]] += value;
+        }
+        let rows_of_b: Vec<usize> = right_hand_side.iter().map(|&(i, _)| rows[i]).collect();
+        let supernodes = self.symbolic.supernodes();
+        let modification = self
+            .modification
+            .get_or_insert_with(|| Modification::new(supernodes));
+        let mut target = Target {
+            form: self.form,
+            supernodes,
+            values: &mut self.values,
+            diagonal: &mut self.diagonal,
+            negative_pivots: &mut self.negative_pivots,
+        };
+        modification.apply(&mut target, terms, rows, &mut vector, &rows_of_b)?;
+        self.backward(&mut vector);
+        Ok(rows.iter().map(|&row| vector[row]).collect())
+    }
 }
 
 /// Memory of `count` zeros, or an error instead of an abort.

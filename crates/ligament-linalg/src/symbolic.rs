@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use faer::Side;
+use faer::perm::Perm;
 use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -13,11 +13,20 @@ use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use crate::factorisation::FactorError;
 use crate::matrix::{Pattern, SymmetricMatrix};
+use crate::supernodes::Supernodes;
+
+/// In which order the unknowns are eliminated.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Elimination {
+    /// By approximate minimum degree.
+    MinimumDegree,
+    /// In the given order: a permutation of the unknowns.
+    Given(Vec<usize>),
+}
 
 /// The structure of the factor of every matrix over one pattern.
 ///
-/// The ordering is approximate minimum degree; the factor is always supernodal, so that small and large systems take
-/// the same path.
+/// The factor is always supernodal, so that small and large systems take the same path.
 #[derive(Debug)]
 pub struct Symbolic {
     pattern: Arc<Pattern>,
@@ -26,17 +35,27 @@ pub struct Symbolic {
 
 impl Symbolic {
     /// Analyses a pattern.
-    pub fn analyse(pattern: Arc<Pattern>) -> Result<Self, FactorError> {
+    ///
+    /// # Panics
+    ///
+    /// Panics if a given order is no permutation of the unknowns.
+    pub fn analyse(pattern: Arc<Pattern>, elimination: Elimination) -> Result<Self, FactorError> {
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let cholesky = factorize_symbolic_cholesky(
-            symbolic_view(&pattern),
-            Side::Upper,
-            SymmetricOrdering::Amd,
-            parameters,
-        )
+        let analyse = |ordering| {
+            factorize_symbolic_cholesky(symbolic_view(&pattern), Side::Upper, ordering, parameters)
+        };
+        let cholesky = match elimination {
+            Elimination::MinimumDegree => analyse(SymmetricOrdering::Amd),
+            Elimination::Given(order) => {
+                let places = inverse(&order);
+                let permutation =
+                    Perm::new_checked(order.into(), places.into(), pattern.dimension());
+                analyse(SymmetricOrdering::Custom(permutation.as_ref()))
+            }
+        }
         .map_err(|error| match error {
             FaerError::IndexOverflow => FactorError::IndexOverflow,
             _ => FactorError::OutOfMemory {
@@ -56,33 +75,75 @@ impl Symbolic {
         self.cholesky.len_val()
     }
 
+    /// Multiplications (and as many additions) of a factorisation: the sum over the columns of c (c + 1)/2, with c
+    /// entries below the diagonal.
+    pub fn n_multiplications(&self) -> f64 {
+        let supernodes = self.supernodes();
+        (0..supernodes.len())
+            .map(|supernode| {
+                let below = supernodes.rows_below(supernode).len();
+                let columns = supernodes.columns(supernode).len();
+                (below..below + columns)
+                    .map(|count| (count * (count + 1) / 2) as f64)
+                    .sum::<f64>()
+            })
+            .sum()
+    }
+
     /// The matrix as faer sees it.
     pub(crate) fn view<'a>(&self, matrix: &'a SymmetricMatrix) -> SparseColMatRef<'a, usize, f64> {
         debug_assert_eq!(matrix.pattern(), &self.pattern);
         SparseColMatRef::new(symbolic_view(matrix.pattern()), &matrix.values)
     }
 
-    /// Index in the matrix of a row of the factor.
-    pub(crate) fn unknown_of_row(&self, row: usize) -> usize {
-        self.cholesky
-            .perm()
-            .map_or(row, |permutation| permutation.arrays().0[row])
+    /// The panels of the factor.
+    pub(crate) fn supernodes(&self) -> Supernodes<'_> {
+        match self.cholesky.raw() {
+            SymbolicCholeskyRaw::Supernodal(structure) => Supernodes(structure),
+            SymbolicCholeskyRaw::Simplicial(_) => {
+                unreachable!("the analysis was told to make supernodes")
+            }
+        }
     }
 
-    /// Diagonal of the factor's values in the order of the matrix, shape (n).
+    /// Index in the matrix of each row of the factor, shape (n).
+    pub(crate) fn unknown_of_row(&self) -> &[usize] {
+        self.permutation().0
+    }
+
+    /// Row of the factor for each index in the matrix, shape (n).
+    pub(crate) fn row_of_unknown(&self) -> &[usize] {
+        self.permutation().1
+    }
+
+    fn permutation(&self) -> (&[usize], &[usize]) {
+        match self.cholesky.perm() {
+            Some(permutation) => permutation.arrays(),
+            None => unreachable!("both ways of ordering permute"),
+        }
+    }
+
+    /// Diagonal of the factor's values in the order of elimination, shape (n).
     pub(crate) fn diagonal(&self, values: &[f64]) -> Vec<f64> {
-        let mut diagonal = vec![0.0; self.pattern.dimension()];
-        if let SymbolicCholeskyRaw::Supernodal(structure) = self.cholesky.raw() {
-            let factor = SupernodalLltRef::new(structure, values);
-            for supernode in (0..structure.n_supernodes()).map(|s| factor.supernode(s)) {
-                for column in 0..supernode.val().ncols() {
-                    diagonal[self.unknown_of_row(supernode.start() + column)] =
-                        supernode.val()[(column, column)];
-                }
-            }
+        let supernodes = self.supernodes();
+        let mut diagonal = Vec::with_capacity(self.pattern.dimension());
+        for supernode in 0..supernodes.len() {
+            let panel = &values[supernodes.panel(supernode)];
+            let columns = supernodes.columns(supernode).len();
+            let height = columns + supernodes.rows_below(supernode).len();
+            diagonal.extend((0..columns).map(|column| panel[column * height + column]));
         }
         diagonal
     }
+}
+
+/// The inverse of a permutation.
+fn inverse(order: &[usize]) -> Vec<usize> {
+    let mut places = vec![usize::MAX; order.len()];
+    for (place, &unknown) in order.iter().enumerate() {
+        places[unknown] = place;
+    }
+    places
 }
 
 fn symbolic_view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {

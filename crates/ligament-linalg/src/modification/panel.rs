@@ -1,0 +1,228 @@
+//! The dense kernel of a change: terms through the panel of one supernode.
+
+use std::ops::Range;
+
+use pulp::Simd;
+
+use super::{TERMS_AT_ONCE, VANISHING_PIVOT};
+use crate::storage::Form;
+
+/// Columns of a panel that are changed together.
+const BLOCK: usize = 4;
+
+/// The terms c w w^T on their way, with what of w lies in the panel at hand.
+#[derive(Default)]
+pub(super) struct Terms {
+    /// What is left of the weight c of each term.
+    weights: Vec<f64>,
+    /// The terms that are not zero in the columns of the panel.
+    active: Vec<usize>,
+    /// Their rows of the panel, one term after another, shape (active, height).
+    rows: Vec<f64>,
+    height: usize,
+    /// For each active term what it does to the columns of a block.
+    rotations: Vec<[Rotation; BLOCK]>,
+}
+
+/// What a term does to a column l of the factor, below the diagonal: w <- w - c l, then l <- p l + q w.
+#[derive(Debug, Clone, Copy, Default)]
+struct Rotation {
+    c: f64,
+    p: f64,
+    q: f64,
+}
+
+impl Terms {
+    /// Starts with the weights of new terms.
+    pub(super) fn start(&mut self, weights: impl Iterator<Item = f64>) {
+        self.weights.clear();
+        self.weights.extend(weights);
+    }
+
+    /// Takes over what terms have in a panel; false if they are all zero in its columns.
+    pub(super) fn gather(
+        &mut self,
+        columns: Range<usize>,
+        below: &[usize],
+        on_the_way: &mut [f64],
+    ) -> bool {
+        let n_terms = self.weights.len();
+        self.active.clear();
+        let in_columns = &on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end];
+        self.active.extend((0..n_terms).filter(|&term| {
+            in_columns
+                .chunks_exact(TERMS_AT_ONCE)
+                .any(|row| row[term] != 0.0)
+        }));
+        self.height = columns.len() + below.len();
+        self.rows.clear();
+        self.rows.resize(self.active.len() * self.height, 0.0);
+        for (local, row) in columns.clone().chain(below.iter().copied()).enumerate() {
+            let values = &on_the_way[TERMS_AT_ONCE * row..][..n_terms];
+            for (place, &term) in self.active.iter().enumerate() {
+                self.rows[place * self.height + local] = values[term];
+            }
+        }
+        on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end].fill(0.0);
+        !self.active.is_empty()
+    }
+
+    /// Hands the terms on to the rows below the panel.
+    pub(super) fn scatter(&self, columns: Range<usize>, below: &[usize], on_the_way: &mut [f64]) {
+        for (local, &row) in below.iter().enumerate() {
+            let values = &mut on_the_way[TERMS_AT_ONCE * row..][..TERMS_AT_ONCE];
+            for (place, &term) in self.active.iter().enumerate() {
+                values[term] = self.rows[place * self.height + columns.len() + local];
+            }
+        }
+    }
+
+    /// Changes a panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
+    #[inline(always)]
+    pub(super) fn change<S: Simd>(
+        &mut self,
+        simd: S,
+        form: Form,
+        panel: &mut [f64],
+        diagonal: &[f64],
+    ) -> Result<isize, usize> {
+        let mut more_negative = 0;
+        for (index, block) in panel.chunks_mut(BLOCK * self.height).enumerate() {
+            let first = BLOCK * index;
+            let width = block.len() / self.height;
+            more_negative += self.change_pivots(form, block, first, width, diagonal)?;
+            match width {
+                4 => self.change_below::<S, 4>(simd, block, first + 4),
+                3 => self.change_below::<S, 3>(simd, block, first + 3),
+                2 => self.change_below::<S, 2>(simd, block, first + 2),
+                _ => self.change_below::<S, 1>(simd, block, first + 1),
+            }
+        }
+        Ok(more_negative)
+    }
+
+    /// Changes the pivots of a block of columns and the triangle between them, and notes the rotations.
+    #[inline(always)]
+    fn change_pivots(
+        &mut self,
+        form: Form,
+        block: &mut [f64],
+        first: usize,
+        width: usize,
+        diagonal: &[f64],
+    ) -> Result<isize, usize> {
+        let height = self.height;
+        self.rotations.clear();
+        self.rotations
+            .resize(self.active.len(), [Rotation::default(); BLOCK]);
+        let mut more_negative = 0;
+        for (k, column) in block.chunks_exact_mut(height).enumerate() {
+            let row = first + k;
+            let was_negative = column[row] < 0.0;
+            for (place, &term) in self.active.iter().enumerate() {
+                let w = &mut self.rows[place * height..][..height];
+                let weight = &mut self.weights[term];
+                let rotation = match form {
+                    Form::Llt => rotate_root(&mut column[row], weight, w[row]),
+                    Form::Ldlt => rotate(&mut column[row], weight, w[row]),
+                }
+                .ok_or(row)?;
+                for r in row + 1..first + width {
+                    w[r] -= rotation.c * column[r];
+                    column[r] = rotation.p * column[r] + rotation.q * w[r];
+                }
+                self.rotations[place][k] = rotation;
+            }
+            let pivot = match form {
+                Form::Llt => column[row] * column[row],
+                Form::Ldlt => column[row],
+            };
+            // Also where it is no number.
+            if !(pivot.abs() > VANISHING_PIVOT * diagonal[row].abs()) {
+                return Err(row);
+            }
+            more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
+        }
+        Ok(more_negative)
+    }
+
+    /// Applies the rotations to the rows below a block of columns.
+    #[inline(always)]
+    fn change_below<S: Simd, const WIDTH: usize>(
+        &mut self,
+        simd: S,
+        block: &mut [f64],
+        first_row: usize,
+    ) {
+        let height = self.height;
+        for (w, rotations) in self
+            .rows
+            .chunks_exact_mut(height)
+            .zip(self.rotations.iter())
+        {
+            let (w, w_rest) = S::as_mut_simd_f64s(&mut w[first_row..]);
+            let mut columns = block.chunks_exact_mut(height);
+            let mut columns: [_; WIDTH] = std::array::from_fn(|_| {
+                let column = columns.next().unwrap_or_default();
+                S::as_mut_simd_f64s(&mut column[first_row..])
+            });
+            let c: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(rotations[k].c));
+            let p: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(rotations[k].p));
+            let q: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(rotations[k].q));
+            for column in &columns {
+                assert_eq!(column.0.len(), w.len());
+            }
+            for r in 0..w.len() {
+                let mut value = w[r];
+                for k in 0..WIDTH {
+                    let l = &mut columns[k].0[r];
+                    value = simd.negate_mul_add_e_f64s(c[k], *l, value);
+                    *l = simd.mul_add_e_f64s(q[k], value, simd.mul_f64s(p[k], *l));
+                }
+                w[r] = value;
+            }
+            for (r, w) in w_rest.iter_mut().enumerate() {
+                for (column, rotation) in columns.iter_mut().zip(rotations) {
+                    let l = &mut column.1[r];
+                    *w -= rotation.c * *l;
+                    *l = rotation.p * *l + rotation.q * *w;
+                }
+            }
+        }
+    }
+}
+
+/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill, Golub, Murray & Saunders, Math. Comp.
+/// 28, 1974, method C1). None where d' is zero.
+#[inline(always)]
+fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> Option<Rotation> {
+    let old = *pivot;
+    let new = old + *weight * w * w;
+    if new == 0.0 {
+        return None;
+    }
+    let q = *weight * w / new;
+    *weight *= old / new;
+    *pivot = new;
+    Some(Rotation { c: w, p: 1.0, q })
+}
+
+/// The same where the diagonal holds the square root of the pivot, and each column is that root times the one of a unit
+/// L. None where the new pivot is not positive.
+#[inline(always)]
+fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> Option<Rotation> {
+    let old = *root;
+    let new = old * old + *weight * w * w;
+    if !(new > 0.0) {
+        return None;
+    }
+    let new_root = new.sqrt();
+    let q = *weight * w / new_root;
+    *weight *= old * old / new;
+    *root = new_root;
+    Some(Rotation {
+        c: w / old,
+        p: new_root / old,
+        q,
+    })
+}
