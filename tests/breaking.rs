@@ -108,16 +108,13 @@ fn a_broken_bond_is_an_absent_bond() {
     let present: BTreeSet<&[u32; 2]> = kept.iter().collect();
     let mut state = State {
         load_factor: 1.0,
-        intact: system
-            .bonds
-            .ends
-            .iter()
-            .map(|ends| present.contains(ends))
-            .collect(),
         ..State::fresh(system)
     };
+    let absent: Vec<u32> = (0..system.bonds.len() as u32)
+        .filter(|&bond| !present.contains(&system.bonds.ends[bond as usize]))
+        .collect();
     let mut equilibrium = Equilibrium::new(system, &with.boundary, 1e-4).unwrap();
-    equilibrium.bonds_changed(&mut state);
+    equilibrium.break_bonds(&mut state, &absent);
     let balanced = equilibrium
         .balance(&mut state, &mut Unobserved)
         .unwrap()

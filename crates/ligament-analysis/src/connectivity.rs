@@ -4,6 +4,8 @@
 //! settled combinatorially. Connectivity alone is not enough (half a disk may be held along y only): for every fragment
 //! the rank of its held degrees of freedom on the three rigid motions decides, and just the missing motions are held.
 
+pub mod decremental;
+
 use ligament_model::BondSystem;
 
 use crate::unknowns::{COMPONENTS, Component};
@@ -60,17 +62,19 @@ impl Fragments {
         Self { of_point, points }
     }
 
-    /// The degrees of freedom to hold so that no fragment can move rigidly.
+    /// The degrees of freedom to hold so that none of the given fragments can move rigidly.
     ///
-    /// `is_fixed` (3 n_points) marks what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
+    /// `is_fixed` tells what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
     pub fn missing_holds(
         &self,
+        fragments: impl IntoIterator<Item = u32>,
         system: &BondSystem,
-        is_fixed: &[bool],
-        can_hold: &[bool],
+        is_fixed: impl Fn(usize) -> bool,
+        can_hold: impl Fn(usize) -> bool,
     ) -> Vec<Hold> {
         let mut holds = Vec::new();
-        for (fragment, points) in self.points.iter().enumerate() {
+        for fragment in fragments {
+            let points = &self.points[fragment as usize];
             let motions = RigidMotions::of(system, points);
             let mut spanned = Vec::new();
             let degrees_of_freedom = || {
@@ -78,7 +82,7 @@ impl Fragments {
                     (0..COMPONENTS).map(move |c| COMPONENTS * point as usize + c)
                 })
             };
-            for dof in degrees_of_freedom().filter(|&dof| is_fixed[dof]) {
+            for dof in degrees_of_freedom().filter(|&dof| is_fixed(dof)) {
                 motions.extend(&mut spanned, dof);
                 if spanned.len() == COMPONENTS {
                     break;
@@ -86,18 +90,38 @@ impl Fragments {
             }
             while spanned.len() < COMPONENTS {
                 let candidates =
-                    degrees_of_freedom().filter(|&dof| can_hold[dof] && !is_fixed[dof]);
+                    degrees_of_freedom().filter(|&dof| can_hold(dof) && !is_fixed(dof));
                 let Some(best) = motions.most_independent(&spanned, candidates) else {
                     break;
                 };
                 motions.extend(&mut spanned, best);
                 holds.push(Hold {
                     degree_of_freedom: best,
-                    fragment: fragment as u32,
+                    fragment,
                 });
             }
         }
         holds
+    }
+
+    /// Makes a fragment of a part of one; both keep the order of their first points among the others.
+    fn split_off(&mut self, mut part: Vec<u32>) {
+        part.sort_unstable();
+        let rest = &mut self.points[self.of_point[part[0] as usize] as usize];
+        let mut leaving = part.iter().peekable();
+        rest.retain(|point| leaving.next_if_eq(&point).is_none());
+        // The part with the first point keeps the number.
+        if part[0] < rest[0] {
+            std::mem::swap(&mut part, rest);
+        }
+        let number = self.points.partition_point(|points| points[0] < part[0]);
+        for fragment in &mut self.of_point {
+            *fragment += u32::from(*fragment >= number as u32);
+        }
+        for &point in &part {
+            self.of_point[point as usize] = number as u32;
+        }
+        self.points.insert(number, part);
     }
 }
 

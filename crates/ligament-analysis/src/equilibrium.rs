@@ -13,6 +13,7 @@ use thiserror::Error;
 
 use crate::assembly;
 use crate::boundary::Boundary;
+use crate::connectivity::decremental::Connectivity;
 use crate::connectivity::{Fragments, Hold};
 use crate::dissection;
 use crate::history::{Observer, ObserverError};
@@ -51,6 +52,7 @@ pub struct Equilibrium<'a> {
     energy_tolerance: f64,
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
     point_stiffness: [f64; 2],
+    connectivity: Connectivity,
     costs: Costs,
 }
 
@@ -186,6 +188,7 @@ impl<'a> Equilibrium<'a> {
             factor: None,
             energy_tolerance,
             point_stiffness: largest_point_stiffness(system),
+            connectivity: Connectivity::new(system),
             costs,
         })
     }
@@ -203,6 +206,11 @@ impl<'a> Equilibrium<'a> {
     /// Structure of the factor.
     pub fn symbolic(&self) -> &Symbolic {
         &self.symbolic
+    }
+
+    /// The connected parts of the body.
+    pub fn fragments(&self) -> &Fragments {
+        self.connectivity.fragments()
     }
 
     /// What the equations have cost so far.
@@ -223,26 +231,27 @@ impl<'a> Equilibrium<'a> {
         self.costs.bonds += start.elapsed();
     }
 
-    /// Forgets the factor because bonds broke, and holds what came loose. Returns the parts and the new holds.
-    pub fn bonds_changed(&mut self, state: &mut State) -> (Fragments, Vec<Hold>) {
+    /// Breaks bonds: takes them out of the state, forgets the factor and holds what came loose. Returns the new holds.
+    ///
+    /// To be called before the first solution, with whatever bonds the state lacks, and then with every bond that breaks.
+    pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Vec<Hold> {
         let start = Instant::now();
         self.factor = None;
-        let fragments = Fragments::find(self.system, &state.intact);
-        let prescribed = &self.boundary.prescribed;
-        let is_fixed: Vec<bool> = prescribed
-            .iter()
-            .zip(&state.held)
-            .map(|(value, held)| value.is_some() || *held)
-            .collect();
-        let can_hold: Vec<bool> = (0..is_fixed.len())
-            .map(|dof| self.unknowns.number(dof).is_some())
-            .collect();
-        let holds = fragments.missing_holds(self.system, &is_fixed, &can_hold);
+        for &bond in bonds {
+            state.intact[bond as usize] = false;
+        }
+        self.connectivity.bonds_broke(self.system, bonds);
+        let (prescribed, held) = (&self.boundary.prescribed, &state.held);
+        let holds = self.connectivity.missing_holds(
+            self.system,
+            |dof| prescribed[dof].is_some() || held[dof],
+            |dof| self.unknowns.number(dof).is_some(),
+        );
         for hold in &holds {
             state.held[hold.degree_of_freedom] = true;
         }
         self.costs.connectivity += start.elapsed();
-        (fragments, holds)
+        holds
     }
 
     /// Brings the state into equilibrium at its load factor.

@@ -14,7 +14,7 @@ pub fn run(
 ) -> Result<Outcome, SetupError> {
     let mut equilibrium = Equilibrium::new(problem.system, problem.boundary, energy_tolerance)?;
     let start = begin(problem, &mut equilibrium, &[], observer)?;
-    let (mut state, fragments) = (start.unloaded, start.fragments);
+    let mut state = start.unloaded;
     let mut history = Vec::new();
     let mut energies = Energies::default();
     let mut termination = Termination::StepsDone;
@@ -51,7 +51,7 @@ pub fn run(
             &state,
             &balanced,
             &energies,
-            &fragments,
+            equilibrium.fragments(),
             &[],
             counters,
         ));
@@ -61,7 +61,7 @@ pub fn run(
             balanced: &balanced,
             boundary: problem.boundary,
             critical_stretch: &[],
-            fragments: &fragments,
+            fragments: equilibrium.fragments(),
             costs: equilibrium.costs(),
             is_last: load_factor == 1.0,
         };

@@ -11,7 +11,6 @@ use crate::state::State;
 pub(super) struct Start {
     /// The unloaded body, with its holds.
     pub(super) unloaded: State,
-    pub(super) fragments: Fragments,
     /// NaN where there is no equilibrium.
     pub(super) elastic_stiffness: f64,
     pub(super) first_break: Option<LoadPoint>,
@@ -26,15 +25,14 @@ pub(super) fn begin(
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
     let mut unloaded = State::fresh(problem.system);
-    let (fragments, holds) = equilibrium.bonds_changed(&mut unloaded);
-    report_loose(0, &fragments, &holds, observer)?;
+    let holds = equilibrium.break_bonds(&mut unloaded, &[]);
+    report_loose(0, equilibrium.fragments(), &holds, observer)?;
     let mut at_one = State {
         load_factor: 1.0,
         ..unloaded.clone()
     };
     let mut start = Start {
         unloaded,
-        fragments,
         elastic_stiffness: f64::NAN,
         first_break: None,
         stability: None,
@@ -44,7 +42,13 @@ pub(super) fn begin(
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
         start.stability = stability(problem, equilibrium, &at_one, observer)?;
-        start.read_off(problem, &at_one, &balanced, critical_stretch);
+        start.read_off(
+            problem,
+            &at_one,
+            &balanced,
+            equilibrium.fragments(),
+            critical_stretch,
+        );
     }
     Ok(start)
 }
@@ -56,6 +60,7 @@ impl Start {
         problem: &Problem<'_>,
         at_one: &State,
         balanced: &Balanced,
+        fragments: &Fragments,
         critical_stretch: &[f64],
     ) {
         let record = step_record(
@@ -63,7 +68,7 @@ impl Start {
             at_one,
             balanced,
             &Energies::default(),
-            &self.fragments,
+            fragments,
             critical_stretch,
             StepCounters::default(),
         );

@@ -12,7 +12,7 @@ use super::start::{Start, begin, report_loose, report_mechanisms};
 use super::{LoadPoint, Problem};
 use crate::boundary::ControlKind;
 use crate::breaking::{BreakingRule, next_to_break};
-use crate::connectivity::{Fragments, Hold};
+use crate::connectivity::Hold;
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{BreakRecord, Notice, Observer, StepRecord, Termination, View};
 use crate::state::State;
@@ -74,7 +74,6 @@ pub fn run(
         Equilibrium::new(problem.system, problem.boundary, settings.energy_tolerance)?;
     let Start {
         unloaded,
-        fragments,
         elastic_stiffness,
         first_break,
         stability,
@@ -87,7 +86,6 @@ pub fn run(
         observer,
         equilibrium,
         state: unloaded,
-        fragments,
         energies: Energies::default(),
         history: Vec::new(),
         broken: 0,
@@ -155,7 +153,6 @@ struct Path<'a> {
     observer: &'a mut dyn Observer,
     equilibrium: Equilibrium<'a>,
     state: State,
-    fragments: Fragments,
     energies: Energies,
     history: Vec<StepRecord>,
     broken: usize,
@@ -271,7 +268,6 @@ impl Path<'_> {
     ) -> Result<Vec<(u32, BondDeformation)>, SetupError> {
         let mut records = Vec::with_capacity(bonds.len());
         for &bond in bonds {
-            self.state.intact[bond as usize] = false;
             self.broken += 1;
             let ratio =
                 balanced.deformations[bond as usize].stretch / self.critical_stretch[bond as usize];
@@ -286,10 +282,10 @@ impl Path<'_> {
             });
         }
         self.observer.broke(&records)?;
-        let (fragments, holds) = self.equilibrium.bonds_changed(&mut self.state);
-        self.fragments = fragments;
+        let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
         self.collapsed |= self.load_came_loose(&holds);
-        report_loose(counters.step, &self.fragments, &holds, self.observer)?;
+        let fragments = self.equilibrium.fragments();
+        report_loose(counters.step, fragments, &holds, self.observer)?;
         Ok(bonds
             .iter()
             .map(|&bond| (bond, balanced.deformations[bond as usize]))
@@ -299,11 +295,12 @@ impl Path<'_> {
     /// Whether a given force acts on a part that nothing holds any more.
     fn load_came_loose(&self, holds: &[Hold]) -> bool {
         let control = &self.problem.boundary.control;
+        let of_point = &self.equilibrium.fragments().of_point;
         control.kind == ControlKind::Force
             && control.points.iter().any(|&point| {
                 holds
                     .iter()
-                    .any(|hold| hold.fragment == self.fragments.of_point[point as usize])
+                    .any(|hold| hold.fragment == of_point[point as usize])
             })
     }
 
@@ -363,7 +360,7 @@ impl Path<'_> {
             &self.state,
             balanced,
             &self.energies,
-            &self.fragments,
+            self.equilibrium.fragments(),
             self.critical_stretch,
             counters,
         ));
@@ -374,7 +371,7 @@ impl Path<'_> {
             balanced,
             boundary: self.problem.boundary,
             critical_stretch: self.critical_stretch,
-            fragments: &self.fragments,
+            fragments: self.equilibrium.fragments(),
             costs: self.equilibrium.costs(),
             is_last: end.is_some() || counters.step == self.last_step,
         };

@@ -1,0 +1,145 @@
+//! Which points hang together while bonds break, without a search of the whole body for every bond.
+//!
+//! The ends of a broken bond nearly always have a common neighbour left. So two breadth-first searches run from them
+//! towards each other, the smaller one first: they meet after a few points, and where they do not, the one that comes to
+//! an end has found the part that came loose, at the cost of that part.
+
+use ligament_model::{BondSet, BondSystem};
+
+use super::{Fragments, Hold};
+
+/// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.
+#[derive(Debug, Clone)]
+pub struct Connectivity {
+    /// Which bonds are left, shape (n_bonds).
+    intact: Vec<bool>,
+    fragments: Fragments,
+    /// A point of each fragment whose points changed since [`Connectivity::missing_holds`].
+    changed: Vec<u32>,
+    search: Search,
+}
+
+/// Two searches from the ends of a bond towards each other.
+#[derive(Debug, Clone)]
+struct Search {
+    /// Which search reached each point, shape (n_points); [`NEITHER`] everywhere between two broken bonds.
+    reached_by: Vec<u8>,
+    /// Points that each search reached, in that order.
+    reached: [Vec<u32>; 2],
+    /// Points that all searches so far reached.
+    effort: usize,
+}
+
+/// Mark of a point that no search reached; the searches mark theirs 0 and 1.
+const NEITHER: u8 = 2;
+
+impl Connectivity {
+    /// The body with all its bonds.
+    pub fn new(system: &BondSystem) -> Self {
+        let intact = vec![true; system.bonds.len()];
+        let fragments = Fragments::find(system, &intact);
+        Self {
+            changed: fragments.points.iter().map(|points| points[0]).collect(),
+            fragments,
+            intact,
+            search: Search {
+                reached_by: vec![NEITHER; system.cloud.len()],
+                reached: [Vec::new(), Vec::new()],
+                effort: 0,
+            },
+        }
+    }
+
+    /// The fragments.
+    pub fn fragments(&self) -> &Fragments {
+        &self.fragments
+    }
+
+    /// Points that the searches reached so far, both ends of every broken bond among them: what the breakages cost.
+    pub fn effort(&self) -> usize {
+        self.search.effort
+    }
+
+    /// Takes bonds away and splits the fragments that they held together.
+    ///
+    /// They go one by one: where two of them split a fragment in three, each split is seen.
+    pub fn bonds_broke(&mut self, system: &BondSystem, bonds: &[u32]) {
+        for &bond in bonds {
+            if !std::mem::replace(&mut self.intact[bond as usize], false) {
+                continue;
+            }
+            let ends = system.bonds.ends[bond as usize];
+            if let Some(part) = self.search.part_apart(&system.bonds, &self.intact, ends) {
+                self.fragments.split_off(part);
+                self.changed.extend(ends);
+            }
+        }
+    }
+
+    /// The degrees of freedom to hold so that no fragment can move rigidly, with the arguments of
+    /// [`Fragments::missing_holds`].
+    ///
+    /// Asked are the fragments whose points changed since the last call, at first all. The others are held as far as they
+    /// can be: their rigid motions depend on their points alone, and what is fixed stays fixed.
+    pub fn missing_holds(
+        &mut self,
+        system: &BondSystem,
+        is_fixed: impl Fn(usize) -> bool,
+        can_hold: impl Fn(usize) -> bool,
+    ) -> Vec<Hold> {
+        let of_point = &self.fragments.of_point;
+        let points = self.changed.drain(..);
+        let mut changed: Vec<u32> = points.map(|point| of_point[point as usize]).collect();
+        changed.sort_unstable();
+        changed.dedup();
+        self.fragments
+            .missing_holds(changed, system, is_fixed, can_hold)
+    }
+}
+
+impl Search {
+    /// The points that hang together with one of two points, if those no longer hang together with the other.
+    fn part_apart(&mut self, bonds: &BondSet, intact: &[bool], ends: [u32; 2]) -> Option<Vec<u32>> {
+        let part = self
+            .ended(bonds, intact, ends)
+            .map(|side| self.reached[side].clone());
+        for reached in &mut self.reached {
+            self.effort += reached.len();
+            for point in reached.drain(..) {
+                self.reached_by[point as usize] = NEITHER;
+            }
+        }
+        part
+    }
+
+    /// Which search came to an end; none if they met.
+    fn ended(&mut self, bonds: &BondSet, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
+        for (side, end) in ends.into_iter().enumerate() {
+            self.reach(side, end);
+        }
+        let mut next = [0; 2];
+        loop {
+            let side = usize::from(self.reached[1].len() < self.reached[0].len());
+            let Some(&point) = self.reached[side].get(next[side]) else {
+                return Some(side);
+            };
+            next[side] += 1;
+            for &bond in bonds.incidence.of(point) {
+                if !intact[bond as usize] {
+                    continue;
+                }
+                let neighbour = bonds.neighbour(bond, point);
+                match self.reached_by[neighbour as usize] {
+                    NEITHER => self.reach(side, neighbour),
+                    by if usize::from(by) != side => return None,
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    fn reach(&mut self, side: usize, point: u32) {
+        self.reached_by[point as usize] = side as u8;
+        self.reached[side].push(point);
+    }
+}
