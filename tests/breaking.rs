@@ -113,7 +113,7 @@ fn a_broken_bond_is_an_absent_bond() {
     let absent: Vec<u32> = (0..system.bonds.len() as u32)
         .filter(|&bond| !present.contains(&system.bonds.ends[bond as usize]))
         .collect();
-    let mut equilibrium = Equilibrium::new(system, &with.boundary, 1e-4).unwrap();
+    let mut equilibrium = Equilibrium::of(&with.problem(), 1e-4).unwrap();
     equilibrium.break_bonds(&mut state, &absent);
     let balanced = equilibrium
         .balance(&mut state, &mut Unobserved)

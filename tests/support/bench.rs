@@ -100,6 +100,7 @@ impl Bench {
         Problem {
             system: &self.model.system,
             boundary: &self.boundary,
+            solver: resolve::solver(&self.case),
             probes: &self.probes,
         }
     }

@@ -1,30 +1,26 @@
 //! Equilibrium of the intact bonds by Newton-Raphson (NHPD eqs 19 to 21).
 
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use ligament_linalg::{
-    Elimination, FactorError, FactorKind, Factorisation, Pattern, PatternError, Symbolic,
-    SymmetricMatrix,
-};
+use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
 use thiserror::Error;
 
-use crate::assembly;
 use crate::boundary::Boundary;
 use crate::connectivity::decremental::Connectivity;
 use crate::connectivity::{Fragments, Hold};
-use crate::dissection;
+use crate::driver::Problem;
 use crate::history::{Observer, ObserverError};
-use crate::internal::{self, InternalForces};
+use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::State;
+use crate::stiffness::{Costs, Ordering, Stiffness, Update};
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
 ///
 /// With linear bonds one solve gets there; the paper's second iterate, which would only confirm it, is skipped.
-const RESIDUAL_TOLERANCE: f64 = 1e-9;
+const RESIDUAL_TOLERANCE: f64 = 1e-10;
 
 /// A residual above this is no equilibrium whatever the energies say.
 const LARGEST_RESIDUAL: f64 = 1e-6;
@@ -36,45 +32,16 @@ const ROUNDING: f64 = 1e-14;
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
 
-/// A pivot below this share of its own diagonal entry means a mechanism.
-const MECHANISM_TOLERANCE: f64 = 1e-10;
-
-/// The equations of a problem: numbering, pattern and factor, kept as long as no bond breaks.
+/// The equations of a problem, kept up while its bonds break.
 pub struct Equilibrium<'a> {
     system: &'a BondSystem,
     boundary: &'a Boundary,
-    unknowns: Unknowns,
-    pattern: Arc<Pattern>,
-    symbolic: Arc<Symbolic>,
-    kind: FactorKind,
-    factor: Option<Box<dyn Factorisation>>,
+    stiffness: Stiffness<'a>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     energy_tolerance: f64,
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
     point_stiffness: [f64; 2],
     connectivity: Connectivity,
-    costs: Costs,
-}
-
-/// What the equations have cost so far.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Costs {
-    /// Factorisations.
-    pub factorisations: usize,
-    /// Solves with a factor.
-    pub solves: usize,
-    /// Time in numbering, pattern and symbolic analysis.
-    pub analysis: Duration,
-    /// Time in assembly.
-    pub assembly: Duration,
-    /// Time in factorisation.
-    pub factorisation: Duration,
-    /// Time in solves.
-    pub solve: Duration,
-    /// Time in deformations, forces, energies and the choice of bonds.
-    pub bonds: Duration,
-    /// Time in the search for loose parts.
-    pub connectivity: Duration,
 }
 
 /// A state in equilibrium.
@@ -155,57 +122,43 @@ pub struct Stability {
 
 impl<'a> Equilibrium<'a> {
     /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
-    pub fn new(
-        system: &'a BondSystem,
-        boundary: &'a Boundary,
-        energy_tolerance: f64,
-    ) -> Result<Self, SetupError> {
-        let start = Instant::now();
-        let unknowns = Unknowns::of_problem(system, boundary);
-        let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
-        let symbolic = Arc::new(Symbolic::analyse(
-            pattern.clone(),
-            Elimination::Given(dissection::elimination_order(system, &unknowns)),
-        )?);
-        // Without a positive shear stiffness positive definiteness is not to be counted on.
-        let definite = system.shear_rigidity.iter().all(|&rigidity| rigidity > 0.0);
-        let kind = if definite {
-            FactorKind::Llt
-        } else {
-            FactorKind::Ldlt
-        };
-        let costs = Costs {
-            analysis: start.elapsed(),
-            ..Costs::default()
-        };
+    pub fn of(problem: &Problem<'a>, energy_tolerance: f64) -> Result<Self, SetupError> {
+        let Problem {
+            system, boundary, ..
+        } = *problem;
         Ok(Self {
             system,
             boundary,
-            unknowns,
-            pattern,
-            symbolic,
-            kind,
-            factor: None,
+            stiffness: Stiffness::new(system, boundary, problem.solver)?,
             energy_tolerance,
             point_stiffness: largest_point_stiffness(system),
             connectivity: Connectivity::new(system),
-            costs,
         })
     }
 
     /// The unknowns.
     pub fn unknowns(&self) -> &Unknowns {
-        &self.unknowns
+        self.stiffness.unknowns()
     }
 
     /// Which factorisation is used.
     pub fn kind(&self) -> FactorKind {
-        self.kind
+        self.stiffness.kind()
+    }
+
+    /// Which order of elimination is used.
+    pub fn ordering(&self) -> Ordering {
+        self.stiffness.ordering()
+    }
+
+    /// What happens to the factor when bonds break.
+    pub fn update(&self) -> Update {
+        self.stiffness.update()
     }
 
     /// Structure of the factor.
     pub fn symbolic(&self) -> &Symbolic {
-        &self.symbolic
+        self.stiffness.symbolic()
     }
 
     /// The connected parts of the body.
@@ -215,42 +168,42 @@ impl<'a> Equilibrium<'a> {
 
     /// What the equations have cost so far.
     pub fn costs(&self) -> &Costs {
-        &self.costs
+        &self.stiffness.costs
     }
 
-    /// Negative eigenvalues of the stiffness that was factorised last; 0 where it is known to be positive definite.
+    /// Negative eigenvalues of the stiffness; 0 where it is known to be positive definite.
     pub fn negative_eigenvalues(&self) -> usize {
-        match (&self.factor, self.kind) {
-            (Some(factor), FactorKind::Ldlt) => factor.inertia().negative,
-            _ => 0,
-        }
+        let factor = self.stiffness.factor();
+        factor.map_or(0, |factor| factor.inertia().negative)
     }
 
     /// Adds the time since `start` to the work on bonds.
     pub(crate) fn count_bond_work(&mut self, start: Instant) {
-        self.costs.bonds += start.elapsed();
+        self.stiffness.costs.bonds += start.elapsed();
     }
 
-    /// Breaks bonds: takes them out of the state, forgets the factor and holds what came loose. Returns the new holds.
+    /// Breaks bonds: takes them out of the state and holds what came loose. Returns the new holds.
     ///
     /// To be called before the first solution, with whatever bonds the state lacks, and then with every bond that breaks.
     pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Vec<Hold> {
         let start = Instant::now();
-        self.factor = None;
         for &bond in bonds {
             state.intact[bond as usize] = false;
         }
         self.connectivity.bonds_broke(self.system, bonds);
         let (prescribed, held) = (&self.boundary.prescribed, &state.held);
+        let unknowns = self.stiffness.unknowns();
         let holds = self.connectivity.missing_holds(
             self.system,
             |dof| prescribed[dof].is_some() || held[dof],
-            |dof| self.unknowns.number(dof).is_some(),
+            |dof| unknowns.number(dof).is_some(),
         );
         for hold in &holds {
             state.held[hold.degree_of_freedom] = true;
         }
-        self.costs.connectivity += start.elapsed();
+        self.stiffness
+            .note(bonds, holds.iter().map(|hold| hold.degree_of_freedom));
+        self.stiffness.costs.connectivity += start.elapsed();
         holds
     }
 
@@ -266,6 +219,10 @@ impl<'a> Equilibrium<'a> {
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
         let mut iterations = 0;
+        if let Some(correction) = self.stiffness.follow(state) {
+            self.add_correction(state, &correction);
+            iterations = 1;
+        }
         loop {
             let (residual_forces, mut balanced) = self.measure(state);
             if iterations > 0 {
@@ -277,7 +234,9 @@ impl<'a> Equilibrium<'a> {
                 ..
             } = balanced;
             let change = ((energy - previous_energy) / energy).abs();
-            let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
+            let is_changed = self.stiffness.is_changed();
+            let energy_settled =
+                !is_changed && change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
             if residual <= RESIDUAL_TOLERANCE || energy_settled {
                 (balanced.iterations, balanced.mechanisms) = (iterations, mechanisms);
                 return Ok(Ok(balanced));
@@ -288,11 +247,17 @@ impl<'a> Equilibrium<'a> {
                     iterations,
                 }));
             }
+            // One refinement may be needed after many changes; if it is not enough, the factor is worn out.
+            if is_changed && iterations >= 2 {
+                self.stiffness.forget();
+            }
             match self.factorise_if_stale(state) {
                 Ok(found) => mechanisms.extend(found),
                 Err(unbalanced) => return Ok(Err(unbalanced)),
             }
-            self.add_correction(state, residual_forces);
+            let mut correction = residual_forces;
+            self.stiffness.solve(&mut correction);
+            self.add_correction(state, &correction);
             previous_energy = energy;
             iterations += 1;
         }
@@ -301,12 +266,14 @@ impl<'a> Equilibrium<'a> {
     /// Deformations, forces, residual and energy of a state, and F - K u at the unknowns.
     fn measure(&mut self, state: &State) -> (Vec<f64>, Balanced) {
         let start = Instant::now();
-        let deformations = internal::deformations(self.system, &state.displacement);
-        let internal = internal::internal_forces(self.system, &state.intact, &deformations);
+        let BondSweep {
+            deformations,
+            internal,
+            stored_energy,
+        } = internal::sweep(self.system, &state.intact, &state.displacement);
         let residual_forces = self.residual_forces(state, &internal);
         let residual = self.relative_residual(state, &residual_forces, &internal);
-        let stored_energy = internal::stored_energy(self.system, &state.intact, &deformations);
-        self.costs.bonds += start.elapsed();
+        self.count_bond_work(start);
         let energy_is_negative = stored_energy < -self.energy_of_rounding(state);
         let mechanisms = Vec::new();
         (
@@ -325,26 +292,12 @@ impl<'a> Equilibrium<'a> {
 
     /// Inertia of the stiffness and of its rotation block for the state's bonds, once the state was balanced.
     pub fn stability(&self, state: &State) -> Result<Option<Stability>, SetupError> {
-        let Some(factor) = &self.factor else {
+        let Some(factor) = self.stiffness.factor() else {
             return Ok(None);
         };
-        let rotations = self.unknowns.rotations_only();
-        let pattern = Arc::new(assembly::pattern(self.system, &rotations)?);
-        let block = assembly::assemble(
-            self.system,
-            &rotations,
-            &pattern,
-            &state.intact,
-            &state.held,
-        );
-        let symbolic = Arc::new(Symbolic::analyse(pattern, Elimination::MinimumDegree)?);
-        let expected = FactorKind::Ldlt
-            .factorise(&symbolic, &block)?
-            .inertia()
-            .negative;
         Ok(Some(Stability {
             negative: factor.inertia().negative,
-            expected,
+            expected: self.stiffness.negative_rotations(state)?,
         }))
     }
 
@@ -358,7 +311,7 @@ impl<'a> Equilibrium<'a> {
 
     /// F - K u at the unknowns (NHPD eq. 20), zero where held, shape (n_unknowns).
     fn residual_forces(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
-        self.unknowns
+        self.unknowns()
             .degrees_of_freedom()
             .iter()
             .map(|&dof| {
@@ -390,7 +343,7 @@ impl<'a> Equilibrium<'a> {
             .max(largest_load * state.load_factor.abs())
             .max(force / RESIDUAL_TOLERANCE);
         scales.moment_scale = scales.moment_scale.max(moment / RESIDUAL_TOLERANCE);
-        internal::relative_residual(residual, self.unknowns.degrees_of_freedom(), &scales)
+        internal::relative_residual(residual, self.unknowns().degrees_of_freedom(), &scales)
     }
 
     /// Force and moment at a point that are rounding of the displacements, N and N m.
@@ -405,64 +358,37 @@ impl<'a> Equilibrium<'a> {
         self.forces_of_rounding(state)[0] * largest_displacement(state)
     }
 
-    fn add_correction(&mut self, state: &mut State, mut correction: Vec<f64>) {
-        let start = Instant::now();
-        if let Some(factor) = &mut self.factor {
-            factor.solve_in_place(&mut correction);
-        }
-        for (&dof, value) in self.unknowns.degrees_of_freedom().iter().zip(correction) {
+    fn add_correction(&self, state: &mut State, correction: &[f64]) {
+        let degrees_of_freedom = self.stiffness.unknowns().degrees_of_freedom();
+        for (&dof, value) in degrees_of_freedom.iter().zip(correction) {
             state.displacement[dof as usize] += value;
         }
-        self.costs.solves += 1;
-        self.costs.solve += start.elapsed();
     }
 
     /// Factorises unless the factor is up to date; mechanisms found by their pivots are held, and the rest factorised
     /// again.
     fn factorise_if_stale(&mut self, state: &mut State) -> Result<Vec<usize>, Unbalanced> {
         let mut held_now = Vec::new();
-        while self.factor.is_none() {
-            let start = Instant::now();
-            let matrix = assembly::assemble(
-                self.system,
-                &self.unknowns,
-                &self.pattern,
-                &state.intact,
-                &state.held,
-            );
-            self.costs.assembly += start.elapsed();
-            let start = Instant::now();
-            let factor = self.kind.factorise(&self.symbolic, &matrix);
-            self.costs.factorisation += start.elapsed();
-            self.costs.factorisations += 1;
-            let mechanisms = match &factor {
-                Ok(factor) => vanishing_pivots(factor.as_ref(), &matrix),
-                Err(
-                    FactorError::ZeroPivot { unknown }
-                    | FactorError::NotPositiveDefinite { unknown },
-                ) => vec![*unknown],
-                Err(other) => return Err(Unbalanced::NoFactor(other.clone())),
+        loop {
+            let vanishing = self.stiffness.make(state).map_err(Unbalanced::NoFactor)?;
+            let Some(&first) = vanishing.first() else {
+                return Ok(held_now);
             };
-            if let Some(&unknown) = mechanisms.first() {
-                if self.system.has_negative_stiffness() {
+            if self.system.has_negative_stiffness() {
+                return Err(self.vanishing_pivot(first));
+            }
+            for unknown in vanishing {
+                let dof = self.unknowns().degrees_of_freedom()[unknown] as usize;
+                if std::mem::replace(&mut state.held[dof], true) {
                     return Err(self.vanishing_pivot(unknown));
                 }
-                for unknown in mechanisms {
-                    let dof = self.unknowns.degrees_of_freedom()[unknown] as usize;
-                    if std::mem::replace(&mut state.held[dof], true) {
-                        return Err(self.vanishing_pivot(unknown));
-                    }
-                    held_now.push(dof);
-                }
-            } else {
-                self.factor = factor.ok();
+                held_now.push(dof);
             }
         }
-        Ok(held_now)
     }
 
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
-        let dof = self.unknowns.degrees_of_freedom()[unknown] as usize;
+        let dof = self.unknowns().degrees_of_freedom()[unknown] as usize;
         let point = (dof / COMPONENTS) as u32;
         Unbalanced::VanishingPivot {
             point,
@@ -493,11 +419,4 @@ fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
         largest = [0, 1].map(|k| largest[k].max(sum[k]));
     }
     largest
-}
-
-fn vanishing_pivots(factor: &dyn Factorisation, matrix: &SymmetricMatrix) -> Vec<usize> {
-    let pivots = factor.pivots();
-    (0..pivots.len())
-        .filter(|&i| pivots[i].abs() < MECHANISM_TOLERANCE * matrix.diagonal(i).abs())
-        .collect()
 }

@@ -5,8 +5,9 @@ use thiserror::Error;
 
 use crate::boundary::Boundary;
 use crate::connectivity::Fragments;
-use crate::equilibrium::{Balanced, Costs, Unbalanced};
+use crate::equilibrium::{Balanced, Unbalanced};
 use crate::state::State;
+use crate::stiffness::Costs;
 use crate::unknowns::COMPONENTS;
 
 /// One load step at rest (or where the run was stopped).

@@ -16,6 +16,7 @@ pub mod history;
 pub mod internal;
 pub mod probe;
 pub mod state;
+pub mod stiffness;
 pub mod unknowns;
 
 pub use boundary::{Boundary, BoundaryError, Control, ControlKind};
@@ -23,4 +24,5 @@ pub use equilibrium::{Equilibrium, SetupError};
 pub use history::{Observer, ObserverError, Termination};
 pub use probe::Probe;
 pub use state::State;
+pub use stiffness::SolverSettings;
 pub use unknowns::{COMPONENTS, Component, Unknowns};

@@ -19,17 +19,20 @@ pub trait Factorisation {
     /// Solves A x = b in place, b of shape (n).
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]);
 
-    /// Changes the matrix A by the terms c w w^T, in place of its factor, and solves A' x = b for a b of few entries (unknown
-    /// and value); x of shape (n).
+    /// Changes the matrix A by the terms c w w^T, in place of its factor, and does the first half of solving A' x = b for a
+    /// b of few entries (unknown and value): the forward substitution.
     ///
-    /// The cost is that of the parts of the factor that the terms reach and of one backward substitution. After an error
-    /// (a pivot that vanished, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used before
+    /// The cost is that of the parts of the factor that the terms and the entries reach. After an error (a pivot that
+    /// vanished, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used before
     /// [`Factorisation::refactorise`] succeeded.
-    fn change_and_solve(
+    fn change(
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<Vec<f64>, FactorError>;
+    ) -> Result<HalfSolved, FactorError>;
+
+    /// The other half: the backward substitution; x of shape (n).
+    fn finish(&self, half_solved: HalfSolved) -> Vec<f64>;
 
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
     fn pivots(&self) -> Vec<f64>;
@@ -37,6 +40,10 @@ pub trait Factorisation {
     /// Numbers of positive and negative pivots, which are those of the eigenvalues (Sylvester's law of inertia).
     fn inertia(&self) -> Inertia;
 }
+
+/// A right-hand side after the forward substitution, in the order of elimination.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HalfSolved(pub(crate) Vec<f64>);
 
 /// Numbers of eigenvalues by sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

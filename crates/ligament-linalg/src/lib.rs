@@ -13,7 +13,7 @@ mod substitution;
 mod supernodes;
 mod symbolic;
 
-pub use factorisation::{FactorError, FactorKind, Factorisation, Inertia};
+pub use factorisation::{FactorError, FactorKind, Factorisation, HalfSolved, Inertia};
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};
 pub use modification::{RankOne, VANISHING_PIVOT};
 pub use symbolic::{Elimination, Symbolic};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::{Par, Side};
 
-use crate::factorisation::{FactorError, Factorisation, Inertia};
+use crate::factorisation::{FactorError, Factorisation, HalfSolved, Inertia};
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{RankOne, VanishingPivot};
 use crate::storage::{Form, Storage};
@@ -56,13 +56,17 @@ impl Factorisation for Llt {
         self.0.solve_in_place(right_hand_side);
     }
 
-    fn change_and_solve(
+    fn change(
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<Vec<f64>, FactorError> {
-        let solution = self.0.change_and_solve(terms, right_hand_side);
-        solution.map_err(|VanishingPivot(row)| self.not_positive_definite(row))
+    ) -> Result<HalfSolved, FactorError> {
+        let half_solved = self.0.change(terms, right_hand_side);
+        half_solved.map_err(|VanishingPivot(row)| self.not_positive_definite(row))
+    }
+
+    fn finish(&self, half_solved: HalfSolved) -> Vec<f64> {
+        self.0.finish(half_solved)
     }
 
     fn pivots(&self) -> Vec<f64> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::linalg::cholesky::SymbolicCholesky;
 
-use crate::factorisation::{FactorError, Inertia};
+use crate::factorisation::{FactorError, HalfSolved, Inertia};
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{Modification, RankOne, Target, VanishingPivot};
 use crate::substitution::{Backward, Forward};
@@ -103,22 +103,11 @@ impl Storage {
         }
     }
 
-    /// Solves L^T x = y (L^T x = D^-1 y) in place, in the order of elimination.
-    pub(crate) fn backward(&self, vector: &mut [f64]) {
-        Backward {
-            form: self.form,
-            supernodes: self.symbolic.supernodes(),
-            values: &self.values,
-            vector,
-        }
-        .run();
-    }
-
-    pub(crate) fn change_and_solve(
+    pub(crate) fn change(
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<Vec<f64>, VanishingPivot> {
+    ) -> Result<HalfSolved, VanishingPivot> {
         let rows = self.symbolic.row_of_unknown();
         let mut vector = vec![0.0; rows.len()];
         for &(unknown, value) in right_hand_side {
@@ -137,8 +126,24 @@ impl Storage {
             negative_pivots: &mut self.negative_pivots,
         };
         modification.apply(&mut target, terms, rows, &mut vector, &rows_of_b)?;
+        Ok(HalfSolved(vector))
+    }
+
+    pub(crate) fn finish(&self, HalfSolved(mut vector): HalfSolved) -> Vec<f64> {
         self.backward(&mut vector);
-        Ok(rows.iter().map(|&row| vector[row]).collect())
+        let rows = self.symbolic.row_of_unknown();
+        rows.iter().map(|&row| vector[row]).collect()
+    }
+
+    /// Solves L^T x = y (L^T x = D^-1 y) in place, in the order of elimination.
+    fn backward(&self, vector: &mut [f64]) {
+        Backward {
+            form: self.form,
+            supernodes: self.symbolic.supernodes(),
+            values: &self.values,
+            vector,
+        }
+        .run();
     }
 }
 

@@ -18,6 +18,7 @@ mod overrides;
 mod probe;
 mod region;
 mod resolved;
+mod solver;
 mod units;
 mod values;
 
@@ -34,6 +35,7 @@ pub use mesh_section::{MeshSection, Plane};
 pub use model::{Correction, CorrectionDomain, CorrectionRule, Law, ModelSection};
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Place, Precrack, Region};
+pub use solver::{Factorisation, Ordering, Solver, Update};
 pub use values::{Axis, Point};
 
 use document::Node;
@@ -73,6 +75,8 @@ pub struct Case {
     /// How bonds break; without it there is one linear elastic solution at load factor 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fracture: Option<Fracture>,
+    /// How the equations are solved.
+    pub solver: Solver,
     /// What a run writes.
     pub output: Output,
 }
@@ -100,6 +104,8 @@ struct RawCase {
     #[serde(default)]
     probe: Vec<probe::RawProbe>,
     fracture: Option<fracture::RawFracture>,
+    #[serde(default)]
+    solver: solver::RawSolver,
     #[serde(default)]
     output: Output,
 }
@@ -137,6 +143,7 @@ impl Case {
                 .fracture
                 .map(|it| it.check(&section("fracture")))
                 .transpose()?,
+            solver: raw.solver.check(&section("solver"))?,
             output: raw.output,
         };
         case.check_across_sections()?;

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
+use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::{Boundary, Equilibrium};
 use ligament_mesh::Mesh;
@@ -30,8 +31,14 @@ pub fn check(case: &CaseFile, fields: Option<&Path>, out: &mut dyn Write) -> any
     let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
     let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
     let probes = resolve::probes(case, &model.system);
+    let problem = Problem {
+        system: &model.system,
+        boundary: &boundary,
+        solver: resolve::solver(case),
+        probes: &probes,
+    };
     let equilibrium = stages.time("analysis", || {
-        Equilibrium::new(&model.system, &boundary, ELASTIC_ENERGY_TOLERANCE)
+        Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
     })?;
 
     writeln!(

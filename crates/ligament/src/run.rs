@@ -152,6 +152,16 @@ pub fn run(
     force: bool,
     mode: ProgressMode,
 ) -> anyhow::Result<Summary> {
+    resolve::threads(case)?.install(|| run_here(case, out, force, mode))
+}
+
+/// Runs a case on the threads of the caller.
+fn run_here(
+    case: &CaseFile,
+    out: &Path,
+    force: bool,
+    mode: ProgressMode,
+) -> anyhow::Result<Summary> {
     ResultFolder::check(out, force)?;
     let mut stages = Stages::default();
     let mut progress = Progress::new(mode);
@@ -161,6 +171,7 @@ pub fn run(
     let problem = Problem {
         system: &model.system,
         boundary: &boundary,
+        solver: resolve::solver(case),
         probes: &probes,
     };
 

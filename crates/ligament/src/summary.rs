@@ -148,7 +148,9 @@ pub struct StabilitySummary {
 pub struct SolverSummary {
     /// Factorisations.
     pub factorisations: usize,
-    /// Solves.
+    /// Changes of a factor in place.
+    pub changes: usize,
+    /// Solves, those after a change included.
     pub solves: usize,
     /// Time in numbering, pattern and symbolic analysis, s.
     pub analysis_seconds: f64,
@@ -156,7 +158,11 @@ pub struct SolverSummary {
     pub assembly_seconds: f64,
     /// Time in factorisations, s.
     pub factorisation_seconds: f64,
-    /// Time in solves, s.
+    /// Time in changes in place, with the forward substitution that goes along, s.
+    pub change_seconds: f64,
+    /// Time in the backward substitutions that follow them, s.
+    pub backward_seconds: f64,
+    /// Time in other solves, s.
     pub solve_seconds: f64,
     /// Time on bonds: deformations, forces, energies, criterion, s.
     pub bonds_seconds: f64,
@@ -309,10 +315,13 @@ impl SolverSummary {
         let costs = &outcome.costs;
         Self {
             factorisations: costs.factorisations,
+            changes: costs.changes,
             solves: costs.solves,
             analysis_seconds: costs.analysis.as_secs_f64(),
             assembly_seconds: costs.assembly.as_secs_f64(),
             factorisation_seconds: costs.factorisation.as_secs_f64(),
+            change_seconds: costs.change.as_secs_f64(),
+            backward_seconds: costs.backward.as_secs_f64(),
             solve_seconds: costs.solve.as_secs_f64(),
             bonds_seconds: costs.bonds.as_secs_f64(),
             connectivity_seconds: costs.connectivity.as_secs_f64(),

@@ -12,7 +12,7 @@ pub fn run(
     energy_tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let mut equilibrium = Equilibrium::new(problem.system, problem.boundary, energy_tolerance)?;
+    let mut equilibrium = Equilibrium::of(problem, energy_tolerance)?;
     let start = begin(problem, &mut equilibrium, &[], observer)?;
     let mut state = start.unloaded;
     let mut history = Vec::new();

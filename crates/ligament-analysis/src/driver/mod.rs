@@ -14,6 +14,8 @@ pub struct Problem<'a> {
     pub system: &'a ligament_model::BondSystem,
     /// Supports and loads.
     pub boundary: &'a crate::boundary::Boundary,
+    /// How the equations are solved.
+    pub solver: crate::stiffness::SolverSettings,
     /// Probes.
     pub probes: &'a [crate::probe::Probe],
 }

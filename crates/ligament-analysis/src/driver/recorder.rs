@@ -4,9 +4,10 @@ use ligament_model::element::beam::BondDeformation;
 
 use super::Problem;
 use crate::connectivity::Fragments;
-use crate::equilibrium::{Balanced, Costs, Stability};
+use crate::equilibrium::{Balanced, Stability};
 use crate::history::{StepRecord, Termination};
 use crate::state::State;
+use crate::stiffness::Costs;
 use crate::unknowns::COMPONENTS;
 
 /// How a run went.

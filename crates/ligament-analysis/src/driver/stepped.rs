@@ -70,8 +70,7 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let mut equilibrium =
-        Equilibrium::new(problem.system, problem.boundary, settings.energy_tolerance)?;
+    let mut equilibrium = Equilibrium::of(problem, settings.energy_tolerance)?;
     let Start {
         unloaded,
         elastic_stiffness,

@@ -3,7 +3,7 @@
 //! Rotations are counter-clockwise. With them the shear row of B reads [0, -1, -l/2, 0, 1, -l/2]/l; the signs +l/2 of
 //! the printed eq. 3 belong to clockwise rotations.
 
-use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
+use nalgebra::{Matrix6, Vector6};
 
 /// Unknowns of a point: displacement along x, along y, rotation.
 pub const UNKNOWNS: usize = 3;
@@ -77,33 +77,30 @@ impl BeamBond {
 
     /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
     pub fn stiffness(&self) -> Matrix6<f64> {
-        let gradient = self.deformation_gradient();
-        let rigidity = Matrix3::from_diagonal(&Vector3::new(
-            self.axial_rigidity,
-            self.shear_rigidity,
-            self.rotational_rigidity,
-        ));
-        gradient.transpose() * rigidity * gradient
+        let modes = self.modes().into_iter();
+        modes.fold(Matrix6::zeros(), |sum, (rigidity, gradient)| {
+            let gradient = Vector6::from(gradient);
+            sum + rigidity * gradient * gradient.transpose()
+        })
     }
 
-    /// B^T R of NHPD eq. 3: from the unknowns of A and B to (s, gamma, theta_rel), shape (3, 6).
-    fn deformation_gradient(&self) -> Matrix3x6<f64> {
+    /// K as a sum over stretch, shear and relative rotation of rigidity g g^T, with the rows g of B^T R (NHPD eq. 3), which
+    /// take the unknowns of A and B to (s, gamma, theta_rel).
+    pub fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
         let [a, b] = [
             self.direction[0] / self.length,
             self.direction[1] / self.length,
         ];
-        Matrix3x6::new(
-            -a, -b, 0.0, a, b, 0.0, //
-            b, -a, -0.5, -b, a, -0.5, //
-            0.0, 0.0, -1.0, 0.0, 0.0, 1.0,
-        )
+        [
+            (self.axial_rigidity, [-a, -b, 0.0, a, b, 0.0]),
+            (self.shear_rigidity, [b, -a, -0.5, -b, a, -0.5]),
+            (self.rotational_rigidity, [0.0, 0.0, -1.0, 0.0, 0.0, 1.0]),
+        ]
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector6;
-
     use super::*;
 
     /// The unknowns of both ends, one after the other.

@@ -1,9 +1,9 @@
 //! The CSV tables of a run.
 
 use ligament_analysis::boundary::Boundary;
-use ligament_analysis::equilibrium::Costs;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
 use ligament_analysis::probe::Probe;
+use ligament_analysis::stiffness::Costs;
 
 use super::point_fields::{FixedFields, MeshCells};
 use crate::Error;
@@ -46,10 +46,12 @@ const BREAKS: [&str; 7] = [
     "node_b",
     "stretch_ratio",
 ];
-const TIMINGS: [&str; 6] = [
+const TIMINGS: [&str; 8] = [
     "step",
     "assembly_s",
     "factorisation_s",
+    "change_s",
+    "backward_s",
     "solve_s",
     "bonds_s",
     "connectivity_s",
@@ -185,6 +187,8 @@ impl Tables {
             step.into(),
             seconds(costs.assembly, before.assembly),
             seconds(costs.factorisation, before.factorisation),
+            seconds(costs.change, before.change),
+            seconds(costs.backward, before.backward),
             seconds(costs.solve, before.solve),
             seconds(costs.bonds, before.bonds),
             seconds(costs.connectivity, before.connectivity),

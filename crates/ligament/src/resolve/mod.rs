@@ -9,9 +9,11 @@ use ligament_analysis::Component;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{SteppedSettings, StopRules};
 use ligament_analysis::probe::{PointField, Probe, Reading};
+use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::{BondSystem, Material, Plane};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Steps};
 
@@ -105,6 +107,38 @@ pub fn stepped(fracture: &case::Fracture) -> SteppedSettings {
             negative_energy: stop.negative_energy,
         },
     }
+}
+
+/// How the equations are solved.
+pub fn solver(case: &CaseFile) -> SolverSettings {
+    let chosen = &case.case.solver;
+    let default = SolverSettings::default();
+    SolverSettings {
+        factorisation: match chosen.factorisation {
+            case::Factorisation::Auto => None,
+            case::Factorisation::Llt => Some(FactorKind::Llt),
+            case::Factorisation::Ldlt => Some(FactorKind::Ldlt),
+        },
+        ordering: match chosen.ordering {
+            case::Ordering::Auto => None,
+            case::Ordering::NestedDissection => Some(Ordering::NestedDissection),
+            case::Ordering::MinimumDegree => Some(Ordering::MinimumDegree),
+        },
+        update: match chosen.update {
+            case::Update::Auto => None,
+            case::Update::Incremental => Some(Update::Incremental),
+            case::Update::Refactor => Some(Update::Refactor),
+        },
+        rebuild_every: chosen
+            .rebuild_every
+            .map_or(default.rebuild_every, |bonds| bonds as usize),
+    }
+}
+
+/// The threads that a case asks for: all of them unless it gives a number.
+pub fn threads(case: &CaseFile) -> Result<ThreadPool, ThreadPoolBuildError> {
+    let count = case.case.solver.threads.unwrap_or_default() as usize;
+    ThreadPoolBuilder::new().num_threads(count).build()
 }
 
 /// The probes.

@@ -1,0 +1,393 @@
+//! The stiffness of the intact bonds and its factor, kept up while bonds break.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+pub use ligament_linalg::FactorKind;
+use ligament_linalg::{
+    Elimination, FactorError, Factorisation, Pattern, RankOne, Symbolic, SymmetricMatrix,
+    VANISHING_PIVOT,
+};
+use ligament_model::BondSystem;
+
+use crate::assembly;
+use crate::boundary::Boundary;
+use crate::dissection;
+use crate::equilibrium::SetupError;
+use crate::state::State;
+use crate::unknowns::{COMPONENTS, Unknowns};
+
+/// How the equations are solved; what is left open is chosen for the problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SolverSettings {
+    /// Factorisation; open: L L^T where every shear stiffness is positive, L D L^T otherwise.
+    pub factorisation: Option<FactorKind>,
+    /// Order of elimination; open: nested dissection.
+    pub ordering: Option<Ordering>,
+    /// What happens to the factor when bonds break; open: it is changed in place.
+    pub update: Option<Update>,
+    /// Bonds broken, counted from the start, after which the factor is made anew: 0, so many, twice as many, and so on.
+    ///
+    /// A factor that was changed in place depends on all its changes; a run that is resumed replays those since the last
+    /// time it was made anew.
+    pub rebuild_every: usize,
+}
+
+/// An order of elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ordering {
+    /// Nested dissection of the points.
+    NestedDissection,
+    /// Approximate minimum degree of the unknowns.
+    MinimumDegree,
+}
+
+/// What happens to the factor when bonds break.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Update {
+    /// It is changed in place.
+    Incremental,
+    /// It is made anew.
+    Refactor,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        Self {
+            factorisation: None,
+            ordering: None,
+            update: None,
+            rebuild_every: 1000,
+        }
+    }
+}
+
+/// What the equations have cost so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Costs {
+    /// Factorisations.
+    pub factorisations: usize,
+    /// Changes of a factor in place.
+    pub changes: usize,
+    /// Solves with a factor, those after a change included.
+    pub solves: usize,
+    /// Time in numbering, pattern and symbolic analysis.
+    pub analysis: Duration,
+    /// Time in assembly.
+    pub assembly: Duration,
+    /// Time in factorisation.
+    pub factorisation: Duration,
+    /// Time in changes in place, with the forward substitution that goes along.
+    pub change: Duration,
+    /// Time in the backward substitutions that follow them.
+    pub backward: Duration,
+    /// Time in other solves.
+    pub solve: Duration,
+    /// Time in deformations, forces, energies and the choice of bonds.
+    pub bonds: Duration,
+    /// Time in the search for loose parts.
+    pub connectivity: Duration,
+}
+
+/// Numbering, pattern and factor of the stiffness of the intact bonds.
+pub(crate) struct Stiffness<'a> {
+    system: &'a BondSystem,
+    unknowns: Unknowns,
+    pattern: Arc<Pattern>,
+    symbolic: Arc<Symbolic>,
+    kind: FactorKind,
+    ordering: Ordering,
+    update: Update,
+    rebuild_every: usize,
+    factor: Option<Box<dyn Factorisation>>,
+    /// Degrees of freedom that were held when the factor was made, and so are cut off from the others.
+    cut_off: Vec<bool>,
+    /// Bonds that broke and degrees of freedom that were held since the factor was last made or changed.
+    broken: Vec<u32>,
+    held: Vec<usize>,
+    /// Whether the factor was changed since it was made.
+    is_changed: bool,
+    n_broken: usize,
+    pub(crate) costs: Costs,
+}
+
+impl<'a> Stiffness<'a> {
+    /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
+    pub(crate) fn new(
+        system: &'a BondSystem,
+        boundary: &Boundary,
+        settings: SolverSettings,
+    ) -> Result<Self, SetupError> {
+        let start = Instant::now();
+        let unknowns = Unknowns::of_problem(system, boundary);
+        let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
+        let ordering = settings.ordering.unwrap_or(Ordering::NestedDissection);
+        let elimination = ordering.elimination(system, &unknowns);
+        let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
+        // Without a positive shear stiffness positive definiteness is not to be counted on.
+        let definite = system.shear_rigidity.iter().all(|&rigidity| rigidity > 0.0);
+        let suitable = if definite {
+            FactorKind::Llt
+        } else {
+            FactorKind::Ldlt
+        };
+        Ok(Self {
+            system,
+            cut_off: Vec::new(),
+            pattern,
+            symbolic,
+            kind: settings.factorisation.unwrap_or(suitable),
+            ordering,
+            update: settings.update.unwrap_or(Update::Incremental),
+            rebuild_every: settings.rebuild_every.max(1),
+            factor: None,
+            broken: Vec::new(),
+            held: Vec::new(),
+            is_changed: false,
+            n_broken: 0,
+            unknowns,
+            costs: Costs {
+                analysis: start.elapsed(),
+                ..Costs::default()
+            },
+        })
+    }
+
+    pub(crate) fn unknowns(&self) -> &Unknowns {
+        &self.unknowns
+    }
+
+    pub(crate) fn symbolic(&self) -> &Symbolic {
+        &self.symbolic
+    }
+
+    pub(crate) fn kind(&self) -> FactorKind {
+        self.kind
+    }
+
+    pub(crate) fn ordering(&self) -> Ordering {
+        self.ordering
+    }
+
+    pub(crate) fn update(&self) -> Update {
+        self.update
+    }
+
+    /// The factor, if there is one and no bond broke since.
+    pub(crate) fn factor(&self) -> Option<&dyn Factorisation> {
+        self.factor.as_deref()
+    }
+
+    /// Whether the factor was changed in place since it was made.
+    pub(crate) fn is_changed(&self) -> bool {
+        self.factor.is_some() && self.is_changed
+    }
+
+    /// Forgets the factor: the next one is made from the bonds.
+    pub(crate) fn forget(&mut self) {
+        self.factor = None;
+    }
+
+    /// Takes note of bonds that broke and degrees of freedom that are held from now on.
+    pub(crate) fn note(&mut self, broken: &[u32], held: impl Iterator<Item = usize>) {
+        self.broken.extend_from_slice(broken);
+        self.held.extend(held);
+    }
+
+    /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
+    /// unknowns, shape (n_unknowns). None where nothing was noted or the factor has to be made anew.
+    ///
+    /// K' du = K_b u, K' = K - K_b + the terms of the holds (a positive definite diagonal entry of the size of the one that
+    /// was there). A hold carries no force in equilibrium, so the size of its term does not matter.
+    pub(crate) fn follow(&mut self, state: &State) -> Option<Vec<f64>> {
+        let (broken, held) = (
+            std::mem::take(&mut self.broken),
+            std::mem::take(&mut self.held),
+        );
+        if broken.is_empty() && held.is_empty() {
+            return None;
+        }
+        let period_before = self.n_broken / self.rebuild_every;
+        self.n_broken += broken.len();
+        let in_place = self.update == Update::Incremental
+            && self.n_broken / self.rebuild_every == period_before
+            && self.change_pays(broken.len());
+        let Some(mut factor) = self.factor.take().filter(|_| in_place) else {
+            return None;
+        };
+        let start = Instant::now();
+        let terms = self.terms(&broken, &held);
+        let force = self.unbalanced_force(&broken, state);
+        // A change that failed leaves no factor behind: the next one is made anew, and tells what is wrong if anything is.
+        let half_solved = factor.change(&terms, &force);
+        self.costs.change += start.elapsed();
+        self.costs.changes += 1;
+        let start = Instant::now();
+        let correction = factor.finish(half_solved.ok()?);
+        self.costs.backward += start.elapsed();
+        self.costs.solves += 1;
+        self.is_changed = true;
+        self.factor = Some(factor);
+        Some(correction)
+    }
+
+    /// Whether changing the factor costs less than making it: each term reads and writes a part of its values.
+    fn change_pays(&self, n_bonds: usize) -> bool {
+        let touched = (COMPONENTS * n_bonds) as f64 * self.symbolic.n_factor_values() as f64;
+        touched < self.symbolic.n_multiplications()
+    }
+
+    /// What holds add to the matrix and broken bonds take from it. The holds come first: no pivot vanishes in between.
+    fn terms(&self, broken: &[u32], held: &[usize]) -> Vec<RankOne> {
+        let holds = held.iter().filter_map(|&dof| {
+            let entries = vec![(self.number(dof)?, 1.0)];
+            let diagonal = self.whole_diagonal(dof);
+            let weight = if diagonal == 0.0 { 1.0 } else { diagonal };
+            Some(RankOne { weight, entries })
+        });
+        let bonds = broken.iter().flat_map(|&bond| {
+            let [a, b] = self.system.bonds.ends[bond as usize].map(|end| COMPONENTS * end as usize);
+            let degrees_of_freedom = [a, a + 1, a + 2, b, b + 1, b + 2];
+            let modes = self.system.element(bond as usize).modes();
+            modes.into_iter().filter_map(move |(rigidity, gradient)| {
+                let entries: Vec<(usize, f64)> = degrees_of_freedom
+                    .into_iter()
+                    .zip(gradient)
+                    .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
+                    .filter(|&(_, value)| value != 0.0)
+                    .collect();
+                let matters = rigidity != 0.0 && !entries.is_empty();
+                matters.then_some(RankOne {
+                    weight: -rigidity,
+                    entries,
+                })
+            })
+        });
+        holds.chain(bonds).collect()
+    }
+
+    /// Number of the unknown at a degree of freedom that the factor couples with others.
+    fn number(&self, dof: usize) -> Option<usize> {
+        self.unknowns.number(dof).filter(|_| !self.cut_off[dof])
+    }
+
+    /// Diagonal entry of the matrix with all bonds.
+    fn whole_diagonal(&self, dof: usize) -> f64 {
+        let (point, component) = (dof / COMPONENTS, dof % COMPONENTS);
+        let bonds = self.system.bonds.incidence.of(point as u32).iter();
+        bonds
+            .map(|&bond| {
+                let second = self.system.bonds.ends[bond as usize][1] as usize == point;
+                let place = COMPONENTS * usize::from(second) + component;
+                let modes = self.system.element(bond as usize).modes();
+                modes
+                    .iter()
+                    .map(|(rigidity, gradient)| rigidity * gradient[place] * gradient[place])
+                    .sum::<f64>()
+            })
+            .sum()
+    }
+
+    /// What the bonds exerted on their ends, as a force that nothing balances any more.
+    fn unbalanced_force(&self, broken: &[u32], state: &State) -> Vec<(usize, f64)> {
+        let mut force = Vec::with_capacity(2 * COMPONENTS * broken.len());
+        for &bond in broken {
+            let bond = bond as usize;
+            let deformation = self.system.deformation(bond, &state.displacement);
+            let end_forces = self.system.element(bond).end_forces(&deformation);
+            for (end, values) in self.system.bonds.ends[bond].iter().zip(end_forces) {
+                for (component, value) in values.into_iter().enumerate() {
+                    let dof = COMPONENTS * *end as usize + component;
+                    if let Some(unknown) = self.unknowns.number(dof).filter(|_| !state.held[dof]) {
+                        force.push((unknown, value));
+                    }
+                }
+            }
+        }
+        force
+    }
+
+    /// Makes the factor for the state's bonds if there is none; gives the unknowns whose pivots vanish. Those must be held,
+    /// and the factor made again.
+    pub(crate) fn make(&mut self, state: &State) -> Result<Vec<usize>, FactorError> {
+        if self.factor.is_some() {
+            return Ok(Vec::new());
+        }
+        let start = Instant::now();
+        let matrix = self.assemble(state);
+        self.costs.assembly += start.elapsed();
+        let start = Instant::now();
+        let factor = self.kind.factorise(&self.symbolic, &matrix);
+        self.costs.factorisation += start.elapsed();
+        self.costs.factorisations += 1;
+        let vanishing = match &factor {
+            Ok(factor) => vanishing_pivots(factor.as_ref(), &matrix),
+            Err(
+                FactorError::ZeroPivot { unknown } | FactorError::NotPositiveDefinite { unknown },
+            ) => vec![*unknown],
+            Err(other) => return Err(other.clone()),
+        };
+        if vanishing.is_empty() {
+            self.factor = factor.ok();
+            self.cut_off.clone_from(&state.held);
+            self.is_changed = false;
+        }
+        Ok(vanishing)
+    }
+
+    fn assemble(&self, state: &State) -> SymmetricMatrix {
+        assembly::assemble(
+            self.system,
+            &self.unknowns,
+            &self.pattern,
+            &state.intact,
+            &state.held,
+        )
+    }
+
+    /// Solves for a correction of all unknowns, in place.
+    pub(crate) fn solve(&mut self, right_hand_side: &mut [f64]) {
+        let start = Instant::now();
+        if let Some(factor) = &mut self.factor {
+            factor.solve_in_place(right_hand_side);
+        }
+        self.costs.solves += 1;
+        self.costs.solve += start.elapsed();
+    }
+
+    /// Negative eigenvalues of the rotation block for the state's bonds.
+    pub(crate) fn negative_rotations(&self, state: &State) -> Result<usize, SetupError> {
+        let rotations = self.unknowns.rotations_only();
+        let pattern = Arc::new(assembly::pattern(self.system, &rotations)?);
+        let block = assembly::assemble(
+            self.system,
+            &rotations,
+            &pattern,
+            &state.intact,
+            &state.held,
+        );
+        let elimination = self.ordering.elimination(self.system, &rotations);
+        let symbolic = Arc::new(Symbolic::analyse(pattern, elimination)?);
+        let factor = FactorKind::Ldlt.factorise(&symbolic, &block)?;
+        Ok(factor.inertia().negative)
+    }
+}
+
+impl Ordering {
+    /// The order of elimination of some unknowns.
+    pub fn elimination(self, system: &BondSystem, unknowns: &Unknowns) -> Elimination {
+        match self {
+            Self::MinimumDegree => Elimination::MinimumDegree,
+            Self::NestedDissection => {
+                Elimination::Given(dissection::elimination_order(system, unknowns))
+            }
+        }
+    }
+}
+
+fn vanishing_pivots(factor: &dyn Factorisation, matrix: &SymmetricMatrix) -> Vec<usize> {
+    let pivots = factor.pivots();
+    (0..pivots.len())
+        .filter(|&i| pivots[i].abs() < VANISHING_PIVOT * matrix.diagonal(i).abs())
+        .collect()
+}

@@ -1,0 +1,133 @@
+//! `[solver]`: how the equations are solved. Nothing needs to be said: `solver = "auto"` is the default.
+
+use std::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Unexpected, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::require_at_least_one;
+
+/// How the equations are solved. The results are the same up to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Solver {
+    /// The factorisation of the stiffness.
+    pub factorisation: Factorisation,
+    /// The order of elimination.
+    pub ordering: Ordering,
+    /// What happens to the factor when bonds break.
+    pub update: Update,
+    /// Bonds broken between two factors that are made anew, counted from the start of the run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rebuild_every: Option<u32>,
+    /// Threads; none given: as many as the machine has, or as `RAYON_NUM_THREADS` says. The results have the same bits for
+    /// any number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub threads: Option<u32>,
+}
+
+/// A factorisation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Factorisation {
+    /// `llt` where every bond has a positive shear stiffness, `ldlt` otherwise.
+    #[default]
+    Auto,
+    /// L L^T, for positive definite stiffness.
+    Llt,
+    /// L D L^T, also for indefinite stiffness.
+    Ldlt,
+}
+
+/// An order of elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ordering {
+    /// `nested-dissection`.
+    #[default]
+    Auto,
+    /// Nested dissection of the points.
+    NestedDissection,
+    /// Approximate minimum degree of the unknowns.
+    MinimumDegree,
+}
+
+/// What happens to the factor when bonds break.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Update {
+    /// `incremental`.
+    #[default]
+    Auto,
+    /// It is changed in place, unless so many bonds break at once that making it anew costs less.
+    Incremental,
+    /// It is made anew every time.
+    Refactor,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Keys {
+    factorisation: Factorisation,
+    ordering: Ordering,
+    update: Update,
+    rebuild_every: Option<u32>,
+    threads: Option<u32>,
+}
+
+/// A table, or the word `auto`.
+#[derive(Default)]
+pub(super) struct RawSolver(Keys);
+
+impl RawSolver {
+    pub(super) fn check(self, key: &KeyPath) -> Result<Solver, KeyFault> {
+        let Keys {
+            factorisation,
+            ordering,
+            update,
+            rebuild_every,
+            threads,
+        } = self.0;
+        for (name, count) in [("rebuild_every", rebuild_every), ("threads", threads)] {
+            if let Some(count) = count {
+                require_at_least_one(key, name, count)?;
+            }
+        }
+        Ok(Solver {
+            factorisation,
+            ordering,
+            update,
+            rebuild_every,
+            threads,
+        })
+    }
+}
+
+impl<'de> Deserialize<'de> for RawSolver {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(SolverVisitor)
+    }
+}
+
+struct SolverVisitor;
+
+impl<'de> Visitor<'de> for SolverVisitor {
+    type Value = RawSolver;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("\"auto\" or a table")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<RawSolver, E> {
+        if value == "auto" {
+            return Ok(RawSolver::default());
+        }
+        Err(E::invalid_value(Unexpected::Str(value), &self))
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, keys: M) -> Result<RawSolver, M::Error> {
+        Keys::deserialize(MapAccessDeserializer::new(keys)).map(RawSolver)
+    }
+}
