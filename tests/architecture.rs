@@ -41,6 +41,9 @@ const OF_THE_PROGRAM: [&str; 11] = [
     "ctrlc",
 ];
 
+/// The one crate whose benchmarks take a whole problem from this package.
+const WITH_FIXTURES: &str = "ligament-analysis";
+
 /// What lies at the top of the repository, hidden files and results aside.
 const TOP: [&str; 12] = [
     "ARCHITECTURE.md",
@@ -159,6 +162,8 @@ fn crates_depend_downwards_only() {
             in_tests, None,
             "{name} knows more of the workspace in its tests"
         );
+        let with_fixtures = of_tests[name].contains(env!("CARGO_PKG_NAME"));
+        assert_eq!(with_fixtures, name == WITH_FIXTURES, "{name}");
     }
 }
 

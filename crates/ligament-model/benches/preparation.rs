@@ -1,0 +1,76 @@
+//! The stages from a mesh to a bond system, each with the results of those before it.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::hint::black_box;
+use std::path::Path;
+
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use ligament_mesh::{Mesh, gmsh};
+use ligament_model::correction::{StopRule, Sweeps, domain};
+use ligament_model::failure::strength::critical_stretches;
+use ligament_model::law::nhpd;
+use ligament_model::{BondSet, BondSystem, Horizons, Material, Plane, PointCloud};
+
+const HORIZON_FACTOR: f64 = 3.0;
+
+/// Sweeps measured at a time; the disks take about 80.
+const SWEEPS: Sweeps = Sweeps {
+    stop: StopRule::Sum(0.0),
+    limit: 10,
+};
+
+fn mesh(name: &str) -> Mesh {
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
+    let bytes = std::fs::read(meshes.join(format!("{name}.msh"))).unwrap();
+    gmsh::parse(&bytes).unwrap()
+}
+
+fn preparation(criterion: &mut Criterion) {
+    let materials = [Material {
+        name: "rock".to_owned(),
+        young: 15e9,
+        poisson: 0.21,
+        tensile_strength: Some(3.81e6),
+        density: None,
+    }];
+    let plane = Plane::Stress;
+    for name in ["disk-2mm", "disk-1.5mm"] {
+        let mesh = mesh(name);
+        let material_of_cell = vec![0; mesh.cells.len()];
+        let points = || PointCloud::from_mesh(black_box(&mesh), 1.0, &material_of_cell, 1);
+        let cloud = points();
+        let horizons = Horizons::from_spacing(&cloud.spacing, HORIZON_FACTOR);
+        let bonds = BondSet::search(&cloud, &horizons);
+        let stiffness = nhpd::stiffness(&bonds, &cloud, &materials, plane);
+        let correct = || domain::iterate(&bonds, &cloud, &stiffness, &materials, plane, SWEEPS);
+        let correction = correct();
+        let system = BondSystem::new(cloud.clone(), bonds.clone(), &stiffness, &correction);
+        let no_fail = vec![false; cloud.len()];
+
+        let mut group = criterion.benchmark_group(name);
+        group.throughput(Throughput::Elements(cloud.len() as u64));
+        group.bench_function("points", |bencher| bencher.iter(points));
+        group.bench_function("search", |bencher| {
+            bencher.iter(|| BondSet::search(black_box(&cloud), &horizons));
+        });
+        group.throughput(Throughput::Elements(bonds.len() as u64));
+        group.bench_function("law", |bencher| {
+            bencher.iter(|| nhpd::stiffness(black_box(&bonds), &cloud, &materials, plane));
+        });
+        group.bench_function("correction, 10 sweeps", |bencher| bencher.iter(correct));
+        group.bench_function("bond system", |bencher| {
+            bencher.iter_batched(
+                || (cloud.clone(), bonds.clone()),
+                |(cloud, bonds)| BondSystem::new(cloud, bonds, &stiffness, &correction),
+                BatchSize::LargeInput,
+            );
+        });
+        group.bench_function("critical stretches", |bencher| {
+            bencher.iter(|| critical_stretches(black_box(&system), &materials, plane, &no_fail));
+        });
+        group.finish();
+    }
+}
+
+criterion_group!(benches, preparation);
+criterion_main!(benches);
