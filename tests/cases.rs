@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use ligament::case::CaseFile;
-use ligament::check::check;
+use ligament::check::{Extent, check};
 use verification::repository;
 
 /// Folders of `cases/` with the case files in them.
@@ -95,7 +95,7 @@ fn every_case_passes_the_check() {
     for path in folders().into_iter().flat_map(|(_, cases)| cases) {
         let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let mut report = Vec::new();
-        check(&case, None, &mut report)
+        check(&case, Extent::Matrix, None, &mut report)
             .unwrap_or_else(|error| panic!("{}: {error:#}", path.display()));
         let report = String::from_utf8(report).unwrap();
         assert!(

@@ -36,7 +36,8 @@ pub enum Command {
     /// Check a case and its mesh without running it
     ///
     /// Reads the case and its mesh, builds points and bonds, and reports what a run would use:
-    /// groups found, points held and loaded, bonds cut by pre-cracks.
+    /// groups found, points held and loaded, bonds cut by pre-cracks, entries of the matrix, time and
+    /// memory.
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
     /// Show what is in a mesh: cells, size, edge lengths, groups
@@ -68,6 +69,7 @@ const CHECK_EXAMPLES: &str = "\
 Examples:
   ligament check cases/disk/case.toml
   ligament check case.toml --set model.horizon_factor=4
+  ligament check case.toml --model-only    points and bonds alone, no matrix: for large meshes
   ligament check case.toml --out check     writes check/points.vtu to look at in ParaView";
 
 const INSPECT_EXAMPLES: &str = "\
@@ -114,6 +116,9 @@ pub struct CheckArgs {
     /// The case file and changes to it.
     #[command(flatten)]
     pub case: CaseArgs,
+    /// Prepare points, bonds and their correction only, and leave the matrix out
+    #[arg(long)]
+    pub model_only: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

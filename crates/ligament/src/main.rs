@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 use ligament::case::CaseFile;
+use ligament::check::Extent;
 use ligament::cli::{CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs};
 use ligament::mesh_command::{MeshRequest, make_mesh};
 use ligament::progress::ProgressMode;
@@ -44,7 +45,17 @@ fn run(args: RunArgs) -> anyhow::Result<()> {
 fn check(args: CheckArgs) -> anyhow::Result<()> {
     set_threads(args.case.threads)?;
     let case = CaseFile::load(&args.case.file, &args.case.overrides)?;
-    check::check(&case, args.out.as_deref(), &mut io::stdout().lock())
+    let extent = if args.model_only {
+        Extent::Model
+    } else {
+        Extent::Matrix
+    };
+    check::check(
+        &case,
+        extent,
+        args.out.as_deref(),
+        &mut io::stdout().lock(),
+    )
 }
 
 /// Limits the threads of all parallel work; without a number there is one a processor.

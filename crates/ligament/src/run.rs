@@ -66,18 +66,25 @@ pub fn build_model(
     let bonds = stages.time("bonds", || BondSet::search(&cloud, &horizons));
     progress.stage(&format!("{} points, {} bonds", cloud.len(), bonds.len()));
     let precracks = resolve::precracks(case);
-    let is_cut = cut_bonds(&precracks, &bonds, &cloud);
-    let touched = count_touched_bonds(&precracks, &bonds, &cloud, &is_cut);
-    let precrack_share = precrack_share(&bonds, &is_cut);
+    let (is_cut, touched, precrack_share) = stages.time("pre-cracks", || {
+        let is_cut = cut_bonds(&precracks, &bonds, &cloud);
+        let touched = count_touched_bonds(&precracks, &bonds, &cloud, &is_cut);
+        let precrack_share = precrack_share(&bonds, &is_cut);
+        (is_cut, touched, precrack_share)
+    });
     let corrected = stages.time("correction", || {
         correct(case, &cloud, bonds, &is_cut, &materials, plane)
     });
     let (correction, report) = (&corrected.correction, corrected.correction.report);
     progress.stage(&summary::correction_line(&report));
 
-    let system = BondSystem::new(cloud, corrected.bonds, &corrected.stiffness, correction);
+    let system = stages.time("rigidities", || {
+        BondSystem::new(cloud, corrected.bonds, &corrected.stiffness, correction)
+    });
     let no_fail = resolve::no_fail(case, &mesh, &system.cloud)?;
-    let critical_stretch = critical_stretches(&system, &materials, plane, &no_fail);
+    let critical_stretch = stages.time("critical stretches", || {
+        critical_stretches(&system, &materials, plane, &no_fail)
+    });
     let fixed = FixedFields {
         volume: system.cloud.volumes.clone(),
         horizon: horizons.radius,
