@@ -5,6 +5,8 @@ use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::curve::along_hilbert_curve;
+
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
 /// Positions are kept relative to the middle of the bounding box: differences of coordinates of a body that lies far
@@ -25,6 +27,8 @@ pub struct PointCloud {
     pub n_materials: usize,
     /// Share of each material in the volume of each point, shape (n_points, n_materials) row-major; rows sum to one.
     pub material_shares: Vec<f64>,
+    /// All points in the order of a Hilbert curve, shape (n_points): for loops that visit the neighbours of points.
+    pub curve: Vec<u32>,
 }
 
 /// A point of the search tree, with its number.
@@ -68,6 +72,7 @@ impl PointCloud {
             .collect();
         let spacing = nearest_neighbour_distances(&positions);
         Self {
+            curve: along_hilbert_curve(&positions),
             positions,
             origin,
             thickness,

@@ -17,6 +17,7 @@
 pub mod bonds;
 pub mod cloud;
 pub mod correction;
+mod curve;
 pub mod element;
 pub mod failure;
 pub mod horizon;

@@ -5,12 +5,12 @@
 
 use rayon::prelude::*;
 
+use super::families::Families;
 use super::{Correction, CorrectionReport, length::length_factors};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
 use crate::material::{Material, Plane};
-use crate::ordered_sum::ordered_sum;
 
 /// When the sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,77 +82,44 @@ pub fn iterate(
     sweeps: Sweeps,
 ) -> Correction {
     let length_factor = length_factors(bonds);
-    let densities = [StrainMode::UniaxialX, StrainMode::UniaxialY]
-        .map(|mode| bond_energy_densities(mode, bonds, stiffness, &length_factor));
-    let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
     let tolerance = match sweeps.stop {
         StopRule::Sum(tolerance) => tolerance,
         StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
     };
-    let trial_energies = |domain_factor: &[f64]| {
-        densities
-            .each_ref()
-            .map(|density| point_energies(density, domain_factor, bonds, cloud))
-    };
-    let mut domain_factor = vec![1.0; bonds.len()];
+    let densities = uniaxial_densities(bonds, stiffness, &length_factor);
+    let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
+    let mut families = Families::new(bonds, cloud, &densities, &target);
+    drop(densities);
     let mut last_change = f64::INFINITY;
     let mut done = 0;
     while last_change >= tolerance && done < sweeps.limit {
-        let updated = swept(
-            bonds,
-            &domain_factor,
-            &target,
-            trial_energies(&domain_factor),
-        );
-        last_change = ordered_sum(bonds.len(), |bond| {
-            (updated[bond] - domain_factor[bond]).abs()
-        });
-        domain_factor = updated;
+        last_change = families.sweep();
         done += 1;
     }
-    let residual = |(trial, e): (&f64, &f64)| (trial / e - 1.0).abs();
-    let energies = trial_energies(&domain_factor);
-    let residuals = energies
-        .iter()
-        .flat_map(|trial| trial.iter().zip(&target).map(residual));
     let report = CorrectionReport {
         sweeps: done,
         converged: last_change < tolerance,
         last_change,
-        largest_residual: residuals.fold(0.0, f64::max),
+        largest_residual: families.largest_residual(),
     };
     Correction {
         length_factor,
-        domain_factor,
+        domain_factor: families.domain_factors(),
         report,
     }
 }
 
-/// Omega of every bond after one sweep of NHPD eq. 13, from the trial energies along x and y, shape (n_bonds).
-fn swept(
+/// alpha (k_n s^2 + k_t gamma^2) l of every bond under a strain of size one along x and along y, shape (n_bonds).
+fn uniaxial_densities(
     bonds: &BondSet,
-    domain_factor: &[f64],
-    target: &[f64],
-    trial_energies: [Vec<f64>; 2],
-) -> Vec<f64> {
-    let ratios = trial_energies.map(|trial| -> Vec<f64> {
-        target
-            .iter()
-            .zip(trial)
-            .map(|(e, trial)| e / trial)
-            .collect()
-    });
-    let mean_ratio = |axis: usize, ends: [u32; 2]| {
-        let [a, b] = ends.map(|end| ratios[axis][end as usize]);
-        0.5 * (a + b)
-    };
+    stiffness: &BondStiffness,
+    length_factor: &[f64],
+) -> Vec<[f64; 2]> {
     (0..bonds.len())
         .into_par_iter()
         .map(|bond| {
-            let ends = bonds.ends[bond];
-            let [a, b] = bonds.direction[bond];
-            let (p_x, p_y) = (mean_ratio(0, ends), mean_ratio(1, ends));
-            domain_factor[bond] / ((a / p_x).powi(2) + (b / p_y).powi(2)).sqrt()
+            [StrainMode::UniaxialX, StrainMode::UniaxialY]
+                .map(|mode| energy_density(mode, bond, bonds, stiffness, length_factor))
         })
         .collect()
 }
@@ -187,13 +154,20 @@ fn bond_energy_densities(
 ) -> Vec<f64> {
     (0..bonds.len())
         .into_par_iter()
-        .map(|bond| {
-            let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
-            let density =
-                stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
-            length_factor[bond] * density * bonds.length[bond]
-        })
+        .map(|bond| energy_density(mode, bond, bonds, stiffness, length_factor))
         .collect()
+}
+
+fn energy_density(
+    mode: StrainMode,
+    bond: usize,
+    bonds: &BondSet,
+    stiffness: &BondStiffness,
+    length_factor: &[f64],
+) -> f64 {
+    let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
+    let density = stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
+    length_factor[bond] * density * bonds.length[bond]
 }
 
 /// (1/4) sum over the neighbours B of Omega V_B times the bond's density (NHPD eq. 12), shape (n_points).

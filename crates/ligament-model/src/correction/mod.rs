@@ -1,6 +1,7 @@
 //! Corrections of the bonds: the length factor alpha and the iterative domain correction Omega.
 
 pub mod domain;
+mod families;
 pub mod length;
 
 pub use domain::{StopRule, Sweeps, energy_ratios};

@@ -1,0 +1,203 @@
+//! The bonds seen from their points: what a sweep of the domain correction reads, in the order in which it reads it.
+//!
+//! A bond stands here twice, once in the family of either end. That takes more memory than bonds and their incidence, for
+//! the time of the correction, but a sweep is then one pass over memory in its order, without a search for the bonds of a
+//! point, and all sums of a point are the work of one thread.
+
+use rayon::prelude::*;
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+
+/// Points a block; fixed, so that the order of summation is fixed too.
+const BLOCK: usize = 1024;
+
+/// The families of some points, one after the other; all but `ends` are arrays over their members.
+struct Block {
+    /// Where the family of each point ends, shape (points of the block).
+    ends: Vec<u32>,
+    /// Rank of the other end B.
+    neighbour: Vec<u32>,
+    /// Squares (a^2, b^2) of the direction cosines.
+    squares: Vec<[f64; 2]>,
+    /// 1/4 V_B times the bond's density under a strain along x and along y, J/m^3.
+    energy: Vec<[f64; 2]>,
+    /// Omega.
+    domain_factor: Vec<f64>,
+}
+
+/// The families of all points, with the factors Omega as they are.
+pub(super) struct Families<'a> {
+    bonds: &'a BondSet,
+    /// The points in the order of their ranks, along a curve.
+    order: &'a [u32],
+    blocks: Vec<Block>,
+    /// e_A of the continuum, by rank, J/m^3.
+    target: Vec<f64>,
+    /// e_A/etil_A along x and y, by rank.
+    ratios: Vec<[f64; 2]>,
+}
+
+impl<'a> Families<'a> {
+    /// The families with all factors 1.
+    ///
+    /// `densities` (n_bonds) holds alpha (k_n s^2 + k_t gamma^2) l under a strain of size one along x and along y,
+    /// `target` (n_points) the energy density e_A of the continuum.
+    pub(super) fn new(
+        bonds: &'a BondSet,
+        cloud: &'a PointCloud,
+        densities: &[[f64; 2]],
+        target: &[f64],
+    ) -> Self {
+        let order = &cloud.curve;
+        let mut ranks = vec![0; order.len()];
+        for (rank, &point) in order.iter().enumerate() {
+            ranks[point as usize] = rank as u32;
+        }
+        let blocks: Vec<Block> = order
+            .par_chunks(BLOCK)
+            .map(|points| Block::new(points, bonds, cloud, &ranks, densities))
+            .collect();
+        let target: Vec<f64> = order.iter().map(|&point| target[point as usize]).collect();
+        let mut ratios = vec![[0.0; 2]; order.len()];
+        blocks
+            .par_iter()
+            .zip(ratios.par_chunks_mut(BLOCK))
+            .zip(target.par_chunks(BLOCK))
+            .for_each(|((block, ratios), target)| block.energy_ratios(target, ratios));
+        Self {
+            bonds,
+            order,
+            blocks,
+            target,
+            ratios,
+        }
+    }
+
+    /// One sweep of NHPD eq. 13; the sum over the bonds of |change of Omega|.
+    pub(super) fn sweep(&mut self) -> f64 {
+        let before = &self.ratios;
+        let mut ratios = vec![[0.0; 2]; before.len()];
+        let changes: Vec<f64> = self
+            .blocks
+            .par_iter_mut()
+            .zip(ratios.par_chunks_mut(BLOCK))
+            .zip(self.target.par_chunks(BLOCK))
+            .enumerate()
+            .map(|(number, ((block, ratios), target))| {
+                let change = block.update(number * BLOCK, before);
+                block.energy_ratios(target, ratios);
+                change
+            })
+            .collect();
+        self.ratios = ratios;
+        // Every bond was met at either end.
+        0.5 * changes.iter().sum::<f64>()
+    }
+
+    /// Largest |etil/e - 1| of a point along x or y.
+    pub(super) fn largest_residual(&self) -> f64 {
+        let residuals = self
+            .ratios
+            .as_flattened()
+            .iter()
+            .map(|r| (1.0 / r - 1.0).abs());
+        residuals.fold(0.0, f64::max)
+    }
+
+    /// Omega of every bond, shape (n_bonds).
+    pub(super) fn domain_factors(&self) -> Vec<f64> {
+        let mut factors = vec![0.0; self.bonds.len()];
+        for (points, block) in self.order.chunks(BLOCK).zip(&self.blocks) {
+            let families = points.iter().flat_map(|&p| self.bonds.incidence.of(p));
+            for (&bond, &factor) in families.zip(&block.domain_factor) {
+                factors[bond as usize] = factor;
+            }
+        }
+        factors
+    }
+}
+
+impl Block {
+    fn new(
+        points: &[u32],
+        bonds: &BondSet,
+        cloud: &PointCloud,
+        ranks: &[u32],
+        densities: &[[f64; 2]],
+    ) -> Self {
+        let size = points
+            .iter()
+            .map(|&point| bonds.incidence.of(point).len())
+            .sum();
+        let mut block = Self {
+            ends: Vec::with_capacity(points.len()),
+            neighbour: Vec::with_capacity(size),
+            squares: Vec::with_capacity(size),
+            energy: Vec::with_capacity(size),
+            domain_factor: vec![1.0; size],
+        };
+        for &point in points {
+            for &bond in bonds.incidence.of(point) {
+                let neighbour = bonds.neighbour(bond, point) as usize;
+                let quarter = 0.25 * cloud.volumes[neighbour];
+                let bond = bond as usize;
+                block.neighbour.push(ranks[neighbour]);
+                block.squares.push(bonds.direction[bond].map(|c| c * c));
+                block
+                    .energy
+                    .push(densities[bond].map(|density| quarter * density));
+            }
+            block.ends.push(block.neighbour.len() as u32);
+        }
+        block
+    }
+
+    /// The members of the family of each point.
+    fn families(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
+        let mut start = 0;
+        self.ends
+            .iter()
+            .map(move |&end| std::mem::replace(&mut start, end as usize)..end as usize)
+    }
+
+    /// Omega of every member after NHPD eq. 13, from the ratios of all points; `first` is the rank of the first point.
+    /// Gives the sum of |change of Omega|.
+    ///
+    /// With q = 2 p, the sum of the ratios of both ends: Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
+    /// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)).
+    fn update(&mut self, first: usize, ratios: &[[f64; 2]]) -> f64 {
+        let mut change = 0.0;
+        let mut start = 0;
+        for (point, &end) in self.ends.iter().enumerate() {
+            let family = start..end as usize;
+            start = end as usize;
+            let own = ratios[first + point];
+            let members = self.domain_factor[family.clone()]
+                .iter_mut()
+                .zip(&self.neighbour[family.clone()])
+                .zip(&self.squares[family]);
+            for ((omega, &neighbour), [aa, bb]) in members {
+                let other = ratios[neighbour as usize];
+                let (qx, qy) = (own[0] + other[0], own[1] + other[1]);
+                let updated = *omega * (0.5 * qx * qy) / (aa * qy * qy + bb * qx * qx).sqrt();
+                change += (updated - *omega).abs();
+                *omega = updated;
+            }
+        }
+        change
+    }
+
+    /// e_A/etil_A along x and y of the points, with the trial energy density of NHPD eq. 12.
+    fn energy_ratios(&self, target: &[f64], ratios: &mut [[f64; 2]]) {
+        for ((family, e), ratio) in self.families().zip(target).zip(ratios) {
+            let members = self.energy[family.clone()]
+                .iter()
+                .zip(&self.domain_factor[family]);
+            let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
+                [x + omega * density[0], y + omega * density[1]]
+            });
+            *ratio = trial.map(|trial| e / trial);
+        }
+    }
+}
