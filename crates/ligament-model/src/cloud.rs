@@ -6,6 +6,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::curve::along_hilbert_curve;
+use crate::horizon::INCLUSION_TOLERANCE;
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -70,17 +71,18 @@ impl PointCloud {
             .enumerate()
             .map(|(k, volume)| volume / volumes[k / n_materials])
             .collect();
-        let spacing = nearest_neighbour_distances(&positions);
-        Self {
+        let mut cloud = Self {
             curve: along_hilbert_curve(&positions),
             positions,
             origin,
             thickness,
             volumes,
-            spacing,
+            spacing: Vec::new(),
             n_materials,
             material_shares,
-        }
+        };
+        cloud.spacing = nearest_neighbour_distances(&cloud, &mesh.cells);
+        cloud
     }
 
     /// Number of points.
@@ -91,6 +93,19 @@ impl PointCloud {
     /// Whether there is no point.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
+    }
+
+    /// A value for each point, shape (n_points), computed in parallel along the curve.
+    pub(crate) fn over_points<T: Copy + Default + Send>(
+        &self,
+        value: impl Fn(u32) -> T + Sync,
+    ) -> Vec<T> {
+        let along_curve: Vec<T> = self.curve.par_iter().map(|&point| value(point)).collect();
+        let mut values = vec![T::default(); self.len()];
+        for (&point, &value) in self.curve.iter().zip(&along_curve) {
+            values[point as usize] = value;
+        }
+        values
     }
 
     /// Takes a position of the mesh file to the coordinates of [`PointCloud::positions`].
@@ -176,17 +191,26 @@ pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
 }
 
-fn nearest_neighbour_distances(positions: &[[f64; 2]]) -> Vec<f64> {
-    let tree = search_tree(positions);
-    positions
-        .par_iter()
-        .enumerate()
-        .map(|(point, &position)| {
-            tree.nearest_neighbor_iter(position)
-                .find(|neighbour| neighbour.data as usize != point)
-                .map_or(f64::INFINITY, |neighbour| {
-                    distance(position, *neighbour.geom())
-                })
-        })
-        .collect()
+/// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest cell side.
+fn nearest_neighbour_distances(cloud: &PointCloud, cells: &[Cell]) -> Vec<f64> {
+    let mut reach = vec![f64::INFINITY; cloud.len()];
+    for cell in cells {
+        let corners = cell.corners();
+        for (k, &from) in corners.iter().enumerate() {
+            let to = corners[(k + 1) % corners.len()];
+            let [from, to] = [from, to].map(|corner| corner as usize);
+            let side = distance(cloud.positions[from], cloud.positions[to]);
+            reach[from] = side.min(reach[from]);
+            reach[to] = side.min(reach[to]);
+        }
+    }
+    let tree = search_tree(&cloud.positions);
+    cloud.over_points(|point| {
+        let position = cloud.positions[point as usize];
+        let reach = reach[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
+        tree.locate_within_distance(position, reach * reach)
+            .filter(|neighbour| neighbour.data != point)
+            .map(|neighbour| distance(position, *neighbour.geom()))
+            .fold(f64::INFINITY, f64::min)
+    })
 }

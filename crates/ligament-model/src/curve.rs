@@ -10,7 +10,7 @@ const STEPS: u32 = 31;
 
 /// All points, each once, in the order in which a Hilbert curve through the square around them meets them, shape
 /// (n_points). Points at one place of the curve keep their order.
-pub fn along_hilbert_curve(positions: &[[f64; 2]]) -> Vec<u32> {
+pub(crate) fn along_hilbert_curve(positions: &[[f64; 2]]) -> Vec<u32> {
     let corner = |pick: fn(f64, f64) -> f64, start: f64| {
         let fold = |c: [f64; 2], p: &[f64; 2]| [pick(c[0], p[0]), pick(c[1], p[1])];
         positions.iter().fold([start; 2], fold)

@@ -1,8 +1,9 @@
 //! The bond system: everything the equations are made of.
 
+use rayon::prelude::*;
+
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::correction::Correction;
 use crate::element::beam::{BeamBond, BondDeformation, UNKNOWNS};
 use crate::law::BondStiffness;
 
@@ -24,33 +25,38 @@ pub struct BondSystem {
 }
 
 impl BondSystem {
-    /// Puts the results of the earlier stages together; all arrays are over the bonds of `bonds`.
+    /// Puts the results of the earlier stages together: factors alpha and Omega and densities of all `bonds`.
     pub fn new(
         cloud: PointCloud,
         bonds: BondSet,
-        stiffness: &BondStiffness,
-        correction: &Correction,
+        stiffness: BondStiffness,
+        length_factor: Vec<f64>,
+        domain_factor: &[f64],
     ) -> Self {
-        let weight: Vec<f64> = correction
-            .domain_factor
-            .iter()
-            .zip(&correction.length_factor)
-            .map(|(omega, alpha)| omega * alpha)
-            .collect();
-        let factor = |bond: usize| {
-            let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
-            weight[bond] * a * b
-        };
-        let over_bonds =
-            |rigidity: &dyn Fn(usize) -> f64| (0..bonds.len()).map(rigidity).collect::<Vec<f64>>();
+        // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
+        let mut weight = length_factor;
+        let BondStiffness {
+            mut axial,
+            mut shear,
+            mut rotational,
+        } = stiffness;
+        (
+            (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
+            (&mut weight, &mut axial, &mut shear, &mut rotational).into_par_iter(),
+        )
+            .into_par_iter()
+            .for_each(|((ends, l, omega), (weight, axial, shear, rotational))| {
+                let [a, b] = ends.map(|end| cloud.volumes[end as usize]);
+                *weight *= omega;
+                let factor = *weight * a * b;
+                *axial = factor * *axial * l;
+                *shear = factor * *shear * l;
+                *rotational *= factor;
+            });
         Self {
-            axial_rigidity: over_bonds(&|bond| {
-                factor(bond) * stiffness.axial[bond] * bonds.length[bond]
-            }),
-            shear_rigidity: over_bonds(&|bond| {
-                factor(bond) * stiffness.shear[bond] * bonds.length[bond]
-            }),
-            rotational_rigidity: over_bonds(&|bond| factor(bond) * stiffness.rotational[bond]),
+            axial_rigidity: axial,
+            shear_rigidity: shear,
+            rotational_rigidity: rotational,
             weight,
             bonds,
             cloud,

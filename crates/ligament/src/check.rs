@@ -91,7 +91,8 @@ pub fn check(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join("points.vtu");
-        point_grid(&path, &MeshCells::from(&model.mesh), &model.fixed)?;
+        let (cells, cloud) = (MeshCells::from(&model.mesh), &model.system.cloud);
+        point_grid(&path, &cells, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())
@@ -195,7 +196,7 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     spread(
         out,
         "nearest distance",
-        Spread::of(model.fixed.spacing.iter().copied()),
+        Spread::of(model.system.cloud.spacing.iter().copied()),
         " m",
     )?;
     spread(

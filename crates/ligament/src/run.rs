@@ -75,29 +75,33 @@ pub fn build_model(
     let corrected = stages.time("correction", || {
         correct(case, &cloud, bonds, &is_cut, &materials, plane)
     });
-    let (correction, report) = (&corrected.correction, corrected.correction.report);
+    let Corrected {
+        bonds,
+        stiffness,
+        correction,
+        energy_ratios,
+    } = corrected;
+    let report = correction.report;
     progress.stage(&summary::correction_line(&report));
 
-    let system = stages.time("rigidities", || {
-        BondSystem::new(cloud, corrected.bonds, &corrected.stiffness, correction)
-    });
-    let no_fail = resolve::no_fail(case, &mesh, &system.cloud)?;
-    let critical_stretch = stages.time("critical stretches", || {
-        critical_stretches(&system, &materials, plane, &no_fail)
-    });
+    let no_fail = resolve::no_fail(case, &mesh, &cloud)?;
+    let correction_range = correction.domain_factor_range();
     let fixed = FixedFields {
-        volume: system.cloud.volumes.clone(),
         horizon: horizons.radius,
-        spacing: system.cloud.spacing.clone(),
         precrack_share,
-        energy_ratios: corrected.energy_ratios,
-        ends: system.bonds.ends.clone(),
-        domain_factor: correction.domain_factor.clone(),
+        energy_ratios,
+        domain_factor: correction.domain_factor,
     };
+    let (alpha, omega) = (correction.length_factor, &fixed.domain_factor);
+    let (system, critical_stretch) = stages.time("rigidities", || {
+        let system = BondSystem::new(cloud, bonds, stiffness, alpha, omega);
+        let critical_stretch = critical_stretches(&system, &materials, plane, &no_fail);
+        (system, critical_stretch)
+    });
     Ok(Model {
         warnings: warnings::of_model(case, &mesh, &report, &fixed, touched),
         correction: report,
-        correction_range: correction.domain_factor_range(),
+        correction_range,
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
         no_fail_points: no_fail.iter().filter(|marked| **marked).count(),
         mesh,
@@ -126,8 +130,9 @@ fn correct(
     plane: Plane,
 ) -> Corrected {
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
+    let any_is_cut = is_cut.contains(&true);
     let cut_first = case.case.correction.domain == CorrectionDomain::Cracked;
-    let bonds = if cut_first {
+    let bonds = if cut_first && any_is_cut {
         bonds.retained(&survives)
     } else {
         bonds
@@ -136,19 +141,20 @@ fn correct(
     let stiffness = nhpd::stiffness(&bonds, cloud, materials, plane);
     let correction = domain::iterate(&bonds, cloud, &stiffness, materials, plane, sweeps);
     let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, materials, plane);
-    if cut_first {
-        return Corrected {
-            bonds,
-            stiffness,
-            correction,
-            energy_ratios,
-        };
+    let corrected = Corrected {
+        bonds,
+        stiffness,
+        correction,
+        energy_ratios,
+    };
+    if cut_first || !any_is_cut {
+        return corrected;
     }
     Corrected {
-        bonds: bonds.retained(&survives),
-        stiffness: stiffness.retained(&survives),
-        correction: correction.retained(&survives),
-        energy_ratios,
+        bonds: corrected.bonds.retained(&survives),
+        stiffness: corrected.stiffness.retained(&survives),
+        correction: corrected.correction.retained(&survives),
+        energy_ratios: corrected.energy_ratios,
     }
 }
 
@@ -190,7 +196,8 @@ fn run_here(
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
     };
-    let writer = ResultWriter::new(&folder, &cells, &model.fixed, rule, &boundary, &probes)?;
+    let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
+    let writer = ResultWriter::new(&folder, &cells, ends, fixed, rule, &boundary, &probes)?;
     let mut watch = Watch::new(
         writer,
         &mut progress,
@@ -218,7 +225,11 @@ fn run_here(
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
 fn precrack_share(bonds: &BondSet, is_cut: &[bool]) -> Vec<f64> {
-    (0..bonds.incidence.n_points() as u32)
+    let n_points = bonds.incidence.n_points();
+    if !is_cut.contains(&true) {
+        return vec![0.0; n_points];
+    }
+    (0..n_points as u32)
         .map(|point| {
             let family = bonds.incidence.of(point);
             let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();

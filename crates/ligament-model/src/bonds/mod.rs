@@ -45,30 +45,29 @@ impl BondSet {
     }
 
     /// The bonds for which `keep` (n_bonds) is true.
-    pub fn retained(&self, keep: &[bool]) -> Self {
-        let ends = retained(&self.ends, keep);
+    pub fn retained(self, keep: &[bool]) -> Self {
+        let ends = retained(self.ends, keep);
         let incidence = Incidence::new(&ends, self.incidence.n_points());
         Self {
             ends,
-            length: retained(&self.length, keep),
-            direction: retained(&self.direction, keep),
-            horizon: retained(&self.horizon, keep),
+            length: retained(self.length, keep),
+            direction: retained(self.direction, keep),
+            horizon: retained(self.horizon, keep),
             incidence,
         }
     }
 }
 
 /// The entries of `values` for which `keep` is true, in order.
-pub(crate) fn retained<T: Copy>(values: &[T], keep: &[bool]) -> Vec<T> {
+pub(crate) fn retained<T>(mut values: Vec<T>, keep: &[bool]) -> Vec<T> {
+    let mut keep = keep.iter();
+    values.retain(|_| keep.next().is_some_and(|&kept| kept));
+    values.shrink_to_fit();
     values
-        .iter()
-        .zip(keep)
-        .filter(|&(_, &kept)| kept)
-        .map(|(&value, _)| value)
-        .collect()
 }
 
 impl Incidence {
+    /// The bonds of each point, from the ends in the order of [`BondSet`].
     pub(crate) fn new(ends: &[[u32; 2]], n_points: usize) -> Self {
         let mut offsets = vec![0; n_points + 1];
         for end in ends.as_flattened() {

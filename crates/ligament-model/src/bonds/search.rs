@@ -6,6 +6,9 @@ use super::{BondSet, Incidence};
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::horizon::{Horizons, INCLUSION_TOLERANCE};
 
+/// Points whose pairs are found by one thread in one go.
+const BLOCK: usize = 1024;
+
 impl BondSet {
     /// Bonds every pair with l <= max(h_A, h_B), found with an R*-tree: one query a point, O(N log N) in all.
     ///
@@ -13,46 +16,44 @@ impl BondSet {
     /// only that one holds the other point.
     pub fn search(cloud: &PointCloud, horizons: &Horizons) -> Self {
         let tree = search_tree(&cloud.positions);
-        let pairs_of_points: Vec<Vec<[u32; 2]>> = (0..cloud.len() as u32)
-            .into_par_iter()
-            .map(|point| {
-                let position = cloud.positions[point as usize];
-                // The tree compares squared distances: ask for a little more and let `contains` decide.
-                let reach = horizons.radius[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
-                tree.locate_within_distance(position, reach * reach)
-                    .map(|neighbour| neighbour.data)
-                    .filter(|&neighbour| is_recorded_by(point, neighbour, cloud, horizons))
-                    .map(|neighbour| [point.min(neighbour), point.max(neighbour)])
-                    .collect()
+        let found: Vec<Vec<[u32; 2]>> = cloud
+            .curve
+            .par_chunks(BLOCK)
+            .map(|points| {
+                let mut pairs = Vec::new();
+                for &point in points {
+                    let position = cloud.positions[point as usize];
+                    // The tree compares squared distances: ask for a little more and let `contains` decide.
+                    let reach =
+                        horizons.radius[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
+                    pairs.extend(
+                        tree.locate_within_distance(position, reach * reach)
+                            .map(|neighbour| neighbour.data)
+                            .filter(|&other| is_recorded_by(point, other, cloud, horizons))
+                            .map(|other| [point.min(other), point.max(other)]),
+                    );
+                }
+                pairs
             })
             .collect();
-        let mut ends = pairs_of_points.concat();
-        ends.par_sort_unstable();
-        Self::from_ends(ends, cloud, horizons)
+        drop(tree);
+        Self::from_ends(in_order(found, cloud.len()), cloud, horizons)
     }
 
     /// Bonds the given pairs (A < B, ascending, each once) whatever their distance.
     fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud, horizons: &Horizons) -> Self {
-        let position = |point: u32| cloud.positions[point as usize];
-        let length: Vec<f64> = ends
-            .par_iter()
-            .map(|&[a, b]| distance(position(a), position(b)))
-            .collect();
-        let direction = ends
-            .par_iter()
-            .zip(&length)
-            .map(|(&[a, b], l)| {
-                [
-                    (position(b)[0] - position(a)[0]) / l,
-                    (position(b)[1] - position(a)[1]) / l,
-                ]
-            })
-            .collect();
-        let horizon = ends
-            .par_iter()
-            .zip(&length)
-            .map(|(&pair, &l)| bond_horizon(pair, l, horizons))
-            .collect();
+        let mut length = vec![0.0; ends.len()];
+        let mut direction = vec![[0.0; 2]; ends.len()];
+        let mut horizon = vec![0.0; ends.len()];
+        (&ends, &mut length, &mut direction, &mut horizon)
+            .into_par_iter()
+            .for_each(|(&pair, length, direction, horizon)| {
+                let [a, b] = pair.map(|point| cloud.positions[point as usize]);
+                let l = distance(a, b);
+                *length = l;
+                *direction = [(b[0] - a[0]) / l, (b[1] - a[1]) / l];
+                *horizon = bond_horizon(pair, l, horizons);
+            });
         let incidence = Incidence::new(&ends, cloud.len());
         Self {
             ends,
@@ -62,6 +63,26 @@ impl BondSet {
             incidence,
         }
     }
+}
+
+/// The pairs by their first, then by their second point.
+fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
+    let mut next = vec![0; n_points + 1];
+    for [first, _] in found.iter().flatten() {
+        next[*first as usize + 1] += 1;
+    }
+    for point in 0..n_points {
+        next[point + 1] += next[point];
+    }
+    let mut ends = vec![[0; 2]; next[n_points]];
+    for pair in found.into_iter().flatten() {
+        let place = &mut next[pair[0] as usize];
+        ends[*place] = pair;
+        *place += 1;
+    }
+    ends.par_chunk_by_mut(|one, other| one[0] == other[0])
+        .for_each(<[_]>::sort_unstable);
+    ends
 }
 
 /// Whether the query around `point` is the one that records the pair: the lower point does where its horizon holds the

@@ -3,8 +3,6 @@
 //!
 //! The correction is tied to the axes: quarter turns of the mesh leave the answer as it is, other turns do not.
 
-use rayon::prelude::*;
-
 use super::families::Families;
 use super::{Correction, CorrectionReport, length::length_factors};
 use crate::bonds::BondSet;
@@ -81,15 +79,14 @@ pub fn iterate(
     plane: Plane,
     sweeps: Sweeps,
 ) -> Correction {
-    let length_factor = length_factors(bonds);
+    let length_factor = length_factors(bonds, cloud);
     let tolerance = match sweeps.stop {
         StopRule::Sum(tolerance) => tolerance,
         StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
     };
-    let densities = uniaxial_densities(bonds, stiffness, &length_factor);
+    let density = |mode, bond| energy_density(mode, bond, bonds, stiffness, &length_factor);
     let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
-    let mut families = Families::new(bonds, cloud, &densities, &target);
-    drop(densities);
+    let mut families = Families::new(bonds, cloud, density, &target);
     let mut last_change = f64::INFINITY;
     let mut done = 0;
     while last_change >= tolerance && done < sweeps.limit {
@@ -103,25 +100,10 @@ pub fn iterate(
         largest_residual: families.largest_residual(),
     };
     Correction {
+        domain_factor: families.into_domain_factors(),
         length_factor,
-        domain_factor: families.domain_factors(),
         report,
     }
-}
-
-/// alpha (k_n s^2 + k_t gamma^2) l of every bond under a strain of size one along x and along y, shape (n_bonds).
-fn uniaxial_densities(
-    bonds: &BondSet,
-    stiffness: &BondStiffness,
-    length_factor: &[f64],
-) -> Vec<[f64; 2]> {
-    (0..bonds.len())
-        .into_par_iter()
-        .map(|bond| {
-            [StrainMode::UniaxialX, StrainMode::UniaxialY]
-                .map(|mode| energy_density(mode, bond, bonds, stiffness, length_factor))
-        })
-        .collect()
 }
 
 /// Strain energy density of every point over the continuum's, for each of [`StrainMode::ALL`], shape (4, n_points).
@@ -133,31 +115,27 @@ pub fn energy_ratios(
     materials: &[Material],
     plane: Plane,
 ) -> [Vec<f64>; 4] {
-    StrainMode::ALL.map(|mode| {
-        let densities = bond_energy_densities(mode, bonds, stiffness, &correction.length_factor);
-        let energies = point_energies(&densities, &correction.domain_factor, bonds, cloud);
-        let target = target_energies(mode, cloud, materials, plane);
-        energies
-            .iter()
-            .zip(target)
-            .map(|(energy, e)| energy / e)
-            .collect()
+    let energies = cloud.over_points(|point| {
+        let mut energies = [0.0; 4];
+        for &bond in bonds.incidence.of(point) {
+            let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
+            let bond = bond as usize;
+            for (energy, mode) in energies.iter_mut().zip(StrainMode::ALL) {
+                let density =
+                    energy_density(mode, bond, bonds, stiffness, &correction.length_factor);
+                *energy += correction.domain_factor[bond] * density * volume;
+            }
+        }
+        energies.map(|sum| 0.25 * sum)
+    });
+    [0, 1, 2, 3].map(|mode| {
+        let target = target_energies(StrainMode::ALL[mode], cloud, materials, plane);
+        let ratios = energies.iter().zip(target);
+        ratios.map(|(energies, e)| energies[mode] / e).collect()
     })
 }
 
-/// alpha (k_n s^2 + k_t gamma^2) l of every bond under a strain of size one, shape (n_bonds).
-fn bond_energy_densities(
-    mode: StrainMode,
-    bonds: &BondSet,
-    stiffness: &BondStiffness,
-    length_factor: &[f64],
-) -> Vec<f64> {
-    (0..bonds.len())
-        .into_par_iter()
-        .map(|bond| energy_density(mode, bond, bonds, stiffness, length_factor))
-        .collect()
-}
-
+/// alpha (k_n s^2 + k_t gamma^2) l of a bond under a strain of size one.
 fn energy_density(
     mode: StrainMode,
     bond: usize,
@@ -168,30 +146,6 @@ fn energy_density(
     let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
     let density = stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
     length_factor[bond] * density * bonds.length[bond]
-}
-
-/// (1/4) sum over the neighbours B of Omega V_B times the bond's density (NHPD eq. 12), shape (n_points).
-fn point_energies(
-    densities: &[f64],
-    domain_factor: &[f64],
-    bonds: &BondSet,
-    cloud: &PointCloud,
-) -> Vec<f64> {
-    (0..cloud.len() as u32)
-        .into_par_iter()
-        .map(|point| {
-            let sum: f64 = bonds
-                .incidence
-                .of(point)
-                .iter()
-                .map(|&bond| {
-                    let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
-                    domain_factor[bond as usize] * densities[bond as usize] * volume
-                })
-                .sum();
-            0.25 * sum
-        })
-        .collect()
 }
 
 fn target_energies(

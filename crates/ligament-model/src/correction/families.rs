@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::domain::StrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
@@ -18,9 +19,11 @@ struct Block {
     ends: Vec<u32>,
     /// Rank of the other end B.
     neighbour: Vec<u32>,
-    /// Squares (a^2, b^2) of the direction cosines.
-    squares: Vec<[f64; 2]>,
-    /// 1/4 V_B times the bond's density under a strain along x and along y, J/m^3.
+    /// a^2.
+    along_x: Vec<f64>,
+    /// b^2.
+    along_y: Vec<f64>,
+    /// 1/4 V_B times the bond's density under a strain of size one along x and along y, J/m^3.
     energy: Vec<[f64; 2]>,
     /// Omega.
     domain_factor: Vec<f64>,
@@ -29,7 +32,7 @@ struct Block {
 /// The families of all points, with the factors Omega as they are.
 pub(super) struct Families<'a> {
     bonds: &'a BondSet,
-    /// The points in the order of their ranks, along a curve.
+    /// The points in the order of their ranks.
     order: &'a [u32],
     blocks: Vec<Block>,
     /// e_A of the continuum, by rank, J/m^3.
@@ -41,12 +44,12 @@ pub(super) struct Families<'a> {
 impl<'a> Families<'a> {
     /// The families with all factors 1.
     ///
-    /// `densities` (n_bonds) holds alpha (k_n s^2 + k_t gamma^2) l under a strain of size one along x and along y,
-    /// `target` (n_points) the energy density e_A of the continuum.
+    /// `density(mode, bond)` is alpha (k_n s^2 + k_t gamma^2) l under a strain of size one, `target` (n_points) the
+    /// energy density e_A of the continuum.
     pub(super) fn new(
         bonds: &'a BondSet,
         cloud: &'a PointCloud,
-        densities: &[[f64; 2]],
+        density: impl Fn(StrainMode, usize) -> f64 + Sync,
         target: &[f64],
     ) -> Self {
         let order = &cloud.curve;
@@ -56,7 +59,7 @@ impl<'a> Families<'a> {
         }
         let blocks: Vec<Block> = order
             .par_chunks(BLOCK)
-            .map(|points| Block::new(points, bonds, cloud, &ranks, densities))
+            .map(|points| Block::new(points, bonds, cloud, &ranks, &density))
             .collect();
         let target: Vec<f64> = order.iter().map(|&point| target[point as usize]).collect();
         let mut ratios = vec![[0.0; 2]; order.len()];
@@ -97,20 +100,16 @@ impl<'a> Families<'a> {
 
     /// Largest |etil/e - 1| of a point along x or y.
     pub(super) fn largest_residual(&self) -> f64 {
-        let residuals = self
-            .ratios
-            .as_flattened()
-            .iter()
-            .map(|r| (1.0 / r - 1.0).abs());
-        residuals.fold(0.0, f64::max)
+        let ratios = self.ratios.as_flattened().iter();
+        ratios.map(|r| (1.0 / r - 1.0).abs()).fold(0.0, f64::max)
     }
 
     /// Omega of every bond, shape (n_bonds).
-    pub(super) fn domain_factors(&self) -> Vec<f64> {
+    pub(super) fn into_domain_factors(self) -> Vec<f64> {
         let mut factors = vec![0.0; self.bonds.len()];
-        for (points, block) in self.order.chunks(BLOCK).zip(&self.blocks) {
+        for (points, block) in self.order.chunks(BLOCK).zip(self.blocks) {
             let families = points.iter().flat_map(|&p| self.bonds.incidence.of(p));
-            for (&bond, &factor) in families.zip(&block.domain_factor) {
+            for (&bond, factor) in families.zip(block.domain_factor) {
                 factors[bond as usize] = factor;
             }
         }
@@ -124,29 +123,31 @@ impl Block {
         bonds: &BondSet,
         cloud: &PointCloud,
         ranks: &[u32],
-        densities: &[[f64; 2]],
+        density: impl Fn(StrainMode, usize) -> f64,
     ) -> Self {
-        let size = points
-            .iter()
-            .map(|&point| bonds.incidence.of(point).len())
-            .sum();
+        let sizes = points.iter().map(|&point| bonds.incidence.of(point).len());
+        let size = sizes.sum();
         let mut block = Self {
             ends: Vec::with_capacity(points.len()),
             neighbour: Vec::with_capacity(size),
-            squares: Vec::with_capacity(size),
+            along_x: Vec::with_capacity(size),
+            along_y: Vec::with_capacity(size),
             energy: Vec::with_capacity(size),
             domain_factor: vec![1.0; size],
         };
         for &point in points {
             for &bond in bonds.incidence.of(point) {
                 let neighbour = bonds.neighbour(bond, point) as usize;
-                let quarter = 0.25 * cloud.volumes[neighbour];
                 let bond = bond as usize;
+                let [a, b] = bonds.direction[bond];
+                let quarter = 0.25 * cloud.volumes[neighbour];
                 block.neighbour.push(ranks[neighbour]);
-                block.squares.push(bonds.direction[bond].map(|c| c * c));
+                block.along_x.push(a * a);
+                block.along_y.push(b * b);
+                let modes = [StrainMode::UniaxialX, StrainMode::UniaxialY];
                 block
                     .energy
-                    .push(densities[bond].map(|density| quarter * density));
+                    .push(modes.map(|mode| quarter * density(mode, bond)));
             }
             block.ends.push(block.neighbour.len() as u32);
         }
@@ -156,34 +157,43 @@ impl Block {
     /// The members of the family of each point.
     fn families(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
         let mut start = 0;
-        self.ends
-            .iter()
-            .map(move |&end| std::mem::replace(&mut start, end as usize)..end as usize)
+        let ends = self.ends.iter().map(|&end| end as usize);
+        ends.map(move |end| std::mem::replace(&mut start, end)..end)
     }
 
     /// Omega of every member after NHPD eq. 13, from the ratios of all points; `first` is the rank of the first point.
     /// Gives the sum of |change of Omega|.
     ///
-    /// With q = 2 p, the sum of the ratios of both ends: Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
+    /// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
     /// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)).
     fn update(&mut self, first: usize, ratios: &[[f64; 2]]) -> f64 {
         let mut change = 0.0;
+        let (mut q_x, mut q_y) = (Vec::new(), Vec::new());
         let mut start = 0;
         for (point, &end) in self.ends.iter().enumerate() {
             let family = start..end as usize;
             start = end as usize;
+            // First what is scattered, then what goes in pairs of numbers through the processor.
             let own = ratios[first + point];
-            let members = self.domain_factor[family.clone()]
-                .iter_mut()
-                .zip(&self.neighbour[family.clone()])
-                .zip(&self.squares[family]);
-            for ((omega, &neighbour), [aa, bb]) in members {
+            q_x.clear();
+            q_y.clear();
+            for &neighbour in &self.neighbour[family.clone()] {
                 let other = ratios[neighbour as usize];
-                let (qx, qy) = (own[0] + other[0], own[1] + other[1]);
-                let updated = *omega * (0.5 * qx * qy) / (aa * qy * qy + bb * qx * qx).sqrt();
-                change += (updated - *omega).abs();
+                q_x.push(own[0] + other[0]);
+                q_y.push(own[1] + other[1]);
+            }
+            let members = (self.domain_factor[family.clone()].iter_mut())
+                .zip(&self.along_x[family.clone()])
+                .zip(&self.along_y[family])
+                .zip(&mut q_x)
+                .zip(&q_y);
+            for ((((omega, aa), bb), q_x), q_y) in members {
+                let squares = aa * (q_y * q_y) + bb * (*q_x * *q_x);
+                let updated = *omega * (0.5 * *q_x * q_y) / squares.sqrt();
+                *q_x = (updated - *omega).abs();
                 *omega = updated;
             }
+            change += q_x.iter().sum::<f64>();
         }
         change
     }

@@ -3,26 +3,21 @@
 use rayon::prelude::*;
 
 use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
 
 /// Length factors alpha (n_bonds), NHPD eq. 7:
 ///
 /// alpha = 1/2 [exp((l_minA - l)/(l_maxA - l_minA)) + exp((l_minB - l)/(l_maxB - l_minB))]
 ///
 /// with the shortest and longest bond of either end. An end whose bonds all have one length contributes exp(0) = 1.
-pub fn length_factors(bonds: &BondSet) -> Vec<f64> {
-    let ranges: Vec<(f64, f64)> = (0..bonds.incidence.n_points() as u32)
-        .into_par_iter()
-        .map(|point| {
-            let lengths = bonds
-                .incidence
-                .of(point)
-                .iter()
-                .map(|&bond| bonds.length[bond as usize]);
-            lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), l| {
-                (l.min(shortest), l.max(longest))
-            })
+pub fn length_factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
+    let ranges: Vec<(f64, f64)> = cloud.over_points(|point| {
+        let family = bonds.incidence.of(point).iter();
+        let lengths = family.map(|&bond| bonds.length[bond as usize]);
+        lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), l| {
+            (l.min(shortest), l.max(longest))
         })
-        .collect();
+    });
     let contribution = |point: u32, length: f64| {
         let (shortest, longest) = ranges[point as usize];
         if longest > shortest {

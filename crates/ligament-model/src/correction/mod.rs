@@ -34,10 +34,10 @@ pub struct CorrectionReport {
 
 impl Correction {
     /// The bonds for which `keep` (n_bonds) is true.
-    pub fn retained(&self, keep: &[bool]) -> Self {
+    pub fn retained(self, keep: &[bool]) -> Self {
         Self {
-            length_factor: retained(&self.length_factor, keep),
-            domain_factor: retained(&self.domain_factor, keep),
+            length_factor: retained(self.length_factor, keep),
+            domain_factor: retained(self.domain_factor, keep),
             report: self.report,
         }
     }

@@ -1,5 +1,7 @@
 //! The energy-based tensile strength of NHPD (eqs 14 to 16).
 
+use rayon::prelude::*;
+
 use crate::cloud::PointCloud;
 use crate::material::{Material, Plane};
 use crate::system::BondSystem;
@@ -40,12 +42,13 @@ pub fn critical_stretches(
         })
         .collect();
     let energy_at: Vec<f64> = (0..system.cloud.len())
+        .into_par_iter()
         .map(|point| smallest_energy(&system.cloud, point, &energies))
         .collect();
     system
         .bonds
         .ends
-        .iter()
+        .par_iter()
         .zip(&system.axial_rigidity)
         .map(|(ends, &axial_rigidity)| {
             let [a, b] = ends.map(|end| end as usize);

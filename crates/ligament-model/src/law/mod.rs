@@ -15,12 +15,12 @@ pub struct BondStiffness {
 
 impl BondStiffness {
     /// The bonds for which `keep` (n_bonds) is true.
-    pub fn retained(&self, keep: &[bool]) -> Self {
+    pub fn retained(self, keep: &[bool]) -> Self {
         use crate::bonds::retained;
         Self {
-            axial: retained(&self.axial, keep),
-            shear: retained(&self.shear, keep),
-            rotational: retained(&self.rotational, keep),
+            axial: retained(self.axial, keep),
+            shear: retained(self.shear, keep),
+            rotational: retained(self.rotational, keep),
         }
     }
 }

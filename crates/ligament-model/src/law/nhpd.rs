@@ -32,30 +32,32 @@ pub fn stiffness(
     plane: Plane,
 ) -> BondStiffness {
     // c H^3 and d H do not depend on the bond.
-    let axial: Vec<f64> = materials
-        .iter()
-        .map(|m| axial_constant(m, plane, cloud.thickness))
-        .collect();
-    let bending: Vec<f64> = materials
-        .iter()
-        .map(|m| bending_constant(m, plane, cloud.thickness))
-        .collect();
-    let mean = |bond: usize, property: &[f64]| {
-        let [a, b] = bonds.ends[bond];
-        0.5 * (cloud.mean_property(a as usize, property)
-            + cloud.mean_property(b as usize, property))
+    let of_materials = |constant: fn(&Material, Plane, f64) -> f64| -> Vec<f64> {
+        let of_material = |material| constant(material, plane, cloud.thickness);
+        materials.iter().map(of_material).collect()
     };
-    let over_bonds = |density: &(dyn Fn(usize) -> f64 + Sync)| {
-        (0..bonds.len())
-            .into_par_iter()
-            .map(density)
-            .collect::<Vec<f64>>()
-    };
-    let d = |bond: usize| mean(bond, &bending) / bonds.horizon[bond];
+    let constants = [axial_constant, bending_constant].map(of_materials);
+    let at_points: Vec<[f64; 2]> = (0..cloud.len())
+        .into_par_iter()
+        .map(|point| [0, 1].map(|k| cloud.mean_property(point, &constants[k])))
+        .collect();
+    let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
+    (
+        (&bonds.ends, &bonds.length, &bonds.horizon).into_par_iter(),
+        (&mut axial, &mut shear, &mut rotational).into_par_iter(),
+    )
+        .into_par_iter()
+        .for_each(|((ends, l, h), (axial, shear, rotational))| {
+            let [a, b] = ends.map(|end| at_points[end as usize]);
+            let d = 0.5 * (a[1] + b[1]) / h;
+            *axial = 0.5 * (a[0] + b[0]) / h.powi(3);
+            *shear = 12.0 * d / l.powi(2);
+            *rotational = d / l;
+        });
     BondStiffness {
-        axial: over_bonds(&|bond| mean(bond, &axial) / bonds.horizon[bond].powi(3)),
-        shear: over_bonds(&|bond| 12.0 * d(bond) / bonds.length[bond].powi(2)),
-        rotational: over_bonds(&|bond| d(bond) / bonds.length[bond]),
+        axial,
+        shear,
+        rotational,
     }
 }
 

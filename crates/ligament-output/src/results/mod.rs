@@ -38,6 +38,8 @@ pub struct WriteRule {
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     cells: &'a MeshCells,
+    /// Ends of each bond, shape (n_bonds).
+    ends: &'a [[u32; 2]],
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
@@ -48,10 +50,11 @@ pub struct ResultWriter<'a> {
 }
 
 impl<'a> ResultWriter<'a> {
-    /// Creates the tables of a run over `n_bonds` bonds in a result folder.
+    /// Creates the tables of a run over bonds with the given ends (n_bonds) in a result folder.
     pub fn new(
         folder: &'a ResultFolder,
         cells: &'a MeshCells,
+        ends: &'a [[u32; 2]],
         fixed: &'a FixedFields,
         rule: WriteRule,
         boundary: &Boundary,
@@ -60,6 +63,7 @@ impl<'a> ResultWriter<'a> {
         Ok(Self {
             folder,
             cells,
+            ends,
             fixed,
             rule,
             tables: Tables::create(folder, boundary, probes)?,
@@ -161,7 +165,7 @@ impl Observer for ResultWriter<'_> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
         }
-        failed(self.tables.breaks(records, self.cells, self.fixed))
+        failed(self.tables.breaks(records, self.cells, self.ends))
     }
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {

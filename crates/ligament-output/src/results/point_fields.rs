@@ -35,32 +35,26 @@ impl From<&Mesh> for MeshCells {
     }
 }
 
-/// Fields that do not change during a run.
+/// Fields that do not change during a run, beside those of the bond system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FixedFields {
-    /// Volumes, shape (n_points), m^3.
-    pub volume: Vec<f64>,
     /// Horizons, shape (n_points), m.
     pub horizon: Vec<f64>,
-    /// Distances to the nearest point, shape (n_points), m.
-    pub spacing: Vec<f64>,
     /// Share of its bonds that pre-cracks cut, shape (n_points).
     pub precrack_share: Vec<f64>,
     /// Energy density over the continuum's for uniaxial x, uniaxial y, biaxial and shear strain, shape (4, n_points).
     pub energy_ratios: [Vec<f64>; 4],
-    /// Ends of each bond, shape (n_bonds).
-    pub ends: Vec<[u32; 2]>,
     /// Omega of each bond, shape (n_bonds).
     pub domain_factor: Vec<f64>,
 }
 
 impl FixedFields {
-    fn fields(&self) -> Vec<Field<'_>> {
+    fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
         let [uniaxial_x, uniaxial_y, biaxial, shear] = &self.energy_ratios;
         vec![
-            Field::scalar("volume", &self.volume),
+            Field::scalar("volume", volumes),
             Field::scalar("horizon", &self.horizon),
-            Field::scalar("nearest_distance", &self.spacing),
+            Field::scalar("nearest_distance", spacing),
             Field::scalar("precrack_share", &self.precrack_share),
             Field::scalar("energy_ratio_x", uniaxial_x),
             Field::scalar("energy_ratio_y", uniaxial_y),
@@ -70,9 +64,15 @@ impl FixedFields {
     }
 }
 
-/// Writes the fixed fields alone: what `check` shows.
-pub fn point_grid(path: &Path, cells: &MeshCells, fixed: &FixedFields) -> Result<(), Error> {
-    let mut point_fields = fixed.fields();
+/// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.
+pub fn point_grid(
+    path: &Path,
+    cells: &MeshCells,
+    volumes: &[f64],
+    spacing: &[f64],
+    fixed: &FixedFields,
+) -> Result<(), Error> {
+    let mut point_fields = fixed.fields(volumes, spacing);
     point_fields.push(Field::integer("node", &cells.node_tags));
     write_grid(path, cells, &point_fields)
 }
@@ -118,7 +118,8 @@ pub(super) fn write(
         Field::integer("held", &held),
         Field::integer("node", &cells.node_tags),
     ];
-    point_fields.extend(fixed.fields());
+    let cloud = &system.cloud;
+    point_fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
     write_grid(path, cells, &point_fields)
 }
 

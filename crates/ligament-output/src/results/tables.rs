@@ -5,7 +5,7 @@ use ligament_analysis::history::{BreakRecord, StepRecord, View};
 use ligament_analysis::probe::Probe;
 use ligament_analysis::stiffness::Costs;
 
-use super::point_fields::{FixedFields, MeshCells};
+use super::point_fields::MeshCells;
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
@@ -130,10 +130,10 @@ impl Tables {
         &mut self,
         records: &[BreakRecord],
         cells: &MeshCells,
-        fixed: &FixedFields,
+        ends: &[[u32; 2]],
     ) -> Result<(), Error> {
         for record in records {
-            let [a, b] = fixed.ends[record.bond as usize].map(|end| cells.node_tags[end as usize]);
+            let [a, b] = ends[record.bond as usize].map(|end| cells.node_tags[end as usize]);
             self.breaks.append(&[
                 record.order.into(),
                 record.step.into(),
