@@ -13,6 +13,9 @@ use crate::cloud::PointCloud;
 /// Points a block; fixed, so that the order of summation is fixed too.
 const BLOCK: usize = 1024;
 
+/// Members of a family whose factors are computed at once: square roots and divisions go in pairs through the processor.
+const LANES: usize = 4;
+
 /// The families of some points, one after the other; all but `ends` are arrays over their members.
 struct Block {
     /// Where the family of each point ends, shape (points of the block).
@@ -163,39 +166,32 @@ impl Block {
 
     /// Omega of every member after NHPD eq. 13, from the ratios of all points; `first` is the rank of the first point.
     /// Gives the sum of |change of Omega|.
-    ///
-    /// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
-    /// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)).
     fn update(&mut self, first: usize, ratios: &[[f64; 2]]) -> f64 {
-        let mut change = 0.0;
-        let (mut q_x, mut q_y) = (Vec::new(), Vec::new());
+        let mut change = [0.0; LANES];
         let mut start = 0;
         for (point, &end) in self.ends.iter().enumerate() {
             let family = start..end as usize;
             start = end as usize;
-            // First what is scattered, then what goes in pairs of numbers through the processor.
             let own = ratios[first + point];
-            q_x.clear();
-            q_y.clear();
-            for &neighbour in &self.neighbour[family.clone()] {
-                let other = ratios[neighbour as usize];
-                q_x.push(own[0] + other[0]);
-                q_y.push(own[1] + other[1]);
+            let (neighbours, last_neighbours) = self.neighbour[family.clone()].as_chunks();
+            let (along_x, last_along_x) = self.along_x[family.clone()].as_chunks();
+            let (along_y, last_along_y) = self.along_y[family.clone()].as_chunks();
+            let (factors, last_factors) = self.domain_factor[family].as_chunks_mut();
+            let members = neighbours.iter().zip(along_x).zip(along_y).zip(factors);
+            for (((neighbours, aa), bb), factors) in members {
+                update(own, ratios, neighbours, aa, bb, factors, &mut change);
             }
-            let members = (self.domain_factor[family.clone()].iter_mut())
-                .zip(&self.along_x[family.clone()])
-                .zip(&self.along_y[family])
-                .zip(&mut q_x)
-                .zip(&q_y);
-            for ((((omega, aa), bb), q_x), q_y) in members {
-                let squares = aa * (q_y * q_y) + bb * (*q_x * *q_x);
-                let updated = *omega * (0.5 * *q_x * q_y) / squares.sqrt();
-                *q_x = (updated - *omega).abs();
-                *omega = updated;
+            let members = (last_neighbours.iter().zip(last_along_x))
+                .zip(last_along_y)
+                .zip(last_factors);
+            for (((&neighbour, &aa), &bb), factor) in members {
+                let factor = std::array::from_mut(factor);
+                let [change, ..] = &mut change;
+                let change = std::array::from_mut(change);
+                update(own, ratios, &[neighbour], &[aa], &[bb], factor, change);
             }
-            change += q_x.iter().sum::<f64>();
         }
-        change
+        change.iter().sum()
     }
 
     /// e_A/etil_A along x and y of the points, with the trial energy density of NHPD eq. 12.
@@ -209,5 +205,32 @@ impl Block {
             });
             *ratio = trial.map(|trial| e / trial);
         }
+    }
+}
+
+/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all; adds |change of Omega|.
+///
+/// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
+/// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)).
+#[inline(always)]
+fn update<const N: usize>(
+    own: [f64; 2],
+    ratios: &[[f64; 2]],
+    neighbours: &[u32; N],
+    along_x: &[f64; N],
+    along_y: &[f64; N],
+    factors: &mut [f64; N],
+    change: &mut [f64; N],
+) {
+    let (mut q_x, mut q_y) = ([0.0; N], [0.0; N]);
+    for k in 0..N {
+        let other = ratios[neighbours[k] as usize];
+        (q_x[k], q_y[k]) = (own[0] + other[0], own[1] + other[1]);
+    }
+    for k in 0..N {
+        let squares = along_x[k] * (q_y[k] * q_y[k]) + along_y[k] * (q_x[k] * q_x[k]);
+        let factor = factors[k] * (0.5 * q_x[k] * q_y[k]) / squares.sqrt();
+        change[k] += (factor - factors[k]).abs();
+        factors[k] = factor;
     }
 }
