@@ -1,13 +1,13 @@
 //! Deformations, internal forces and energies of the bonds.
 
-use ligament_model::BondSystem;
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::beam::{BondDeformation, BondForce};
+use ligament_model::{BondSystem, ordered_sum};
 use rayon::prelude::*;
 
 use crate::unknowns::COMPONENTS;
 
-/// Points whose bonds one task sweeps over; fixed, so that the order of summation is fixed too.
-const BLOCK: usize = 256;
+/// Bonds, or points, that make a task worth while.
+const BLOCK: usize = 2048;
 
 /// What a sweep over all bonds gives.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,89 +31,72 @@ pub struct InternalForces {
     pub moment_scale: f64,
 }
 
-/// What one task of a sweep gives besides the deformations and forces.
-#[derive(Clone, Copy, Default)]
-struct BlockSums {
-    energy: f64,
-    size: [f64; COMPONENTS],
-}
-
-/// Deformations, forces and energy in one pass.
+/// Deformations, forces and energy: once over the bonds, and once over the points to gather the forces.
 ///
-/// The forces at a point are gathered over its bonds in their order by one thread, so that every bond is looked at from
-/// both its ends and nothing depends on the number of threads.
+/// The forces at a point are added by one thread over its bonds in their order, so that nothing depends on the number of
+/// threads.
 pub fn sweep(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
-    let n_points = system.cloud.len();
-    let mut deformations = vec![BondDeformation::default(); system.bonds.len()];
-    let mut forces = vec![0.0; COMPONENTS * n_points];
-    let mut sums = vec![BlockSums::default(); n_points.div_ceil(BLOCK)];
-    blocks_of_first_ends(system, &mut deformations)
+    let (mut deformations, mut bond_forces) = (Vec::new(), Vec::new());
+    (0..system.bonds.len())
         .into_par_iter()
-        .zip(forces.par_chunks_mut(COMPONENTS * BLOCK))
-        .zip(&mut sums)
+        .with_min_len(BLOCK)
+        .map(|bond| {
+            let deformation = system.deformation(bond, displacement);
+            let force = if intact[bond] {
+                system.element(bond).force(&deformation)
+            } else {
+                BondForce::default()
+            };
+            (deformation, force)
+        })
+        .unzip_into_vecs(&mut deformations, &mut bond_forces);
+    let stored_energy = ordered_sum(system.bonds.len(), |bond| {
+        if intact[bond] {
+            system.element(bond).energy(&deformations[bond])
+        } else {
+            0.0
+        }
+    });
+    let mut values = vec![0.0; COMPONENTS * system.cloud.len()];
+    let sizes: Vec<[f64; COMPONENTS]> = values
+        .par_chunks_mut(COMPONENTS * BLOCK)
         .enumerate()
-        .for_each(|(block, (((first_bond, deformations), forces), sums))| {
-            for (index, force) in forces.chunks_exact_mut(COMPONENTS).enumerate() {
-                let point = (BLOCK * block + index) as u32;
-                let mut size = [0.0; COMPONENTS];
-                for &bond in system.bonds.incidence.of(point) {
-                    let bond = bond as usize;
-                    let element = system.element(bond);
-                    let deformation = system.deformation(bond, displacement);
-                    let is_first_end = system.bonds.ends[bond][0] == point;
-                    if is_first_end {
-                        deformations[bond - first_bond] = deformation;
-                    }
-                    if !intact[bond] {
-                        continue;
-                    }
-                    if is_first_end {
-                        sums.energy += element.energy(&deformation);
-                    }
-                    let end_force = element.end_forces(&deformation)[usize::from(!is_first_end)];
-                    for component in 0..COMPONENTS {
-                        force[component] += end_force[component];
-                        size[component] += end_force[component].abs();
-                    }
-                }
-                sums.size = [0, 1, 2].map(|component| sums.size[component].max(size[component]));
-            }
-        });
-    let largest = |component: usize| {
-        sums.iter()
-            .map(|block| block.size[component])
-            .fold(0.0, f64::max)
-    };
+        .map(|(block, values)| gather(system, &bond_forces, BLOCK * block, values))
+        .collect();
+    let largest = |component: usize| sizes.iter().map(|size| size[component]).fold(0.0, f64::max);
     BondSweep {
         internal: InternalForces {
             force_scale: largest(0).max(largest(1)),
             moment_scale: largest(2),
-            values: forces,
+            values,
         },
-        stored_energy: sums.iter().map(|block| block.energy).sum(),
+        stored_energy,
         deformations,
     }
 }
 
-/// The values over the bonds (n_bonds) in parts, one for the bonds whose first ends lie in a block of points, each with
-/// the number of its first bond.
-fn blocks_of_first_ends<'a, T>(
+/// Adds up the forces of the bonds at the points from `first_point` on; gives the largest sums of their sizes.
+fn gather(
     system: &BondSystem,
-    values: &'a mut [T],
-) -> Vec<(usize, &'a mut [T])> {
-    let mut rest = values;
-    let mut taken = 0;
-    (BLOCK..system.cloud.len() + BLOCK)
-        .step_by(BLOCK)
-        .map(|next_point| {
-            let ends = &system.bonds.ends;
-            let end = ends.partition_point(|ends| (ends[0] as usize) < next_point);
-            let (block, others) = std::mem::take(&mut rest).split_at_mut(end - taken);
-            let first_bond = taken;
-            (rest, taken) = (others, end);
-            (first_bond, block)
-        })
-        .collect()
+    bond_forces: &[BondForce],
+    first_point: usize,
+    values: &mut [f64],
+) -> [f64; COMPONENTS] {
+    let mut largest = [0.0_f64; COMPONENTS];
+    for (index, sum) in values.chunks_exact_mut(COMPONENTS).enumerate() {
+        let point = (first_point + index) as u32;
+        let mut size = [0.0; COMPONENTS];
+        for &bond in system.bonds.incidence.of(point) {
+            let end = usize::from(system.bonds.ends[bond as usize][1] == point);
+            let force = bond_forces[bond as usize].at_end(end);
+            for component in 0..COMPONENTS {
+                sum[component] += force[component];
+                size[component] += force[component].abs();
+            }
+        }
+        largest = [0, 1, 2].map(|component| largest[component].max(size[component]));
+    }
+    largest
 }
 
 /// Largest |external - internal force| over the given degrees of freedom, relative to the forces that meet at a point.

@@ -74,7 +74,11 @@ mod tests {
         assert!(met.iter().copied().eq(0..(SIDE * SIDE) as u32));
         for pair in order.windows(2) {
             let [a, b] = [0, 1].map(|k| positions[pair[k] as usize]);
-            assert_eq!((a[0] - b[0]).abs() + (a[1] - b[1]).abs(), 1.0, "{a:?} {b:?}");
+            assert_eq!(
+                (a[0] - b[0]).abs() + (a[1] - b[1]).abs(),
+                1.0,
+                "{a:?} {b:?}"
+            );
         }
     }
 

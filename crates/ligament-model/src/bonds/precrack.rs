@@ -51,11 +51,7 @@ pub fn count_touched_bonds(
         let (a, b) = (cloud.positions[a as usize], cloud.positions[b as usize]);
         cracks.iter().any(|crack| crack.ends_on(a, b))
     };
-    let whole = bonds
-        .ends
-        .par_iter()
-        .zip(is_cut)
-        .filter(|(_, cut)| !**cut);
+    let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
     whole.filter(|(ends, _)| is_touched(ends)).count()
 }
 

@@ -24,8 +24,7 @@ impl BondSet {
                 for &point in points {
                     let position = cloud.positions[point as usize];
                     // The tree compares squared distances: ask for a little more and let `contains` decide.
-                    let reach =
-                        horizons.radius[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
+                    let reach = horizons.radius[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
                     pairs.extend(
                         tree.locate_within_distance(position, reach * reach)
                             .map(|neighbour| neighbour.data)

@@ -34,6 +34,29 @@ pub struct BondDeformation {
     pub rotation: f64,
 }
 
+/// Force and moments with which a bond resists its deformation.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BondForce {
+    /// Force that holds end B, along x and y, N; the opposite holds end A.
+    pub force: [f64; 2],
+    /// Moment of the shear force at either end, N m.
+    pub half_shear_moment: f64,
+    /// Moment of the relative rotation at end B, N m; the opposite holds end A.
+    pub moment: f64,
+}
+
+impl BondForce {
+    /// Force along x, along y and moment at end A (0) or B (1).
+    pub fn at_end(&self, end: usize) -> [f64; UNKNOWNS] {
+        let [x, y] = self.force;
+        if end == 0 {
+            [-x, -y, self.half_shear_moment - self.moment]
+        } else {
+            [x, y, self.half_shear_moment + self.moment]
+        }
+    }
+}
+
 impl BeamBond {
     /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):
     ///
@@ -42,9 +65,10 @@ impl BeamBond {
     pub fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         let [a, b] = self.direction;
         let (du_x, du_y) = (end_b[0] - end_a[0], end_b[1] - end_a[1]);
+        let per_length = 1.0 / self.length;
         BondDeformation {
-            stretch: (a * du_x + b * du_y) / self.length,
-            shear: (-b * du_x + a * du_y) / self.length - 0.5 * (end_a[2] + end_b[2]),
+            stretch: (a * du_x + b * du_y) * per_length,
+            shear: (-b * du_x + a * du_y) * per_length - 0.5 * (end_a[2] + end_b[2]),
             rotation: end_b[2] - end_a[2],
         }
     }
@@ -61,18 +85,26 @@ impl BeamBond {
             + self.rotational_rigidity * one.rotation * other.rotation)
     }
 
+    /// What the bond exerts on its ends.
+    pub fn force(&self, deformation: &BondDeformation) -> BondForce {
+        let [a, b] = self.direction;
+        let per_length = 1.0 / self.length;
+        let axial = self.axial_rigidity * deformation.stretch * per_length;
+        let shear = self.shear_rigidity * deformation.shear;
+        BondForce {
+            force: [
+                axial * a - shear * per_length * b,
+                axial * b + shear * per_length * a,
+            ],
+            half_shear_moment: -0.5 * shear,
+            moment: self.rotational_rigidity * deformation.rotation,
+        }
+    }
+
     /// Internal forces and moment K u at the ends A and B, N and N m.
     pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
-        let [a, b] = self.direction;
-        let axial = self.axial_rigidity * deformation.stretch / self.length;
-        let shear = self.shear_rigidity * deformation.shear / self.length;
-        let (force_x, force_y) = (axial * a - shear * b, axial * b + shear * a);
-        let half_moment = -0.5 * shear * self.length;
-        let moment = self.rotational_rigidity * deformation.rotation;
-        [
-            [-force_x, -force_y, half_moment - moment],
-            [force_x, force_y, half_moment + moment],
-        ]
+        let force = self.force(deformation);
+        [force.at_end(0), force.at_end(1)]
     }
 
     /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
