@@ -117,7 +117,7 @@ fn a_broken_bond_is_an_absent_bond() {
         ..State::fresh(system)
     };
     let mut equilibrium = Equilibrium::new(system, &with.boundary, 1e-4).unwrap();
-    equilibrium.bonds_changed(&mut state);
+    equilibrium.break_bonds(&mut state, &[]);
     let balanced = equilibrium
         .balance(&mut state, &mut Unobserved)
         .unwrap()

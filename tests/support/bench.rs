@@ -115,13 +115,8 @@ impl Bench {
     pub fn break_up(&self) -> Run {
         let fracture = self.case.case.fracture.as_ref().unwrap();
         self.watched(|watch| {
-            driver::stepped::run(
-                &self.problem(),
-                &self.model.critical_stretch,
-                &resolve::stepped(fracture),
-                watch,
-            )
-            .unwrap()
+            let limits = &self.model.critical_stretch;
+            run::break_bonds(&self.problem(), limits, fracture, watch).unwrap()
         })
     }
 

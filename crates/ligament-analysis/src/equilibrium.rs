@@ -218,9 +218,12 @@ impl<'a> Equilibrium<'a> {
         self.costs.bonds += start.elapsed();
     }
 
-    /// Forgets the factor because bonds broke, and holds what came loose. Returns the parts and the new holds.
-    pub fn bonds_changed(&mut self, state: &mut State) -> (Fragments, Vec<Hold>) {
+    /// Breaks bonds, forgets the factor, and holds what came loose. Returns the parts and the new holds.
+    pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> (Fragments, Vec<Hold>) {
         let start = Instant::now();
+        for &bond in bonds {
+            state.intact[bond as usize] = false;
+        }
         self.factor = None;
         let fragments = Fragments::find(self.system, &state.intact);
         let prescribed = &self.boundary.prescribed;

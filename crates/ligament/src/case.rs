@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 pub use conditions::{Action, Displacement, Load, Support, Vector};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
-pub use fracture::{BreakOrder, Control, Fracture, Output, Steps, Stop};
+pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop};
 pub use material::Material;
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Correction, CorrectionDomain, CorrectionRule, Law, ModelSection};
@@ -101,7 +101,7 @@ struct RawCase {
     probe: Vec<probe::RawProbe>,
     fracture: Option<fracture::RawFracture>,
     #[serde(default)]
-    output: Output,
+    output: fracture::RawOutput,
 }
 
 impl Case {
@@ -122,6 +122,10 @@ impl Case {
             number += 1;
             load.check(key, number)
         })?;
+        let fracture = raw
+            .fracture
+            .map(|it| it.check(&section("fracture")))
+            .transpose()?;
         let case = Self {
             title: raw.title,
             mesh: raw.mesh.check(&section("mesh"), folder)?,
@@ -133,11 +137,8 @@ impl Case {
             loads,
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
-            fracture: raw
-                .fracture
-                .map(|it| it.check(&section("fracture")))
-                .transpose()?,
-            output: raw.output,
+            output: raw.output.complete(fracture.as_ref()),
+            fracture,
         };
         case.check_across_sections()?;
         Ok(case)

@@ -5,7 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use ligament::case::{
-    Action, CaseFile, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps, Vector,
+    Action, CaseFile, Control, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps,
+    Vector,
 };
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -68,8 +69,11 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(case.supports[1].displacement, held);
     assert_eq!(case.no_fail, [Region::Box([[-0.01, 0.04], [0.01, 0.05]])]);
     let fracture = case.fracture.unwrap();
+    let Control::Stepped(stepping) = fracture.control else {
+        panic!("load steps are the default")
+    };
     assert_eq!(
-        (fracture.steps, fracture.bonds_per_iteration),
+        (stepping.steps, stepping.bonds_per_iteration),
         (Steps::Uniform(100), 5)
     );
     assert_eq!(
