@@ -1,7 +1,8 @@
 //! Fixtures of the verification tests: meshes, benches and small mathematics.
 //!
 //! The tests lie beside this folder, one file for each question: do the numbers agree with an independent calculation
-//! (`reference_values`), does the method keep what it must keep (`discretisation`, `symmetry`, `equilibrium`, `breaking`), does it meet closed forms (`physics`),
+//! (`reference_values`), does the method keep what it must keep (`discretisation`, `symmetry`, `equilibrium`, `breaking`,
+//! `exact_path`), does it meet closed forms (`physics`, `exact_path`),
 //! are the crates arranged as they should be (`architecture`) and are the cases in order (`cases`).
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -10,6 +11,7 @@ pub mod meshes;
 pub mod numbers;
 pub mod problems;
 pub mod table;
+pub mod trusses;
 
 use std::path::PathBuf;
 

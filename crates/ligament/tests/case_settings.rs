@@ -94,6 +94,40 @@ fn a_resolved_case_reads_as_the_same_case() {
 }
 
 #[test]
+fn the_exact_path_has_no_keys_of_load_steps() {
+    let text = TEXT
+        .replace("steps = 100", "control = \"event\"")
+        .replace("fields_every = 5", "");
+    let case_file = with(&text, &[]).unwrap();
+    let fracture = case_file.case.fracture.as_ref().unwrap();
+    assert_eq!(fracture.control, Control::Event);
+    assert_eq!(
+        (fracture.tie_tolerance, fracture.stop.bonds),
+        (1e-8, Some(300))
+    );
+    assert_eq!(case_file.case.output.fields_every, 100);
+    let resolved = case_file.resolved_toml().unwrap();
+    let lines: Vec<&str> = resolved.lines().collect();
+    assert!(lines.contains(&"control = \"event\"") && lines.contains(&"tie_tolerance = 1e-8"));
+    assert!(!resolved.contains("steps") && !resolved.contains("bonds_per_iteration"));
+    let again = with(&resolved, &[]).unwrap();
+    assert_eq!(again.case, case_file.case);
+    // Load steps written back say what drives the load as well.
+    let stepped = with(TEXT, &[]).unwrap().resolved_toml().unwrap();
+    let lines: Vec<&str> = stepped.lines().collect();
+    assert!(lines.contains(&"control = \"stepped\"") && lines.contains(&"steps = 100"));
+    // No stop rule is needed: the path ends at load factor 1.
+    let bare = with(
+        SMALL,
+        &[
+            "fracture.control=event",
+            "material.rock.tensile_strength=2e6",
+        ],
+    );
+    assert_eq!(bare.unwrap().case.fracture.unwrap().control, Control::Event);
+}
+
+#[test]
 fn a_resolved_case_has_headers_defaults_and_an_absolute_mesh() {
     let resolved = with(
         SMALL,
