@@ -116,13 +116,8 @@ impl Bench {
     pub fn break_up(&self) -> Run {
         let fracture = self.case.case.fracture.as_ref().unwrap();
         self.watched(|watch| {
-            driver::stepped::run(
-                &self.problem(),
-                &self.model.critical_stretch,
-                &resolve::stepped(fracture),
-                watch,
-            )
-            .unwrap()
+            let limits = &self.model.critical_stretch;
+            run::break_bonds(&self.problem(), limits, fracture, watch).unwrap()
         })
     }
 
@@ -186,13 +181,21 @@ impl Run {
     }
 }
 
+/// Keeps what a run tells.
 #[derive(Default)]
-struct Watch {
-    breaks: Vec<BreakRecord>,
-    notices: Vec<Notice>,
-    held: Vec<usize>,
-    largest_residual: f64,
-    smallest_part: Vec<usize>,
+pub struct Watch {
+    /// Bonds in the order in which they broke.
+    pub breaks: Vec<BreakRecord>,
+    /// Displacements at the end of each load step, where they are wanted.
+    pub displacements: Option<Vec<Vec<f64>>>,
+    /// Notices.
+    pub notices: Vec<Notice>,
+    /// Number of unknowns held because nothing else would hold them, at the end of each load step.
+    pub held: Vec<usize>,
+    /// Largest residual (relative) of a load step.
+    pub largest_residual: f64,
+    /// Points in the smallest connected part, at the end of each load step.
+    pub smallest_part: Vec<usize>,
 }
 
 impl Observer for Watch {
@@ -212,6 +215,9 @@ impl Observer for Watch {
         self.largest_residual = self.largest_residual.max(view.balanced.residual);
         let parts = view.fragments.points.iter().map(Vec::len);
         self.smallest_part.push(parts.min().unwrap_or(0));
+        if let Some(displacements) = &mut self.displacements {
+            displacements.push(view.state.displacement.clone());
+        }
         Ok(())
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! The tests lie beside this folder, one file for each question: do the numbers agree with an independent calculation
 //! (`reference_values`), does the method keep what it must keep (`discretisation`, `symmetry`, `equilibrium`, `breaking`,
-//! `connectivity`), does it meet closed forms (`physics`), are the crates arranged as they should be (`architecture`) and
-//! are the cases in order (`cases`).
+//! `connectivity`, `exact_path`), does it meet closed forms (`physics`, `exact_path`), are the crates arranged as they should
+//! be (`architecture`) and are the cases in order (`cases`).
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 pub mod bench;
@@ -11,6 +11,7 @@ pub mod meshes;
 pub mod numbers;
 pub mod problems;
 pub mod table;
+pub mod trusses;
 
 use std::path::PathBuf;
 

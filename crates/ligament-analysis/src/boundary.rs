@@ -143,6 +143,35 @@ impl Boundary {
             .map(|(dof, value)| if value.is_some() { reaction(dof) } else { 0.0 })
             .collect()
     }
+
+    /// Force that the control load exerts along its direction, from the internal forces (3 n_points), N: the same as
+    /// [`Control::force`] of all reactions.
+    pub fn control_force(&self, load_factor: f64, internal_forces: &[f64]) -> f64 {
+        let control = &self.control;
+        if control.kind == ControlKind::Force {
+            return control.magnitude * load_factor;
+        }
+        let of_point = |&point: &u32| {
+            let along = |(component, cosine): (usize, f64)| {
+                let dof = COMPONENTS * point as usize + component;
+                self.prescribed[dof].map_or(0.0, |_| {
+                    (internal_forces[dof] - load_factor * self.force[dof]) * cosine
+                })
+            };
+            let direction = control.direction.into_iter().enumerate();
+            direction.map(along).sum::<f64>()
+        };
+        control.points.iter().map(of_point).sum()
+    }
+
+    /// Degrees of freedom (of 3 n_points) that something moves or loads, ascending: no other one does work.
+    pub fn loaded_degrees_of_freedom(&self) -> Vec<usize> {
+        (0..self.prescribed.len())
+            .filter(|&dof| {
+                self.force[dof] != 0.0 || self.prescribed[dof].is_some_and(|value| value != 0.0)
+            })
+            .collect()
+    }
 }
 
 impl Control {

@@ -68,6 +68,44 @@ pub fn next_to_break(
     chosen
 }
 
+/// The bonds that proportional loading breaks first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FirstToBreak {
+    /// Largest s/s_0; 0 where no intact bond is stretched.
+    pub ratio: f64,
+    /// The bond with this ratio and those tied with it, in the order of their numbers.
+    pub bonds: Vec<u32>,
+}
+
+/// The intact bonds with the largest s/s_0 (s > 0), with those within the relative `tie_tolerance` below it, in one pass.
+pub fn first_to_break(
+    tie_tolerance: f64,
+    deformations: &[BondDeformation],
+    critical_stretch: &[f64],
+    intact: &[bool],
+) -> FirstToBreak {
+    let mut ratio = 0.0;
+    let mut lowest_tied = 0.0;
+    let mut candidates = Vec::new();
+    for (bond, deformation) in deformations.iter().enumerate() {
+        let (stretch, limit) = (deformation.stretch, critical_stretch[bond]);
+        // An infinite limit is never reached: nor is infinity times zero, which is no number.
+        if stretch > 0.0 && intact[bond] && stretch >= lowest_tied * limit {
+            let own = stretch / limit;
+            if own > ratio {
+                ratio = own;
+                lowest_tied = ratio - tie_tolerance * ratio;
+            }
+            candidates.push((own, bond as u32));
+        }
+    }
+    let tied = candidates.iter().filter(|(own, _)| *own >= lowest_tied);
+    FirstToBreak {
+        ratio,
+        bonds: tied.map(|&(_, bond)| bond).collect(),
+    }
+}
+
 struct Candidate {
     bond: u32,
     rank: f64,
@@ -131,6 +169,29 @@ mod tests {
             chosen(&rule(BreakingOrder::Excess, 9), &stretch, &limit, &intact),
             [1, 2, 0]
         );
+    }
+
+    #[test]
+    fn proportional_loading_breaks_the_largest_ratio_with_its_ties() {
+        let first = |stretch: &[f64], limit: &[f64], intact: &[bool]| {
+            let deformations: Vec<BondDeformation> = stretch
+                .iter()
+                .map(|&stretch| BondDeformation {
+                    stretch,
+                    ..Default::default()
+                })
+                .collect();
+            let first = first_to_break(1e-8, &deformations, limit, intact);
+            (first.ratio, first.bonds)
+        };
+        // Ratios 2 (broken), -3, 0.5, 0.2, 0.5 + 2e-9, 0 (unbreakable), 0.5 - 1e-8.
+        let stretch = [2.0, -3.0, 1.0, 0.2, 0.5 + 2e-9, 9.0, 0.5 - 1e-8];
+        let limit = [1.0, 1.0, 2.0, 1.0, 1.0, f64::INFINITY, 1.0];
+        let intact = [false, true, true, true, true, true, true];
+        assert_eq!(first(&stretch, &limit, &intact), (0.5 + 2e-9, vec![2, 4]));
+        assert_eq!(first(&stretch[1..2], &limit, &intact), (0.0, vec![]));
+        let unbreakable = first(&stretch[5..6], &limit[5..6], &[true]);
+        assert_eq!(unbreakable, (0.0, vec![]));
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::time::Instant;
 use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::boundary::Boundary;
@@ -61,6 +62,29 @@ pub struct Balanced {
     pub energy_is_negative: bool,
     /// Degrees of freedom that turned out to be mechanisms and are held from now on.
     pub mechanisms: Vec<usize>,
+}
+
+impl Balanced {
+    /// The equilibrium of the same bonds at `factor` times the load factor: everything is proportional to it.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scale = |deformation: &BondDeformation| BondDeformation {
+            stretch: factor * deformation.stretch,
+            shear: factor * deformation.shear,
+            rotation: factor * deformation.rotation,
+        };
+        Self {
+            deformations: self.deformations.par_iter().map(scale).collect(),
+            internal: InternalForces {
+                values: self.internal.values.iter().map(|f| factor * f).collect(),
+                force_scale: factor.abs() * self.internal.force_scale,
+                moment_scale: factor.abs() * self.internal.moment_scale,
+            },
+            stored_energy: factor * factor * self.stored_energy,
+            iterations: 0,
+            mechanisms: Vec::new(),
+            ..*self
+        }
+    }
 }
 
 /// Why no equilibrium was found: an outcome of the run, not an error.

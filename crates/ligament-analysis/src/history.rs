@@ -10,7 +10,8 @@ use crate::state::State;
 use crate::stiffness::Costs;
 use crate::unknowns::COMPONENTS;
 
-/// One load step at rest (or where the run was stopped).
+/// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
+/// the next bonds break, just before they do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepRecord {
     /// Number of the step; 0 is the unloaded body.
@@ -29,7 +30,7 @@ pub struct StepRecord {
     pub external_work: f64,
     /// Broken bonds so far.
     pub broken_bonds: usize,
-    /// Bonds broken in this step.
+    /// Bonds broken in this step; on the exact path those that break at this load, and are not yet among `broken_bonds`.
     pub broken_in_step: usize,
     /// Largest s/s_0 of an intact bond.
     pub largest_ratio: f64,
@@ -72,6 +73,10 @@ pub struct BreakRecord {
     pub round: usize,
     /// Load factor.
     pub load_factor: f64,
+    /// Displacement of the control load just before, m.
+    pub displacement: f64,
+    /// Force of the control load just before, N.
+    pub reaction: f64,
     /// Bond.
     pub bond: u32,
     /// s/s_0 when it broke.
@@ -192,6 +197,12 @@ pub enum Termination {
     /// All load steps were done.
     #[error("all load steps were done")]
     StepsDone,
+    /// The exact path reached load factor one.
+    #[error("the full load was reached")]
+    FullLoad,
+    /// No bond is stretched: no load of this kind breaks another one.
+    #[error("no bond is stretched any more: nothing breaks, whatever the load")]
+    NothingBreaks,
     /// The load fell to the given fraction of its peak.
     #[error("the load fell to {fraction} of its peak")]
     LoadFraction {
@@ -245,6 +256,8 @@ impl Termination {
     pub fn name(&self) -> &'static str {
         match self {
             Self::StepsDone => "steps-done",
+            Self::FullLoad => "full-load",
+            Self::NothingBreaks => "nothing-breaks",
             Self::LoadFraction { .. } => "load-fraction",
             Self::DisplacementReached { .. } => "displacement-reached",
             Self::BondsBroken { .. } => "bonds-broken",

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 pub use conditions::{Action, Displacement, Load, Support, Vector};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
-pub use fracture::{BreakOrder, Control, Fracture, Output, Steps, Stop};
+pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop};
 pub use material::Material;
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Correction, CorrectionDomain, CorrectionRule, Law, ModelSection};
@@ -107,7 +107,7 @@ struct RawCase {
     #[serde(default)]
     solver: solver::RawSolver,
     #[serde(default)]
-    output: Output,
+    output: fracture::RawOutput,
 }
 
 impl Case {
@@ -128,6 +128,10 @@ impl Case {
             number += 1;
             load.check(key, number)
         })?;
+        let fracture = raw
+            .fracture
+            .map(|it| it.check(&section("fracture")))
+            .transpose()?;
         let case = Self {
             title: raw.title,
             mesh: raw.mesh.check(&section("mesh"), folder)?,
@@ -139,12 +143,9 @@ impl Case {
             loads,
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
-            fracture: raw
-                .fracture
-                .map(|it| it.check(&section("fracture")))
-                .transpose()?,
             solver: raw.solver.check(&section("solver"))?,
-            output: raw.output,
+            output: raw.output.complete(fracture.as_ref()),
+            fracture,
         };
         case.check_across_sections()?;
         Ok(case)

@@ -11,7 +11,7 @@ use ligament_mesh::Mesh;
 use ligament_model::Material;
 use ligament_output::results::{MeshCells, point_grid};
 
-use crate::case::CaseFile;
+use crate::case::{CaseFile, Control, Steps};
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
@@ -72,6 +72,7 @@ pub fn check(
     write_bonds(out, &model)?;
     write_energy_ratios(out, &model)?;
     write_boundary(out, &model.mesh, &boundary, &probes)?;
+    write_loading(out, case)?;
     if let Some(equilibrium) = &equilibrium {
         write_equations(out, &model, equilibrium)?;
     }
@@ -256,6 +257,20 @@ fn write_boundary(
         writeln!(out, "  probe {:<15} {reads}", probe.name)?;
     }
     Ok(())
+}
+
+fn write_loading(out: &mut dyn Write, case: &CaseFile) -> io::Result<()> {
+    let loading = match case.case.fracture.as_ref().map(|it| &it.control) {
+        None => "one elastic solution at load factor 1".to_owned(),
+        Some(Control::Stepped(stepping)) => match &stepping.steps {
+            Steps::Uniform(count) => format!("{count} load steps"),
+            Steps::Factors(factors) => format!("{} load steps", factors.len()),
+        },
+        Some(Control::Event) => {
+            "exact path from breakage to breakage, up to load factor 1".to_owned()
+        }
+    };
+    writeln!(out, "  followed in           {loading}")
 }
 
 fn place(mesh: &Mesh, point: u32) -> String {

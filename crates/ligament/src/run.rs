@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use ligament_analysis::driver::{self, Outcome, Problem};
+use ligament_analysis::{Observer, SetupError};
 use ligament_mesh::Mesh;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Correction, CorrectionReport, domain, energy_ratios};
@@ -11,9 +12,9 @@ use ligament_model::failure::strength::critical_stretches;
 use ligament_model::law::{BondStiffness, nhpd};
 use ligament_model::{BondSet, BondSystem, Horizons, Material, Plane, PointCloud};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::results::{FixedFields, MeshCells, ResultWriter, WriteRule};
+use ligament_output::results::{FixedFields, MeshCells, ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, CorrectionDomain};
+use crate::case::{CaseFile, Control, CorrectionDomain, Fracture};
 use crate::inspect::read_mesh;
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
@@ -195,6 +196,10 @@ fn run_here(
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
+        time: match case.case.fracture.as_ref().map(|it| &it.control) {
+            Some(Control::Event) => Time::Step,
+            Some(Control::Stepped(_)) | None => Time::Load,
+        },
     };
     let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
     let writer = ResultWriter::new(&folder, &cells, ends, fixed, rule, &boundary, &probes)?;
@@ -206,12 +211,7 @@ fn run_here(
     );
     let outcome: Outcome = stages.time("solution", || match &case.case.fracture {
         None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut watch),
-        Some(fracture) => driver::stepped::run(
-            &problem,
-            &model.critical_stretch,
-            &resolve::stepped(fracture),
-            &mut watch,
-        ),
+        Some(fracture) => break_bonds(&problem, &model.critical_stretch, fracture, &mut watch),
     })?;
 
     let notices = watch.into_notices();
@@ -221,6 +221,25 @@ fn run_here(
     folder.write_text("summary.json", &(text + "\n"))?;
     progress.finish(&outcome.termination.to_string());
     Ok(summary)
+}
+
+/// Follows the loading with the driver that the case chooses.
+pub fn break_bonds(
+    problem: &Problem<'_>,
+    critical_stretch: &[f64],
+    fracture: &Fracture,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    match &fracture.control {
+        Control::Stepped(stepping) => {
+            let settings = resolve::stepped(fracture, stepping);
+            driver::stepped::run(problem, critical_stretch, &settings, observer)
+        }
+        Control::Event => {
+            let settings = resolve::event(fracture);
+            driver::event::run(problem, critical_stretch, &settings, observer)
+        }
+    }
 }
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use ligament_analysis::driver::{LoadPoint, Outcome};
+use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
@@ -37,14 +37,17 @@ pub struct Summary {
     pub elastic_stiffness: Option<f64>,
     /// Where the first bond breaks, from the elastic solution.
     pub first_break: Option<PathPoint>,
-    /// The load step with the largest reaction.
+    /// The load step, or event of the exact path, with the largest reaction.
     pub peak: Option<PathPoint>,
-    /// The last load step before the reaction fell by more than [`DROP`] for the first time.
+    /// The largest reaction before it fell by more than [`DROP`] for the first time; on the exact path as a test sees it
+    /// whose displacement only rises.
     pub first_peak: Option<PathPoint>,
     /// Broken bonds at the end.
     pub broken_bonds: usize,
-    /// Load steps done.
+    /// Load steps done, or events of the exact path, with the last state.
     pub steps: usize,
+    /// Whether [`steps`](Self::steps) counts events of the exact path.
+    pub exact_path: bool,
     /// Why the run ended: `termination` and `termination_message`.
     #[serde(flatten)]
     pub termination: TerminationSummary,
@@ -207,6 +210,7 @@ impl Summary {
             first_peak: outcome.first_peak(DROP).map(PathPoint::from),
             broken_bonds: outcome.state.broken_bonds(),
             steps: history.len().saturating_sub(1),
+            exact_path: outcome.rows == Rows::Events,
             termination: TerminationSummary {
                 reason: outcome.termination.name(),
                 message: outcome.termination.to_string(),
@@ -249,9 +253,14 @@ impl Summary {
                 writeln!(out, "  {name:<18} {reaction:.6e} N at {displacement:.6e} m")?;
             }
         }
+        let unit = if self.exact_path {
+            "states of the exact path"
+        } else {
+            "load steps"
+        };
         writeln!(
             out,
-            "  broken bonds       {} in {} load steps",
+            "  broken bonds       {} in {} {unit}",
             self.broken_bonds, self.steps
         )?;
         writeln!(

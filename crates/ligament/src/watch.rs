@@ -4,7 +4,7 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
-use crate::case::{Fracture, Steps};
+use crate::case::{Control, Fracture, Steps};
 use crate::progress::{Progress, StepLine};
 
 /// Notices that are shown while the run goes on, and nodes that a notice lists; all are in `summary.json`.
@@ -27,11 +27,15 @@ impl<'a> Watch<'a> {
         node_tags: &'a [i64],
         fracture: Option<&Fracture>,
     ) -> Self {
-        let total = fracture.map(|fracture| match &fracture.steps {
-            Steps::Uniform(count) => u64::from(*count),
-            Steps::Factors(factors) => factors.len() as u64,
-        });
-        progress.begin_steps(Some(total.unwrap_or(1)));
+        let total = match fracture.map(|fracture| &fracture.control) {
+            None => Some(1),
+            Some(Control::Stepped(stepping)) => Some(match &stepping.steps {
+                Steps::Uniform(count) => u64::from(*count),
+                Steps::Factors(factors) => factors.len() as u64,
+            }),
+            Some(Control::Event) => None,
+        };
+        progress.begin_steps(total);
         let last = StepLine {
             step: 0,
             load_factor: 0.0,

@@ -149,6 +149,41 @@ fn missing_keys_are_at_their_table() {
 }
 
 #[test]
+fn keys_of_load_steps_do_not_go_with_the_exact_path() {
+    for key in [
+        "steps = 100",
+        "bonds_per_iteration = 5",
+        "order = \"ratio\"",
+        "max_iterations = 100",
+        "refine_first_break = 3",
+    ] {
+        let event = format!("control = \"event\"\n{key}\n");
+        let name = key.split(' ').next().unwrap();
+        let column = key.find('=').unwrap() + 3;
+        assert_eq!(
+            error_with("steps = 100\n", &event),
+            format!(
+                "55:{column}: fracture.{name}: `{name}` does not apply with control = \"event\": the \
+                 path goes from breakage to breakage without load steps; remove it"
+            )
+        );
+    }
+    assert_eq!(
+        error_with("steps = 100", "control = \"events\""),
+        "54:11: fracture.control: unknown value \"events\"; did you mean \"event\"? valid values: \
+         \"stepped\", \"event\""
+    );
+    assert_eq!(
+        error_with("steps = 100\n", "control = \"stepped\"\n"),
+        "53:1: fracture.steps: missing key `steps` in [fracture]"
+    );
+    assert_eq!(
+        error_with("steps = 100\n", "control = \"event\"\ntie_tolerance = 0\n"),
+        "55:17: fracture.tie_tolerance: must be greater than 0, found 0.0"
+    );
+}
+
+#[test]
 fn missing_sections_are_named_with_their_purpose() {
     assert_eq!(
         error_of(&without_section("[model]")),

@@ -5,7 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use ligament::case::{
-    Action, CaseFile, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps, Vector,
+    Action, CaseFile, Control, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps,
+    Vector,
 };
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -68,8 +69,11 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(case.supports[1].displacement, held);
     assert_eq!(case.no_fail, [Region::Box([[-0.01, 0.04], [0.01, 0.05]])]);
     let fracture = case.fracture.unwrap();
+    let Control::Stepped(stepping) = fracture.control else {
+        panic!("load steps are the default")
+    };
     assert_eq!(
-        (fracture.steps, fracture.bonds_per_iteration),
+        (stepping.steps, stepping.bonds_per_iteration),
         (Steps::Uniform(100), 5)
     );
     assert_eq!(
@@ -87,6 +91,40 @@ fn a_resolved_case_reads_as_the_same_case() {
         assert_eq!(elsewhere.case, with(text, &[]).unwrap().case);
         assert_eq!(elsewhere.resolved_toml().unwrap(), resolved);
     }
+}
+
+#[test]
+fn the_exact_path_has_no_keys_of_load_steps() {
+    let text = TEXT
+        .replace("steps = 100", "control = \"event\"")
+        .replace("fields_every = 5", "");
+    let case_file = with(&text, &[]).unwrap();
+    let fracture = case_file.case.fracture.as_ref().unwrap();
+    assert_eq!(fracture.control, Control::Event);
+    assert_eq!(
+        (fracture.tie_tolerance, fracture.stop.bonds),
+        (1e-8, Some(300))
+    );
+    assert_eq!(case_file.case.output.fields_every, 100);
+    let resolved = case_file.resolved_toml().unwrap();
+    let lines: Vec<&str> = resolved.lines().collect();
+    assert!(lines.contains(&"control = \"event\"") && lines.contains(&"tie_tolerance = 1e-8"));
+    assert!(!resolved.contains("steps") && !resolved.contains("bonds_per_iteration"));
+    let again = with(&resolved, &[]).unwrap();
+    assert_eq!(again.case, case_file.case);
+    // Load steps written back say what drives the load as well.
+    let stepped = with(TEXT, &[]).unwrap().resolved_toml().unwrap();
+    let lines: Vec<&str> = stepped.lines().collect();
+    assert!(lines.contains(&"control = \"stepped\"") && lines.contains(&"steps = 100"));
+    // No stop rule is needed: the path ends at load factor 1.
+    let bare = with(
+        SMALL,
+        &[
+            "fracture.control=event",
+            "material.rock.tensile_strength=2e6",
+        ],
+    );
+    assert_eq!(bare.unwrap().case.fracture.unwrap().control, Control::Event);
 }
 
 #[test]

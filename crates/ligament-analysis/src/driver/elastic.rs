@@ -1,7 +1,8 @@
 //! Linear elastic answer: one solve at load factor one.
 
 use super::Problem;
-use super::recorder::{Energies, Outcome, StepCounters, step_record};
+use super::outcome::{Outcome, Rows};
+use super::recorder::{Energies, StepCounters, step_record};
 use super::start::begin;
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{Observer, Termination, View};
@@ -16,7 +17,7 @@ pub fn run(
     let start = begin(problem, &mut equilibrium, &[], observer)?;
     let mut state = start.unloaded;
     let mut history = Vec::new();
-    let mut energies = Energies::default();
+    let mut energies = Energies::unloaded(problem.boundary);
     let mut termination = Termination::StepsDone;
     for (step, load_factor) in [0.0, 1.0].into_iter().enumerate() {
         state.load_factor = load_factor;
@@ -52,7 +53,6 @@ pub fn run(
             &balanced,
             &energies,
             equilibrium.fragments(),
-            &[],
             counters,
         ));
         let view = View {
@@ -69,11 +69,12 @@ pub fn run(
     }
     Ok(Outcome {
         history,
+        rows: Rows::LoadSteps,
         state,
         termination,
-        elastic_stiffness: start.elastic_stiffness,
+        elastic_stiffness: start.elastic.stiffness,
         first_break: None,
-        stability: start.stability,
+        stability: start.elastic.stability,
         costs: *equilibrium.costs(),
     })
 }

@@ -1,11 +1,15 @@
 //! Drivers: one file for each way to follow a loading.
 
 pub mod elastic;
+pub mod event;
+mod outcome;
+mod path;
 mod recorder;
 mod start;
 pub mod stepped;
 
-pub use recorder::{LoadPoint, Outcome};
+pub use outcome::{LoadPoint, Outcome, Rows};
+pub use path::StopRules;
 
 /// A problem: bonds, supports and loads, and what to read off.
 #[derive(Clone, Copy)]

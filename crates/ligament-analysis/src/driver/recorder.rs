@@ -1,120 +1,66 @@
-//! Bookkeeping that every driver shares: energies, records and the peak.
+//! Bookkeeping that every driver shares: energies and records.
 
 use ligament_model::element::beam::BondDeformation;
 
 use super::Problem;
+use crate::boundary::Boundary;
 use crate::connectivity::Fragments;
-use crate::equilibrium::{Balanced, Stability};
-use crate::history::{StepRecord, Termination};
+use crate::equilibrium::Balanced;
+use crate::history::StepRecord;
 use crate::state::State;
-use crate::stiffness::Costs;
 use crate::unknowns::COMPONENTS;
-
-/// How a run went.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// Records of all load steps.
-    pub history: Vec<StepRecord>,
-    /// The last state.
-    pub state: State,
-    /// Why it ended.
-    pub termination: Termination,
-    /// Force over displacement of the control load before the first breakage, N/m.
-    pub elastic_stiffness: f64,
-    /// Where the first bond breaks, if the loading gets there.
-    pub first_break: Option<LoadPoint>,
-    /// Inertia of the intact stiffness, where it may be indefinite.
-    pub stability: Option<Stability>,
-    /// What the equations cost.
-    pub costs: Costs,
-}
-
-/// A point of the force-displacement curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadPoint {
-    /// Displacement of the control load, m.
-    pub displacement: f64,
-    /// Its force, N.
-    pub reaction: f64,
-    /// Load factor.
-    pub load_factor: f64,
-}
-
-impl Outcome {
-    /// The load step at rest with the largest reaction.
-    pub fn peak(&self) -> Option<LoadPoint> {
-        let at_rest = self.history.iter().filter(|step| step.at_rest);
-        let largest = at_rest.reduce(|best, step| {
-            if step.reaction > best.reaction {
-                step
-            } else {
-                best
-            }
-        });
-        largest.map(LoadPoint::from)
-    }
-
-    /// The load step at rest with the largest reaction before the reaction first fell by more than `drop` of it.
-    ///
-    /// A body that is split may carry more load again, as the halves of a disk between platens do; this is the strength
-    /// of the whole body. It is the peak where the load never falls so far.
-    pub fn first_peak(&self, drop: f64) -> Option<LoadPoint> {
-        let mut best: Option<&StepRecord> = None;
-        for step in self.history.iter().filter(|step| step.at_rest) {
-            match best {
-                Some(peak) if step.reaction < (1.0 - drop) * peak.reaction => break,
-                Some(peak) if step.reaction <= peak.reaction => {}
-                _ => best = Some(step),
-            }
-        }
-        best.map(LoadPoint::from)
-    }
-}
-
-impl From<&StepRecord> for LoadPoint {
-    fn from(step: &StepRecord) -> Self {
-        Self {
-            displacement: step.displacement,
-            reaction: step.reaction,
-            load_factor: step.load_factor,
-        }
-    }
-}
 
 /// Energies along the path.
 ///
 /// Between two states of equilibrium with the same bonds everything is linear, so the trapezoidal rule gives the work
 /// of supports and loads exactly; a breakage at fixed load releases 1/2 u^T K_b u' for each broken bond, with u before
 /// and u' after it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
-    applied_forces: Vec<f64>,
-    displacement: Vec<f64>,
+    loaded: Vec<Loaded>,
+}
+
+/// A degree of freedom that something moves or loads, with its force and displacement in the last state.
+#[derive(Debug, Clone)]
+struct Loaded {
+    degree_of_freedom: usize,
+    force: f64,
+    displacement: f64,
 }
 
 impl Energies {
+    /// Those of the unloaded body.
+    pub(super) fn unloaded(boundary: &Boundary) -> Self {
+        let loaded = boundary.loaded_degrees_of_freedom();
+        Self {
+            external_work: 0.0,
+            released: 0.0,
+            loaded: (loaded.into_iter())
+                .map(|degree_of_freedom| Loaded {
+                    degree_of_freedom,
+                    force: 0.0,
+                    displacement: 0.0,
+                })
+                .collect(),
+        }
+    }
+
     /// Adds the work from the last state to this one.
     pub(super) fn add_work(&mut self, problem: &Problem<'_>, state: &State, balanced: &Balanced) {
-        let applied: Vec<f64> = (0..state.displacement.len())
-            .map(|dof| match problem.boundary.prescribed[dof] {
+        let mut work = 0.0;
+        for loaded in &mut self.loaded {
+            let dof = loaded.degree_of_freedom;
+            let force = match problem.boundary.prescribed[dof] {
                 Some(_) => balanced.internal.values[dof],
                 None => problem.boundary.force[dof] * state.load_factor,
-            })
-            .collect();
-        if self.displacement.is_empty() {
-            self.displacement = vec![0.0; applied.len()];
-            self.applied_forces = vec![0.0; applied.len()];
+            };
+            let mean_force = 0.5 * (force + loaded.force);
+            work += mean_force * (state.displacement[dof] - loaded.displacement);
+            (loaded.force, loaded.displacement) = (force, state.displacement[dof]);
         }
-        self.external_work += (0..applied.len())
-            .map(|dof| {
-                let mean_force = 0.5 * (applied[dof] + self.applied_forces[dof]);
-                mean_force * (state.displacement[dof] - self.displacement[dof])
-            })
-            .sum::<f64>();
-        self.applied_forces = applied;
-        self.displacement.clone_from(&state.displacement);
+        self.external_work += work;
     }
 
     /// Adds what the breakage of bonds released, given their deformations before it.
@@ -141,11 +87,13 @@ impl Energies {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepCounters {
     pub(super) step: usize,
+    pub(super) broken: usize,
     pub(super) broken_in_step: usize,
     pub(super) rounds: usize,
     pub(super) solves: usize,
     pub(super) at_rest: bool,
     pub(super) negative_eigenvalues: usize,
+    pub(super) largest_ratio: f64,
 }
 
 /// The record of a state of equilibrium.
@@ -155,7 +103,6 @@ pub(super) fn step_record(
     balanced: &Balanced,
     energies: &Energies,
     fragments: &Fragments,
-    critical_stretch: &[f64],
     counters: StepCounters,
 ) -> StepRecord {
     let control = &problem.boundary.control;
@@ -170,9 +117,9 @@ pub(super) fn step_record(
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
-        broken_bonds: state.broken_bonds(),
+        broken_bonds: counters.broken,
         broken_in_step: counters.broken_in_step,
-        largest_ratio: largest_ratio(state, balanced, critical_stretch),
+        largest_ratio: counters.largest_ratio,
         rounds: counters.rounds,
         solves: counters.solves,
         fragments: fragments.points.len(),

@@ -1,7 +1,8 @@
 //! What every driver does first: hold what nothing holds, and look at the elastic answer.
 
 use super::Problem;
-use super::recorder::{Energies, LoadPoint, StepCounters, largest_ratio, step_record};
+use super::outcome::LoadPoint;
+use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
 use crate::connectivity::{Fragments, Hold};
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Stability};
 use crate::history::{Notice, Observer, ObserverError, StepRecord, View};
@@ -11,8 +12,15 @@ use crate::state::State;
 pub(super) struct Start {
     /// The unloaded body, with its holds.
     pub(super) unloaded: State,
+    pub(super) elastic: ElasticAnswer,
+    /// The equilibrium at load factor one, if there is one.
+    pub(super) at_one: Option<State>,
+}
+
+/// What the elastic solution tells of the loading to come.
+pub(super) struct ElasticAnswer {
     /// NaN where there is no equilibrium.
-    pub(super) elastic_stiffness: f64,
+    pub(super) stiffness: f64,
     pub(super) first_break: Option<LoadPoint>,
     pub(super) stability: Option<Stability>,
 }
@@ -33,15 +41,18 @@ pub(super) fn begin(
     };
     let mut start = Start {
         unloaded,
-        elastic_stiffness: f64::NAN,
-        first_break: None,
-        stability: None,
+        elastic: ElasticAnswer {
+            stiffness: f64::NAN,
+            first_break: None,
+            stability: None,
+        },
+        at_one: None,
     };
     // Without an equilibrium the first load step fails as well, and says why.
     if let Ok(balanced) = equilibrium.balance(&mut at_one, &mut Unobserved)? {
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
-        start.stability = stability(problem, equilibrium, &at_one, observer)?;
+        start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
         start.read_off(
             problem,
             &at_one,
@@ -49,6 +60,7 @@ pub(super) fn begin(
             equilibrium.fragments(),
             critical_stretch,
         );
+        start.at_one = Some(at_one);
     }
     Ok(start)
 }
@@ -67,14 +79,13 @@ impl Start {
             problem,
             at_one,
             balanced,
-            &Energies::default(),
+            &Energies::unloaded(problem.boundary),
             fragments,
-            critical_stretch,
             StepCounters::default(),
         );
-        self.elastic_stiffness = record.reaction / record.displacement;
+        self.elastic.stiffness = record.reaction / record.displacement;
         let ratio = largest_ratio(at_one, balanced, critical_stretch);
-        self.first_break = (ratio > 0.0).then(|| LoadPoint {
+        self.elastic.first_break = (ratio > 0.0).then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,
             reaction: record.reaction / ratio,

@@ -2,7 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `history.csv` | a row a load step |
+//! | `history.csv` | a row a load step, or an event of the exact path |
 //! | `iterations.csv` | a row a Newton-Raphson iteration |
 //! | `breaks.csv` | a row a broken bond, in the order of breaking |
 //! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
@@ -32,6 +32,17 @@ pub struct WriteRule {
     pub fields_every: usize,
     /// Whether to write the bonds as well.
     pub bonds: bool,
+    /// What the collections call time.
+    pub time: Time,
+}
+
+/// What the time of an output is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Time {
+    /// The applied displacement, or the applied load where the load is given.
+    Load,
+    /// The number of the row of the history, for a path on which displacement and load go back.
+    Step,
 }
 
 /// Writes the results of a run as its observer.
@@ -76,7 +87,8 @@ impl<'a> ResultWriter<'a> {
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let name = format!("fields_{:04}.vtu", record.step);
         point_fields::write(&self.folder.file(&name), self.cells, self.fixed, view)?;
-        self.fields_collection.append(time(record, view), name)
+        self.fields_collection
+            .append(self.rule.time.of(record, view), name)
     }
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
@@ -128,15 +140,18 @@ impl<'a> ResultWriter<'a> {
         };
         let name = format!("bonds_{:04}.vtu", record.step);
         vtu::write_vtu(self.folder.file(&name), &grid)?;
-        self.bonds_collection.append(time(record, view), name)
+        self.bonds_collection
+            .append(self.rule.time.of(record, view), name)
     }
 }
 
-/// The time of an output: the applied displacement, or the applied load where the load is given.
-fn time(record: &StepRecord, view: &View<'_>) -> f64 {
-    match view.boundary.control.kind {
-        ControlKind::Displacement => record.displacement,
-        ControlKind::Force => record.reaction,
+impl Time {
+    fn of(self, record: &StepRecord, view: &View<'_>) -> f64 {
+        match (self, view.boundary.control.kind) {
+            (Self::Step, _) => record.step as f64,
+            (Self::Load, ControlKind::Displacement) => record.displacement,
+            (Self::Load, ControlKind::Force) => record.reaction,
+        }
     }
 }
 

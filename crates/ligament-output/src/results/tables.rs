@@ -37,11 +37,13 @@ const ITERATIONS: [&str; 7] = [
     "stored_energy",
     "broken_bonds",
 ];
-const BREAKS: [&str; 7] = [
+const BREAKS: [&str; 9] = [
     "order",
     "step",
     "round",
     "load_factor",
+    "displacement",
+    "reaction",
     "node_a",
     "node_b",
     "stretch_ratio",
@@ -139,6 +141,8 @@ impl Tables {
                 record.step.into(),
                 record.round.into(),
                 record.load_factor.into(),
+                record.displacement.into(),
+                record.reaction.into(),
                 a.into(),
                 b.into(),
                 record.ratio.into(),

@@ -47,6 +47,16 @@ pub enum Fault {
         /// What makes it necessary.
         reason: &'static str,
     },
+    /// A key means nothing with another setting.
+    #[error("`{key}` does not apply with {setting}: {reason}; remove it")]
+    NotWith {
+        /// The key.
+        key: &'static str,
+        /// The setting that it does not go with.
+        setting: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
     /// The value is of another type.
     #[error("expected {expected}, found {found}{}", unit_advice(found, *unit))]
     WrongType {

@@ -5,40 +5,47 @@ use std::fmt;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::fault::KeyFault;
+use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{require, require_at_least_one, require_positive};
 
 /// How bonds break while the load rises.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fracture {
-    /// What drives the load.
+    /// What drives the load, with the keys that only it has.
+    #[serde(flatten)]
     pub control: Control,
+    /// Bonds closer than this (relative) to the worst one break together with it.
+    pub tie_tolerance: f64,
+    /// Relative change of energy below which a solution is in equilibrium.
+    pub energy_tolerance: f64,
+    /// When to stop before the end of the loading.
+    pub stop: Stop,
+}
+
+/// What drives the load.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "control", rename_all = "lowercase")]
+pub enum Control {
+    /// Given load steps; in each, bonds break until none is beyond its critical stretch.
+    Stepped(Stepping),
+    /// The exact equilibrium path, from breakage to breakage, up to load factor 1: it has no steps, and snaps back.
+    Event,
+}
+
+/// The keys of `control = "stepped"`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stepping {
     /// The load steps.
     pub steps: Steps,
     /// Bonds broken at most between two solutions.
     pub bonds_per_iteration: u32,
     /// Which of the bonds beyond their critical stretch break first.
     pub order: BreakOrder,
-    /// Bonds closer than this (relative) to the worst one break together with it.
-    pub tie_tolerance: f64,
-    /// Relative change of energy below which a solution is in equilibrium.
-    pub energy_tolerance: f64,
     /// Rounds of breaking allowed in a load step.
     pub max_iterations: u32,
     /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
     pub refine_first_break: u32,
-    /// When to stop before the last load step.
-    pub stop: Stop,
-}
-
-/// What drives the load.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Control {
-    /// Given load steps; in each, bonds break until none is beyond its critical stretch.
-    #[default]
-    Stepped,
 }
 
 /// Which of the bonds beyond their critical stretch break first.
@@ -117,7 +124,7 @@ impl Steps {
     }
 }
 
-/// When to stop before the last load step; whichever comes first.
+/// When to stop before the end of the loading; whichever comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stop {
@@ -173,11 +180,20 @@ impl Stop {
     }
 }
 
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum ControlName {
+    #[default]
+    Stepped,
+    Event,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawFracture {
-    control: Option<Control>,
-    steps: Steps,
+    #[serde(default)]
+    control: ControlName,
+    steps: Option<Steps>,
     bonds_per_iteration: Option<u32>,
     order: Option<BreakOrder>,
     tie_tolerance: Option<f64>,
@@ -191,41 +207,94 @@ pub(super) struct RawFracture {
 impl RawFracture {
     pub(super) fn check(self, key: &KeyPath) -> Result<Fracture, KeyFault> {
         let fracture = Fracture {
-            control: self.control.unwrap_or_default(),
-            steps: self.steps,
-            bonds_per_iteration: self.bonds_per_iteration.unwrap_or(5),
-            order: self.order.unwrap_or_default(),
+            control: match self.control {
+                ControlName::Stepped => Control::Stepped(self.stepping(key)?),
+                ControlName::Event => {
+                    self.refuse_stepping(key)?;
+                    Control::Event
+                }
+            },
             tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
             energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
-            max_iterations: self.max_iterations.unwrap_or(10_000),
-            refine_first_break: self.refine_first_break.unwrap_or(0),
             stop: self.stop,
         };
-        fracture.steps.check(key)?;
-        require_at_least_one(key, "bonds_per_iteration", fracture.bonds_per_iteration)?;
         require_positive(key, "tie_tolerance", fracture.tie_tolerance)?;
         require_positive(key, "energy_tolerance", fracture.energy_tolerance)?;
-        require_at_least_one(key, "max_iterations", fracture.max_iterations)?;
         fracture.stop.check(&key.child("stop"))?;
         Ok(fracture)
+    }
+
+    fn stepping(&self, key: &KeyPath) -> Result<Stepping, KeyFault> {
+        let Some(steps) = self.steps.clone() else {
+            let fault = Fault::MissingKey {
+                key: "steps".to_owned(),
+                table: key.table_title(),
+                unit: None,
+            };
+            return Err(KeyFault::new(key.child("steps"), fault));
+        };
+        let stepping = Stepping {
+            steps,
+            bonds_per_iteration: self.bonds_per_iteration.unwrap_or(5),
+            order: self.order.unwrap_or_default(),
+            max_iterations: self.max_iterations.unwrap_or(10_000),
+            refine_first_break: self.refine_first_break.unwrap_or(0),
+        };
+        stepping.steps.check(key)?;
+        require_at_least_one(key, "bonds_per_iteration", stepping.bonds_per_iteration)?;
+        require_at_least_one(key, "max_iterations", stepping.max_iterations)?;
+        Ok(stepping)
+    }
+
+    /// Keys of the load steps mean nothing where there are none: a user who gives one expects what will not happen.
+    fn refuse_stepping(&self, key: &KeyPath) -> Result<(), KeyFault> {
+        let given = [
+            ("steps", self.steps.is_some()),
+            ("bonds_per_iteration", self.bonds_per_iteration.is_some()),
+            ("order", self.order.is_some()),
+            ("max_iterations", self.max_iterations.is_some()),
+            ("refine_first_break", self.refine_first_break.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((name, _)) => Err(KeyFault::new(
+                key.child(name),
+                Fault::NotWith {
+                    key: name,
+                    setting: "control = \"event\"",
+                    reason: "the path goes from breakage to breakage without load steps",
+                },
+            )),
+            None => Ok(()),
+        }
     }
 }
 
 /// What a run writes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Output {
-    /// Load steps between two field files; 0: only the first and the last state.
+    /// Load steps, or events of the exact path, between two field files; 0: only the first and the last state.
     pub fields_every: u32,
     /// Whether the bonds are written too.
     pub bonds: bool,
 }
 
-impl Default for Output {
-    fn default() -> Self {
-        Self {
-            fields_every: 10,
-            bonds: false,
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawOutput {
+    fields_every: Option<u32>,
+    bonds: bool,
+}
+
+impl RawOutput {
+    pub(super) fn complete(self, fracture: Option<&Fracture>) -> Output {
+        // An event breaks a bond or two, a load step at the peak hundreds.
+        let default = match fracture.map(|fracture| &fracture.control) {
+            Some(Control::Event) => 100,
+            Some(Control::Stepped(_)) | None => 10,
+        };
+        Output {
+            fields_every: self.fields_every.unwrap_or(default),
+            bonds: self.bonds,
         }
     }
 }

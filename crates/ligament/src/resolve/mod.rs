@@ -7,7 +7,9 @@ mod places;
 
 use ligament_analysis::Component;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
-use ligament_analysis::driver::stepped::{SteppedSettings, StopRules};
+use ligament_analysis::driver::StopRules;
+use ligament_analysis::driver::event::EventSettings;
+use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::probe::{PointField, Probe, Reading};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::PreCrack;
@@ -15,7 +17,7 @@ use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::{BondSystem, Material, Plane};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
-use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Steps};
+use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Stepping, Steps};
 
 pub use boundary::boundary;
 pub use places::{material_of_cell, no_fail};
@@ -77,35 +79,47 @@ pub fn precracks(case: &CaseFile) -> Vec<PreCrack> {
         .collect()
 }
 
-/// How to step, for a case with a fracture section.
-pub fn stepped(fracture: &case::Fracture) -> SteppedSettings {
-    let load_factors = match &fracture.steps {
+/// How to step, for a case with load steps.
+pub fn stepped(fracture: &case::Fracture, stepping: &Stepping) -> SteppedSettings {
+    let load_factors = match &stepping.steps {
         Steps::Uniform(count) => (1..=*count)
             .map(|step| f64::from(step) / f64::from(*count))
             .collect(),
         Steps::Factors(factors) => factors.clone(),
     };
-    let stop = &fracture.stop;
     SteppedSettings {
         load_factors,
-        refine_first_break: fracture.refine_first_break as usize,
+        refine_first_break: stepping.refine_first_break as usize,
         rule: BreakingRule {
-            order: match fracture.order {
+            order: match stepping.order {
                 BreakOrder::Excess => BreakingOrder::Excess,
                 BreakOrder::Ratio => BreakingOrder::Ratio,
             },
-            bonds_per_iteration: fracture.bonds_per_iteration as usize,
+            bonds_per_iteration: stepping.bonds_per_iteration as usize,
             tie_tolerance: fracture.tie_tolerance,
         },
         energy_tolerance: fracture.energy_tolerance,
-        round_limit: fracture.max_iterations as usize,
-        stop: StopRules {
-            load_fraction: stop.load_fraction,
-            displacement: stop.displacement,
-            bonds: stop.bonds.map(|bonds| bonds as usize),
-            wall_time: stop.wall_time,
-            negative_energy: stop.negative_energy,
-        },
+        round_limit: stepping.max_iterations as usize,
+        stop: stop_rules(&fracture.stop),
+    }
+}
+
+/// How to follow the exact path.
+pub fn event(fracture: &case::Fracture) -> EventSettings {
+    EventSettings {
+        tie_tolerance: fracture.tie_tolerance,
+        energy_tolerance: fracture.energy_tolerance,
+        stop: stop_rules(&fracture.stop),
+    }
+}
+
+fn stop_rules(stop: &case::Stop) -> StopRules {
+    StopRules {
+        load_fraction: stop.load_fraction,
+        displacement: stop.displacement,
+        bonds: stop.bonds.map(|bonds| bonds as usize),
+        wall_time: stop.wall_time,
+        negative_energy: stop.negative_energy,
     }
 }
 

@@ -1,0 +1,304 @@
+//! A run on its way: what the drivers that break bonds share.
+//!
+//! Equilibria with their energies, the breaking of bonds and the holding of what comes loose, records, and the rules
+//! that end a run.
+
+use std::time::Instant;
+
+use ligament_model::element::beam::BondDeformation;
+
+use super::Problem;
+use super::outcome::{Outcome, Rows};
+use super::recorder::{Energies, StepCounters, step_record};
+use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
+use crate::boundary::ControlKind;
+use crate::connectivity::Hold;
+use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
+use crate::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, Termination, View};
+use crate::state::State;
+
+/// Rules that end a run early.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StopRules {
+    /// The load at rest fell to this fraction of the largest so far, after bonds broke.
+    pub load_fraction: Option<f64>,
+    /// The displacement of the control load reached this, m.
+    pub displacement: Option<f64>,
+    /// So many bonds broke.
+    pub bonds: Option<usize>,
+    /// So many seconds passed.
+    pub wall_time: Option<f64>,
+    /// The stored energy became negative: the body has lost its stability.
+    pub negative_energy: bool,
+}
+
+impl StopRules {
+    /// The whole loading, as long as the body is stable.
+    pub const NONE: Self = Self {
+        load_fraction: None,
+        displacement: None,
+        bonds: None,
+        wall_time: None,
+        negative_energy: true,
+    };
+}
+
+/// Below this fraction of the peak a body carries no load any more: what is left is rounding.
+pub(super) const NO_LOAD: f64 = 1e-9;
+
+/// A run on its way.
+pub(super) struct Path<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) critical_stretch: &'a [f64],
+    pub(super) observer: &'a mut dyn Observer,
+    pub(super) equilibrium: Equilibrium<'a>,
+    pub(super) state: State,
+    pub(super) elastic: ElasticAnswer,
+    pub(super) broken: usize,
+    /// Whether a given force acts on a part that nothing holds any more.
+    pub(super) collapsed: bool,
+    stop: StopRules,
+    energies: Energies,
+    history: Vec<StepRecord>,
+    peak: f64,
+    energy_was_negative: bool,
+    /// Solves up to the last equilibrium, and up to the last record.
+    solves: [usize; 2],
+    negative_eigenvalues: usize,
+    started: Instant,
+}
+
+/// Bonds that just broke, with their last deformations.
+pub(super) type JustBroken = Vec<(u32, BondDeformation)>;
+
+impl<'a> Path<'a> {
+    /// Begins with the unloaded body; also gives the equilibrium at load factor one, if there is one.
+    pub(super) fn begin(
+        problem: &'a Problem<'a>,
+        critical_stretch: &'a [f64],
+        energy_tolerance: f64,
+        stop: StopRules,
+        observer: &'a mut dyn Observer,
+    ) -> Result<(Self, Option<State>), SetupError> {
+        let mut equilibrium = Equilibrium::of(problem, energy_tolerance)?;
+        let Start {
+            unloaded,
+            elastic,
+            at_one,
+        } = begin(problem, &mut equilibrium, critical_stretch, observer)?;
+        let solves = [equilibrium.costs().solves; 2];
+        let path = Self {
+            problem,
+            critical_stretch,
+            observer,
+            equilibrium,
+            state: unloaded,
+            elastic,
+            broken: 0,
+            collapsed: false,
+            stop,
+            energies: Energies::unloaded(problem.boundary),
+            history: Vec::new(),
+            peak: 0.0,
+            energy_was_negative: false,
+            solves,
+            negative_eigenvalues: 0,
+            started: Instant::now(),
+        };
+        Ok((path, at_one))
+    }
+
+    /// Tells the observer what comes next.
+    pub(super) fn enter(&mut self, step: usize, round: usize) -> Result<(), ObserverError> {
+        let load_factor = self.state.load_factor;
+        self.observer.round(step, round, load_factor, self.broken)
+    }
+
+    /// Equilibrium of the state; a negative energy is none unless the case says to go on. Without an equilibrium the
+    /// displacements stay as they were.
+    pub(super) fn balance(
+        &mut self,
+        step: usize,
+    ) -> Result<Result<Balanced, Unbalanced>, SetupError> {
+        let displacement = self.state.displacement.clone();
+        let balanced = self.equilibrium.balance(&mut self.state, self.observer)?;
+        let balanced = match balanced {
+            Ok(Balanced {
+                energy_is_negative: true,
+                stored_energy: energy,
+                ..
+            }) if self.stop.negative_energy => Err(Unbalanced::NegativeEnergy { energy }),
+            other => other,
+        };
+        let Ok(balanced) = balanced else {
+            self.state.displacement = displacement;
+            return Ok(balanced);
+        };
+        if balanced.energy_is_negative && !std::mem::replace(&mut self.energy_was_negative, true) {
+            self.observer.notice(&Notice::NegativeEnergy { step })?;
+        }
+        self.solves[0] = self.equilibrium.costs().solves;
+        self.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
+        Ok(Ok(balanced))
+    }
+
+    /// Adds up work and released energy, and reports mechanisms.
+    pub(super) fn account(
+        &mut self,
+        step: usize,
+        just_broken: &JustBroken,
+        balanced: &Balanced,
+    ) -> Result<(), SetupError> {
+        self.energies.add_work(self.problem, &self.state, balanced);
+        self.energies
+            .add_released(self.problem, just_broken, balanced);
+        report_mechanisms(step, balanced, self.observer)?;
+        Ok(())
+    }
+
+    /// Breaks bonds and holds what came loose.
+    pub(super) fn break_bonds(
+        &mut self,
+        bonds: &[u32],
+        balanced: &Balanced,
+        step: usize,
+        round: usize,
+    ) -> Result<JustBroken, SetupError> {
+        let load_factor = self.state.load_factor;
+        let [displacement, reaction] = self.control(balanced);
+        let of_bond = |(place, &bond): (usize, &u32)| BreakRecord {
+            order: self.broken + place + 1,
+            step,
+            round,
+            load_factor,
+            displacement,
+            reaction,
+            bond,
+            ratio: balanced.deformations[bond as usize].stretch
+                / self.critical_stretch[bond as usize],
+        };
+        let records: Vec<BreakRecord> = bonds.iter().enumerate().map(of_bond).collect();
+        self.broken += bonds.len();
+        self.observer.broke(&records)?;
+        let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
+        self.collapsed |= self.load_came_loose(&holds);
+        let fragments = self.equilibrium.fragments();
+        report_loose(step, fragments, &holds, self.observer)?;
+        Ok(bonds
+            .iter()
+            .map(|&bond| (bond, balanced.deformations[bond as usize]))
+            .collect())
+    }
+
+    fn load_came_loose(&self, holds: &[Hold]) -> bool {
+        let control = &self.problem.boundary.control;
+        let of_point = &self.equilibrium.fragments().of_point;
+        control.kind == ControlKind::Force
+            && control.points.iter().any(|&point| {
+                holds
+                    .iter()
+                    .any(|hold| hold.fragment == of_point[point as usize])
+            })
+    }
+
+    /// Displacement and force of the control load in an equilibrium, m and N.
+    fn control(&self, balanced: &Balanced) -> [f64; 2] {
+        let (boundary, load_factor) = (self.problem.boundary, self.state.load_factor);
+        let displacement = &self.state.displacement;
+        [
+            boundary.control.displacement(load_factor, displacement),
+            boundary.control_force(load_factor, &balanced.internal.values),
+        ]
+    }
+
+    /// Whether the load of an equilibrium is rounding against the largest so far.
+    pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
+        let [_, reaction] = self.control(balanced);
+        reaction <= NO_LOAD * self.peak
+    }
+
+    /// What ends the run wherever it is.
+    pub(super) fn interruption(&self) -> Option<Termination> {
+        let seconds = self.started.elapsed().as_secs_f64();
+        if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.broken >= bonds) {
+            return Some(Termination::BondsBroken { bonds });
+        }
+        let is_over = |&allowed: &f64| seconds >= allowed;
+        (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
+    }
+
+    /// What ends the run with an equilibrium that is at rest.
+    pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
+        let [displacement, reaction] = self.control(balanced);
+        if let Some(displacement) = self
+            .stop
+            .displacement
+            .filter(|&wanted| displacement >= wanted)
+        {
+            return Some(Termination::DisplacementReached { displacement });
+        }
+        if self.broken == 0 {
+            return None;
+        }
+        if reaction <= NO_LOAD * self.peak {
+            return Some(Termination::FellApart);
+        }
+        let fraction = self
+            .stop
+            .load_fraction
+            .filter(|&fraction| reaction <= fraction * self.peak)?;
+        Some(Termination::LoadFraction { fraction })
+    }
+
+    /// Records an equilibrium.
+    pub(super) fn record(
+        &mut self,
+        balanced: &Balanced,
+        counters: StepCounters,
+        is_last: bool,
+    ) -> Result<(), SetupError> {
+        let counters = StepCounters {
+            broken: self.broken,
+            solves: self.solves[0] - self.solves[1],
+            negative_eigenvalues: self.negative_eigenvalues,
+            ..counters
+        };
+        self.solves[1] = self.equilibrium.costs().solves;
+        let record = step_record(
+            self.problem,
+            &self.state,
+            balanced,
+            &self.energies,
+            self.equilibrium.fragments(),
+            counters,
+        );
+        self.peak = self.peak.max(record.reaction);
+        let view = View {
+            system: self.problem.system,
+            state: &self.state,
+            balanced,
+            boundary: self.problem.boundary,
+            critical_stretch: self.critical_stretch,
+            fragments: self.equilibrium.fragments(),
+            costs: self.equilibrium.costs(),
+            is_last,
+        };
+        self.observer.step(&record, &view)?;
+        self.history.push(record);
+        Ok(())
+    }
+
+    /// What the run was.
+    pub(super) fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
+        Outcome {
+            history: self.history,
+            rows,
+            termination,
+            elastic_stiffness: self.elastic.stiffness,
+            first_break: self.elastic.first_break,
+            stability: self.elastic.stability,
+            costs: *self.equilibrium.costs(),
+            state: self.state,
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Points on a line with bonds of given stiffness and strength, for closed forms.
+
+use ligament_analysis::SolverSettings;
+use ligament_analysis::boundary::{Boundary, Control, ControlKind};
+use ligament_analysis::driver::event::EventSettings;
+use ligament_analysis::driver::{Outcome, Problem, StopRules, event};
+use ligament_analysis::unknowns::Component;
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
+
+use crate::bench::Watch;
+
+/// A bond of a truss.
+#[derive(Debug, Clone, Copy)]
+pub struct Rod {
+    /// Its points, the smaller number first.
+    pub ends: [u32; 2],
+    /// Force over elongation, N/m.
+    pub stiffness: f64,
+    /// Elongation at which it breaks, m.
+    pub critical_elongation: f64,
+}
+
+/// A truss on the x axis.
+pub struct Truss {
+    /// Its points and bonds.
+    pub system: BondSystem,
+    /// Critical stretches of the bonds.
+    pub critical_stretch: Vec<f64>,
+    /// Supports and loads.
+    pub boundary: Boundary,
+    /// The bond that each rod is.
+    pub bond_of_rod: Vec<usize>,
+}
+
+/// Settings of the exact path with these stop rules.
+pub fn settings(stop: StopRules) -> EventSettings {
+    EventSettings {
+        tie_tolerance: 1e-8,
+        energy_tolerance: 1e-4,
+        stop,
+    }
+}
+
+impl Truss {
+    /// Points at these places, and these rods; the force-displacement curve is that of `controlled`, along x, with a
+    /// displacement of 1 m or a force of 1 N at load factor 1 that the caller prescribes.
+    pub fn new(places: &[f64], rods: &[Rod], kind: ControlKind, controlled: u32) -> Self {
+        let n = places.len();
+        let cloud = PointCloud {
+            positions: places.iter().map(|&x| [x, 0.0]).collect(),
+            origin: [0.0; 2],
+            thickness: 1.0,
+            volumes: vec![1.0; n],
+            spacing: vec![1.0; n],
+            n_materials: 1,
+            material_shares: vec![1.0; n],
+            curve: (0..n as u32).collect(),
+        };
+        let everywhere = Horizons {
+            radius: vec![1e3; n],
+        };
+        let all = BondSet::search(&cloud, &everywhere);
+        let keep: Vec<bool> = (all.ends.iter())
+            .map(|ends| rods.iter().any(|rod| rod.ends == *ends))
+            .collect();
+        let bonds = all.retained(&keep);
+        assert_eq!(bonds.len(), rods.len(), "every rod is a pair of points");
+        let rod_of = |bond: usize| {
+            let is_it = |rod: &&Rod| rod.ends == bonds.ends[bond];
+            *rods.iter().find(is_it).unwrap()
+        };
+        let of_bonds = |value: &dyn Fn(usize, Rod) -> f64| -> Vec<f64> {
+            (0..bonds.len())
+                .map(|bond| value(bond, rod_of(bond)))
+                .collect()
+        };
+        let length = bonds.length.clone();
+        let rigidity = |bond: usize, rod: Rod| rod.stiffness * length[bond] * length[bond];
+        let critical_stretch = of_bonds(&|bond, rod| rod.critical_elongation / length[bond]);
+        let control = Control {
+            kind,
+            points: vec![controlled],
+            direction: [1.0, 0.0, 0.0],
+            magnitude: 1.0,
+        };
+        Self {
+            boundary: Boundary::new(n, control),
+            bond_of_rod: (rods.iter())
+                .map(|rod| {
+                    bonds
+                        .ends
+                        .iter()
+                        .position(|ends| *ends == rod.ends)
+                        .unwrap()
+                })
+                .collect(),
+            system: BondSystem {
+                weight: vec![1.0; bonds.len()],
+                axial_rigidity: of_bonds(&rigidity),
+                shear_rigidity: of_bonds(&rigidity),
+                rotational_rigidity: of_bonds(&rigidity),
+                cloud,
+                bonds,
+            },
+            critical_stretch,
+        }
+    }
+
+    /// Holds all motions of some points.
+    pub fn hold(&mut self, points: &[u32]) {
+        for component in Component::ALL {
+            self.boundary.prescribe(points, component, 0.0).unwrap();
+        }
+    }
+
+    /// Follows the exact path.
+    pub fn follow(&self, stop: StopRules) -> (Outcome, Watch) {
+        let problem = Problem {
+            system: &self.system,
+            boundary: &self.boundary,
+            solver: SolverSettings::default(),
+            probes: &[],
+        };
+        let mut watch = Watch {
+            displacements: Some(Vec::new()),
+            ..Watch::default()
+        };
+        let outcome = event::run(
+            &problem,
+            &self.critical_stretch,
+            &settings(stop),
+            &mut watch,
+        );
+        (outcome.unwrap(), watch)
+    }
+}
