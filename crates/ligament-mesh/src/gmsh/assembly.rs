@@ -1,11 +1,10 @@
 //! From the records of a file to a mesh.
 
-use std::collections::HashMap;
-
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
 use super::records::{Element, Node, Records};
+use super::tags::NodeIndices;
 use super::{cells, groups, nodes};
 use crate::mesh::Mesh;
 use crate::remark::Remark;
@@ -30,7 +29,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
     {
         return Err(GmshError::NoCells);
     }
-    let by_tag = index_by_tag(cursor, &records.nodes)?;
+    let by_tag = NodeIndices::new(cursor, &records.nodes)?;
     let mut corners = resolve_corners(cursor, records, &by_tag)?;
     let uses = node_uses(cursor, records, &corners, &by_tag)?;
     let (kept, numbers) = number_nodes(&records.nodes, &uses);
@@ -61,21 +60,6 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
     })
 }
 
-fn index_by_tag(cursor: &Cursor<'_>, nodes: &[Node]) -> Result<HashMap<u64, u32>, GmshError> {
-    let mut by_tag = HashMap::with_capacity(nodes.len());
-    for (index, node) in nodes.iter().enumerate() {
-        let index = u32::try_from(index).map_err(|_| GmshError::TooLarge)?;
-        if let Some(first) = by_tag.insert(node.tag, index) {
-            return Err(GmshError::DuplicateNodeTag {
-                place: cursor.place(node.offset),
-                tag: node.tag,
-                first: cursor.place(nodes[first as usize].offset),
-            });
-        }
-    }
-    Ok(by_tag)
-}
-
 fn missing_node(cursor: &Cursor<'_>, element: &Element, node: u64) -> GmshError {
     GmshError::MissingNode {
         place: cursor.place(element.offset),
@@ -88,15 +72,13 @@ fn missing_node(cursor: &Cursor<'_>, element: &Element, node: u64) -> GmshError 
 fn resolve_corners(
     cursor: &Cursor<'_>,
     records: &Records,
-    by_tag: &HashMap<u64, u32>,
+    by_tag: &NodeIndices,
 ) -> Result<Vec<Corners>, GmshError> {
     let resolve = |element: &Element| {
         let mut corners = [None; 4];
         for (corner, tag) in corners.iter_mut().zip(element.corners()) {
-            let index = by_tag
-                .get(tag)
-                .ok_or_else(|| missing_node(cursor, element, *tag))?;
-            *corner = Some(*index);
+            let index = by_tag.get(*tag);
+            *corner = Some(index.ok_or_else(|| missing_node(cursor, element, *tag))?);
         }
         Ok(corners)
     };
@@ -107,15 +89,14 @@ fn node_uses(
     cursor: &Cursor<'_>,
     records: &Records,
     corners: &[Corners],
-    by_tag: &HashMap<u64, u32>,
+    by_tag: &NodeIndices,
 ) -> Result<Vec<Use>, GmshError> {
     let mut uses = vec![Use::None; records.nodes.len()];
     for (tag, element) in &records.inner_nodes {
         let element = &records.elements[*element as usize];
-        let index = by_tag
-            .get(tag)
-            .ok_or_else(|| missing_node(cursor, element, *tag))?;
-        uses[*index as usize] = Use::Inner;
+        let index = by_tag.get(*tag);
+        let index = index.ok_or_else(|| missing_node(cursor, element, *tag))?;
+        uses[index as usize] = Use::Inner;
     }
     for (element, corners) in records.elements.iter().zip(corners) {
         if matches!(element.shape, Shape::Triangle | Shape::Quadrangle) {

@@ -22,6 +22,7 @@ mod groups;
 mod nodes;
 mod records;
 mod sections;
+mod tags;
 mod v2;
 mod v4;
 

@@ -21,6 +21,9 @@ pub struct PreCrack {
 
 /// Which bonds the pre-cracks cut, shape (n_bonds).
 pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
+    if cracks.is_empty() {
+        return vec![false; bonds.len()];
+    }
     let cracks: Vec<PreCrack> = cracks
         .iter()
         .map(|crack| crack.in_local_coordinates(cloud))
@@ -43,6 +46,9 @@ pub fn count_touched_bonds(
     cloud: &PointCloud,
     is_cut: &[bool],
 ) -> usize {
+    if cracks.is_empty() {
+        return 0;
+    }
     let cracks: Vec<PreCrack> = cracks
         .iter()
         .map(|crack| crack.in_local_coordinates(cloud))

@@ -111,9 +111,15 @@ impl<'a> Families<'a> {
     pub(super) fn into_domain_factors(self) -> Vec<f64> {
         let mut factors = vec![0.0; self.bonds.len()];
         for (points, block) in self.order.chunks(BLOCK).zip(self.blocks) {
-            let families = points.iter().flat_map(|&p| self.bonds.incidence.of(p));
-            for (&bond, factor) in families.zip(block.domain_factor) {
-                factors[bond as usize] = factor;
+            for (&point, members) in points.iter().zip(block.families()) {
+                // The bonds whose first end is the point follow one another, at the end of its family.
+                let family = self.bonds.incidence.of(point);
+                let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
+                let others = family.partition_point(is_second);
+                if let Some(&bond) = family.get(others) {
+                    let own = &block.domain_factor[members.start + others..members.end];
+                    factors[bond as usize..][..own.len()].copy_from_slice(own);
+                }
             }
         }
         factors
