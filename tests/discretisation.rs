@@ -4,6 +4,7 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament::run::Model;
 use ligament_mesh::Mesh;
 use ligament_model::BondSet;
 use ligament_model::Horizons;
@@ -147,6 +148,45 @@ fn the_correction_makes_uniaxial_energies_right() {
                 "the correction has something to correct"
             );
         }
+    }
+}
+
+/// One, two or three threads: no bit of bonds, correction, energies and rigidities differs. The disk has 2716 points: the
+/// work on them is in several blocks of 1024, which the threads share.
+#[test]
+fn threads_do_not_change_a_bit_of_the_model() {
+    let settings = ["mesh.file=../meshes/disk-2mm.msh", "correction.rule=mean"];
+    let model = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| Bench::new(DISK, &settings).model)
+    };
+    let one = model(1);
+    assert!(one.system.cloud.len() > 2048 && one.correction.sweeps > 20);
+    let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
+    for threads in [2, 3] {
+        let other = model(threads);
+        assert_eq!(other.system.bonds, one.system.bonds);
+        assert_eq!(other.correction, one.correction);
+        let arrays = |model: &Model| {
+            let system = &model.system;
+            let [x, y, biaxial, shear] = &model.fixed.energy_ratios;
+            [
+                &system.cloud.spacing,
+                &system.weight,
+                &system.axial_rigidity,
+                &system.shear_rigidity,
+                &system.rotational_rigidity,
+                &model.critical_stretch,
+                &model.fixed.domain_factor,
+                x,
+                y,
+                biaxial,
+                shear,
+            ]
+            .map(|values| bits(values))
+        };
+        assert!(arrays(&other) == arrays(&one), "{threads} threads");
     }
 }
 

@@ -100,7 +100,7 @@ pub fn check(
 }
 
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
-    writeln!(out, "time and memory so far")?;
+    writeln!(out, "time and memory")?;
     for stage in stages {
         writeln!(out, "  time, {:<15} {:.3} s", stage.name, stage.seconds)?;
     }

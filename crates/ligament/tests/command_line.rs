@@ -154,6 +154,32 @@ fn inspect_shows_the_groups() {
     }
 }
 
+/// With `--model-only` all stages of the preparation are reported and the matrix is not touched.
+#[test]
+fn check_can_leave_the_matrix_out() {
+    let case = data("brazilian-disk.toml");
+    let check = |more: &[&str]| {
+        let arguments = [OsStr::new("check"), case.as_os_str()];
+        let output = ligament(arguments.into_iter().chain(more.iter().map(OsStr::new)));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let (whole, model) = (check(&[]), check(&["--model-only"]));
+    for stage in ["read mesh", "points", "bonds", "correction", "rigidities"] {
+        let line = format!("\n  time, {stage} ");
+        assert!(whole.contains(&line) && model.contains(&line), "{stage}");
+    }
+    for line in ["\nequations\n", "\n  time, analysis "] {
+        assert!(whole.contains(line) && !model.contains(line), "{line}");
+    }
+    if cfg!(target_os = "linux") {
+        assert!(model.contains("\n  peak memory "), "{model}");
+    }
+    // Beside equations and times both say the same.
+    let head = |text: &str| text.split("time and memory\n").next().unwrap().to_owned();
+    assert!(whole.starts_with(&head(&model)), "{model}");
+}
+
 #[test]
 fn a_file_that_is_no_mesh_is_refused() {
     let output = ligament([

@@ -14,7 +14,8 @@ const NONE: u32 = u32::MAX;
 
 /// Indices of node records by their tags.
 pub(super) enum NodeIndices {
-    /// Indices at the places of the tags, where these leave no large gaps: a third of the time of a map.
+    /// Indices at the places of the tags, where these leave no large gaps: 0.1 s instead of 0.7 s for a
+    /// million nodes.
     Table(Vec<u32>),
     /// For any tags.
     Map(HashMap<u64, u32>),

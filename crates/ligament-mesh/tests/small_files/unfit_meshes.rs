@@ -55,6 +55,34 @@ fn duplicate_node_tags_are_refused() {
     );
 }
 
+/// Tags far apart are looked up in another way than the usual ones.
+#[test]
+fn tags_far_apart_are_read_and_refused_alike() {
+    let far = |text: &str| text.replace("4 0 1 0", "2000000000 0 1 0");
+    let apart = far(SQUARE).replace("3 2 2 2 1 1 3 4", "3 2 2 2 1 1 3 2000000000");
+    let mesh = parse(apart.as_bytes()).expect("a square");
+    assert_eq!(mesh.node_tags, [1, 2, 3, 2_000_000_000]);
+    let usual = parse(SQUARE.as_bytes()).expect("a square");
+    assert_eq!((mesh.positions, mesh.cells), (usual.positions, usual.cells));
+    assert_eq!(
+        parse(far(SQUARE).as_bytes()),
+        Err(GmshError::MissingNode {
+            place: Place::Line(15),
+            element: 3,
+            node: 4,
+        })
+    );
+    let twice = apart.replace("3 1 1 0", "2000000000 1 1 0");
+    assert_eq!(
+        parse(twice.as_bytes()),
+        Err(GmshError::DuplicateNodeTag {
+            place: Place::Line(9),
+            tag: 2_000_000_000,
+            first: Place::Line(8),
+        })
+    );
+}
+
 #[test]
 fn missing_nodes_are_refused() {
     let missing = |line, element| GmshError::MissingNode {
