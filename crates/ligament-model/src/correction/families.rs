@@ -42,6 +42,8 @@ pub(super) struct Families<'a> {
     target: Vec<f64>,
     /// e_A/etil_A along x and y, by rank.
     ratios: Vec<[f64; 2]>,
+    /// The same before the last sweep.
+    before: Vec<[f64; 2]>,
 }
 
 impl<'a> Families<'a> {
@@ -76,18 +78,19 @@ impl<'a> Families<'a> {
             order,
             blocks,
             target,
+            before: ratios.clone(),
             ratios,
         }
     }
 
     /// One sweep of NHPD eq. 13; the sum over the bonds of |change of Omega|.
     pub(super) fn sweep(&mut self) -> f64 {
-        let before = &self.ratios;
-        let mut ratios = vec![[0.0; 2]; before.len()];
+        std::mem::swap(&mut self.ratios, &mut self.before);
+        let before = &self.before;
         let changes: Vec<f64> = self
             .blocks
             .par_iter_mut()
-            .zip(ratios.par_chunks_mut(BLOCK))
+            .zip(self.ratios.par_chunks_mut(BLOCK))
             .zip(self.target.par_chunks(BLOCK))
             .enumerate()
             .map(|(number, ((block, ratios), target))| {
@@ -96,7 +99,6 @@ impl<'a> Families<'a> {
                 change
             })
             .collect();
-        self.ratios = ratios;
         // Every bond was met at either end.
         0.5 * changes.iter().sum::<f64>()
     }
