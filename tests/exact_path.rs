@@ -535,7 +535,11 @@ fn energies_balance_along_the_path() {
         assert!(run.breaks.len() > 50 && backwards > 20);
         let released = largest(at_rest().map(|step| step.released_energy));
         assert!(released > 1e-3 * work, "{released:e} of {work:e}");
-        assert!(at_rest().all(|step| step.solves <= 1));
+        // The way to the next event needs no solution, a breakage needs one; a body that barely hangs together, or an
+        // indefinite one, may need a refinement.
+        let refinements = at_rest().filter(|step| step.solves > 1).count();
+        assert!(at_rest().all(|step| step.solves <= 2));
+        assert!(refinements == 0 || !matches!(name, "pressed" | "pulled"));
         for pair in run.breaks.windows(2) {
             assert_eq!(pair[0].order + 1, pair[1].order);
         }

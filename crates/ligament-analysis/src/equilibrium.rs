@@ -23,6 +23,10 @@ use crate::unknowns::{COMPONENTS, Component, Unknowns};
 /// With linear bonds one solve gets there; the paper's second iterate, which would only confirm it, is skipped.
 const RESIDUAL_TOLERANCE: f64 = 1e-10;
 
+/// Residual above which a solution with a factor that was changed in place is refined once; usually it is some 1e-14, but
+/// bodies that barely hang together, and indefinite ones, magnify what rounding adds from breakage to breakage.
+const REFINEMENT_TOLERANCE: f64 = 1e-12;
+
 /// A residual above this is no equilibrium whatever the energies say.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
@@ -261,7 +265,12 @@ impl<'a> Equilibrium<'a> {
             let is_changed = self.stiffness.is_changed();
             let energy_settled =
                 !is_changed && change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
-            if residual <= RESIDUAL_TOLERANCE || energy_settled {
+            let tolerance = if is_changed && iterations == 1 {
+                REFINEMENT_TOLERANCE
+            } else {
+                RESIDUAL_TOLERANCE
+            };
+            if residual <= tolerance || energy_settled {
                 (balanced.iterations, balanced.mechanisms) = (iterations, mechanisms);
                 return Ok(Ok(balanced));
             }
