@@ -50,7 +50,7 @@ fn check(args: CheckArgs) -> anyhow::Result<()> {
     } else {
         Extent::Matrix
     };
-    check::check(&case, extent, args.out.as_deref(), &mut io::stdout().lock())
+    check::check(&case, extent, args.out.as_deref(), &mut io::stdout())
 }
 
 /// Limits the threads of all parallel work; without a number there is one a processor.
