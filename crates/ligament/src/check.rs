@@ -36,7 +36,7 @@ pub fn check(
     fields: Option<&Path>,
     out: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
-    resolve::threads(case)?.install(|| check_here(case, extent, fields, out))
+    resolve::on_threads(case, || check_here(case, extent, fields, out))?
 }
 
 /// Checks a case on the threads of the caller.
