@@ -26,7 +26,8 @@ pub(crate) struct Storage {
     form: Form,
     values: Vec<f64>,
     workspace: MemBuffer,
-    /// Diagonal of the matrix in the order of elimination, shape (n).
+    /// What went into the diagonal of the matrix, in the order of elimination, shape (n): |entry| plus |c w^2| of all
+    /// changes since.
     diagonal: Vec<f64>,
     negative_pivots: usize,
     /// Made when the factor is first changed in place.
@@ -63,7 +64,9 @@ impl Storage {
     /// Takes note of the matrix that was just factorised.
     pub(crate) fn factorised(&mut self, matrix: &SymmetricMatrix) {
         let unknowns = self.symbolic.unknown_of_row().iter();
-        self.diagonal = unknowns.map(|&unknown| matrix.diagonal(unknown)).collect();
+        self.diagonal = unknowns
+            .map(|&unknown| matrix.diagonal(unknown).abs())
+            .collect();
         let diagonal = self.symbolic.diagonal(&self.values);
         self.negative_pivots = diagonal.iter().filter(|pivot| **pivot < 0.0).count();
     }

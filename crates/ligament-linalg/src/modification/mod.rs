@@ -29,8 +29,8 @@ pub struct RankOne {
 /// Terms that go through the factor at once: their part of a panel stays in the cache.
 const TERMS_AT_ONCE: usize = 32;
 
-/// A pivot below this share of its own diagonal entry of the matrix counts as zero: what downdates leave of a zero is
-/// rounding, some 1e-14 of the entry.
+/// A pivot below this share of its own diagonal entry of the matrix counts as zero: what changes in place leave of a zero
+/// is rounding, some 1e-14 of all that went into the entry, which is what they compare with.
 pub const VANISHING_PIVOT: f64 = 1e-10;
 
 /// What changing a factor needs beside it. Rows are in the order of elimination.
@@ -50,7 +50,8 @@ pub(crate) struct Target<'a> {
     pub(crate) form: Form,
     pub(crate) supernodes: Supernodes<'a>,
     pub(crate) values: &'a mut [f64],
-    /// Diagonal of the matrix in the order of elimination, shape (n); changed along.
+    /// |entry| of the diagonal of the matrix plus |c w^2| of all changes since, in the order of elimination, shape (n);
+    /// changed along.
     pub(crate) diagonal: &'a mut [f64],
     /// Number of negative pivots; changed along.
     pub(crate) negative_pivots: &'a mut usize,
@@ -118,7 +119,7 @@ impl Modification {
             for &(unknown, value) in &term.entries {
                 let row = row_of_unknown[unknown];
                 self.on_the_way[TERMS_AT_ONCE * row + index] = value;
-                diagonal[row] += term.weight * value * value;
+                diagonal[row] += (term.weight * value * value).abs();
                 self.touch(row);
             }
         }

@@ -138,7 +138,7 @@ impl Terms {
                 Form::Ldlt => column[row],
             };
             // Also where it is no number.
-            if !(pivot.abs() > VANISHING_PIVOT * diagonal[row].abs()) {
+            if !(pivot.abs() > VANISHING_PIVOT * diagonal[row]) {
                 return Err(row);
             }
             more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
