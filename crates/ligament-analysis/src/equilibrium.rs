@@ -252,7 +252,7 @@ impl<'a> Equilibrium<'a> {
             iterations = 1;
         }
         loop {
-            let (residual_forces, mut balanced) = self.measure(state);
+            let mut balanced = self.measure(state);
             if iterations > 0 {
                 observer.iteration(iterations, balanced.residual, balanced.stored_energy)?;
             }
@@ -288,16 +288,17 @@ impl<'a> Equilibrium<'a> {
                 Ok(found) => mechanisms.extend(found),
                 Err(unbalanced) => return Ok(Err(unbalanced)),
             }
-            let mut correction = residual_forces;
-            self.stiffness.solve(&mut correction);
+            let (boundary, internal) = (self.boundary, &balanced.internal);
+            let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
+            let correction = self.stiffness.solve(state, force);
             self.add_correction(state, &correction);
             previous_energy = energy;
             iterations += 1;
         }
     }
 
-    /// Deformations, forces, residual and energy of a state, and F - K u at the unknowns.
-    fn measure(&mut self, state: &State) -> (Vec<f64>, Balanced) {
+    /// Deformations, forces, residual and energy of a state.
+    fn measure(&mut self, state: &State) -> Balanced {
         let start = Instant::now();
         let BondSweep {
             deformations,
@@ -308,19 +309,15 @@ impl<'a> Equilibrium<'a> {
         let residual = self.relative_residual(state, &residual_forces, &internal);
         self.count_bond_work(start);
         let energy_is_negative = stored_energy < -self.energy_of_rounding(state);
-        let mechanisms = Vec::new();
-        (
-            residual_forces,
-            Balanced {
-                deformations,
-                internal,
-                stored_energy,
-                residual,
-                iterations: 0,
-                energy_is_negative,
-                mechanisms,
-            },
-        )
+        Balanced {
+            deformations,
+            internal,
+            stored_energy,
+            residual,
+            iterations: 0,
+            energy_is_negative,
+            mechanisms: Vec::new(),
+        }
     }
 
     /// Inertia of the stiffness and of its rotation block for the state's bonds, once the state was balanced.
