@@ -114,6 +114,17 @@ pub enum Unbalanced {
         /// Component name.
         component: &'static str,
     },
+    /// L L^T was asked for where bonds have negative stiffness, and met a pivot that is not positive.
+    #[error(
+        "the stiffness is not positive definite, as L L^T needs (pivot at point {point}, component {component}): bonds \
+         have a negative shear stiffness (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\""
+    )]
+    NotPositiveDefinite {
+        /// Point index.
+        point: u32,
+        /// Component name.
+        component: &'static str,
+    },
     /// The stored energy is negative.
     #[error("the stiffness lost stability: negative stored energy {energy:.3e} J")]
     NegativeEnergy {
@@ -420,9 +431,11 @@ impl<'a> Equilibrium<'a> {
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.unknowns().degrees_of_freedom()[unknown] as usize;
         let point = (dof / COMPONENTS) as u32;
-        Unbalanced::VanishingPivot {
-            point,
-            component: Component::of(dof).name(),
+        let component = Component::of(dof).name();
+        if self.kind() == FactorKind::Llt && self.system.has_negative_stiffness() {
+            Unbalanced::NotPositiveDefinite { point, component }
+        } else {
+            Unbalanced::VanishingPivot { point, component }
         }
     }
 }
