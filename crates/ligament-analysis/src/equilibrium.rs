@@ -15,7 +15,7 @@ use crate::driver::Problem;
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::State;
-use crate::stiffness::{Costs, Ordering, Stiffness, Update};
+use crate::stiffness::{Costs, Ordering, SolverChoice, Stiffness};
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
@@ -180,19 +180,14 @@ impl<'a> Equilibrium<'a> {
         self.stiffness.unknowns()
     }
 
-    /// Which factorisation is used.
-    pub fn kind(&self) -> FactorKind {
-        self.stiffness.kind()
+    /// What was chosen to solve the equations.
+    pub fn choice(&self) -> &SolverChoice {
+        self.stiffness.choice()
     }
 
-    /// Which order of elimination is used.
-    pub fn ordering(&self) -> Ordering {
-        self.stiffness.ordering()
-    }
-
-    /// What happens to the factor when bonds break.
-    pub fn update(&self) -> Update {
-        self.stiffness.update()
+    /// The structure of the factor in another order of elimination.
+    pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
+        self.stiffness.analysed_with(ordering)
     }
 
     /// Structure of the factor.
@@ -432,7 +427,8 @@ impl<'a> Equilibrium<'a> {
         let dof = self.unknowns().degrees_of_freedom()[unknown] as usize;
         let point = (dof / COMPONENTS) as u32;
         let component = Component::of(dof).name();
-        if self.kind() == FactorKind::Llt && self.system.has_negative_stiffness() {
+        let is_llt = self.choice().factorisation == FactorKind::Llt;
+        if is_llt && self.system.has_negative_stiffness() {
             Unbalanced::NotPositiveDefinite { point, component }
         } else {
             Unbalanced::VanishingPivot { point, component }
