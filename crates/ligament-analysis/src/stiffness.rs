@@ -212,9 +212,7 @@ impl<'a> Stiffness<'a> {
         let in_place = self.update == Update::Incremental
             && self.n_broken / self.rebuild_every == period_before
             && self.change_pays(broken.len());
-        let Some(mut factor) = self.factor.take().filter(|_| in_place) else {
-            return None;
-        };
+        let mut factor = self.factor.take().filter(|_| in_place)?;
         let start = Instant::now();
         let terms = self.terms(&broken, &held);
         let force = self.unbalanced_force(&broken, state);

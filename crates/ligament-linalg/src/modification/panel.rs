@@ -138,7 +138,7 @@ impl Terms {
                 Form::Ldlt => column[row],
             };
             // Also where it is no number.
-            if !(pivot.abs() > VANISHING_PIVOT * diagonal[row].abs()) {
+            if pivot.is_nan() || pivot.abs() <= VANISHING_PIVOT * diagonal[row].abs() {
                 return Err(row);
             }
             more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
@@ -172,6 +172,8 @@ impl Terms {
             for column in &columns {
                 assert_eq!(column.0.len(), w.len());
             }
+            // By index: with the lengths asserted above, no access is checked.
+            #[expect(clippy::needless_range_loop)]
             for r in 0..w.len() {
                 let mut value = w[r];
                 for k in 0..WIDTH {
@@ -213,7 +215,7 @@ fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> Option<Rotation> {
 fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> Option<Rotation> {
     let old = *root;
     let new = old * old + *weight * w * w;
-    if !(new > 0.0) {
+    if new.is_nan() || new <= 0.0 {
         return None;
     }
     let new_root = new.sqrt();
