@@ -151,42 +151,48 @@ fn the_correction_makes_uniaxial_energies_right() {
     }
 }
 
-/// One, two or three threads: no bit of bonds, correction, energies and rigidities differs. The disk has 2716 points: the
-/// work on them is in several blocks of 1024, which the threads share.
+/// One, two or three threads: no bit of bonds, correction, energies and rigidities differs. The disk has 4808 points: the
+/// work on them is in several blocks of 1024, which the threads share. The sums over all bonds of the changes of Omega are
+/// one number a correction: several are compared, ended after 1 to 8 sweeps and at their end.
 #[test]
 fn threads_do_not_change_a_bit_of_the_model() {
-    let settings = ["mesh.file=../meshes/disk-2mm.msh", "correction.rule=mean"];
-    let model = |threads| {
+    let model = |threads, sweeps: usize| {
+        let limit = format!("correction.max_sweeps={sweeps}");
+        let mesh = "mesh.file=../meshes/disk-1.5mm.msh";
+        let settings = [mesh, "correction.rule=mean", limit.as_str()];
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
         pool.install(|| Bench::new(DISK, &settings).model)
     };
-    let one = model(1);
-    assert!(one.system.cloud.len() > 2048 && one.correction.sweeps > 20);
     let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
-    for threads in [2, 3] {
-        let other = model(threads);
-        assert_eq!(other.system.bonds, one.system.bonds);
-        assert_eq!(other.correction, one.correction);
-        let arrays = |model: &Model| {
-            let system = &model.system;
-            let [x, y, biaxial, shear] = &model.fixed.energy_ratios;
-            [
-                &system.cloud.spacing,
-                &system.weight,
-                &system.axial_rigidity,
-                &system.shear_rigidity,
-                &system.rotational_rigidity,
-                &model.critical_stretch,
-                &model.fixed.domain_factor,
-                x,
-                y,
-                biaxial,
-                shear,
-            ]
-            .map(|values| bits(values))
-        };
-        assert!(arrays(&other) == arrays(&one), "{threads} threads");
+    let arrays = |model: &Model| {
+        let system = &model.system;
+        let [x, y, biaxial, shear] = &model.fixed.energy_ratios;
+        [
+            &system.cloud.spacing,
+            &system.weight,
+            &system.axial_rigidity,
+            &system.shear_rigidity,
+            &system.rotational_rigidity,
+            &model.critical_stretch,
+            &model.fixed.domain_factor,
+            x,
+            y,
+            biaxial,
+            shear,
+        ]
+        .map(|values| bits(values))
+    };
+    for sweeps in (1..=8).chain([10_000]) {
+        let one = model(1, sweeps);
+        assert_eq!(one.system.cloud.len(), 4808);
+        assert_eq!(one.correction.converged, sweeps > 8);
+        for threads in [2, 3] {
+            let other = model(threads, sweeps);
+            assert_eq!(other.system.bonds, one.system.bonds);
+            assert_eq!(other.correction, one.correction, "{threads} threads");
+            assert!(arrays(&other) == arrays(&one), "{threads} threads");
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
+use ligament_linalg::{FactorError, PatternError, Symbolic};
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
 use rayon::prelude::*;
@@ -15,7 +15,7 @@ use crate::driver::Problem;
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::State;
-use crate::stiffness::{Costs, Ordering, Stiffness, Update};
+use crate::stiffness::{Costs, Ordering, SolverChoice, Stiffness};
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
@@ -169,19 +169,14 @@ impl<'a> Equilibrium<'a> {
         self.stiffness.unknowns()
     }
 
-    /// Which factorisation is used.
-    pub fn kind(&self) -> FactorKind {
-        self.stiffness.kind()
+    /// What was chosen to solve the equations.
+    pub fn choice(&self) -> &SolverChoice {
+        self.stiffness.choice()
     }
 
-    /// Which order of elimination is used.
-    pub fn ordering(&self) -> Ordering {
-        self.stiffness.ordering()
-    }
-
-    /// What happens to the factor when bonds break.
-    pub fn update(&self) -> Update {
-        self.stiffness.update()
+    /// The structure of the factor in another order of elimination.
+    pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
+        self.stiffness.analysed_with(ordering)
     }
 
     /// Structure of the factor.

@@ -1,12 +1,12 @@
 //! Deformations, internal forces and energies of the bonds.
 
-use ligament_model::element::beam::{BondDeformation, BondForce};
-use ligament_model::{BondSystem, ordered_sum};
+use ligament_model::BondSystem;
+use ligament_model::element::beam::{BondDeformation, BondResponse};
 use rayon::prelude::*;
 
 use crate::unknowns::COMPONENTS;
 
-/// Bonds, or points, that make a task worth while.
+/// Bonds, or points, of one task; fixed for the points, so that the order of summation is fixed too.
 const BLOCK: usize = 2048;
 
 /// What a sweep over all bonds gives.
@@ -36,67 +36,78 @@ pub struct InternalForces {
 /// The forces at a point are added by one thread over its bonds in their order, so that nothing depends on the number of
 /// threads.
 pub fn sweep(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
-    let (mut deformations, mut bond_forces) = (Vec::new(), Vec::new());
+    let (mut deformations, mut responses) = (Vec::new(), Vec::new());
     (0..system.bonds.len())
         .into_par_iter()
         .with_min_len(BLOCK)
         .map(|bond| {
             let deformation = system.deformation(bond, displacement);
-            let force = if intact[bond] {
-                system.element(bond).force(&deformation)
+            let response = if intact[bond] {
+                system.element(bond).response(&deformation)
             } else {
-                BondForce::default()
+                BondResponse::default()
             };
-            (deformation, force)
+            (deformation, response)
         })
-        .unzip_into_vecs(&mut deformations, &mut bond_forces);
-    let stored_energy = ordered_sum(system.bonds.len(), |bond| {
-        if intact[bond] {
-            system.element(bond).energy(&deformations[bond])
-        } else {
-            0.0
-        }
-    });
+        .unzip_into_vecs(&mut deformations, &mut responses);
     let mut values = vec![0.0; COMPONENTS * system.cloud.len()];
-    let sizes: Vec<[f64; COMPONENTS]> = values
+    let sums: Vec<Gathered> = values
         .par_chunks_mut(COMPONENTS * BLOCK)
         .enumerate()
-        .map(|(block, values)| gather(system, &bond_forces, BLOCK * block, values))
+        .map(|(block, values)| gather(system, &responses, BLOCK * block, values))
         .collect();
-    let largest = |component: usize| sizes.iter().map(|size| size[component]).fold(0.0, f64::max);
+    let largest = |component: usize| {
+        sums.iter()
+            .map(|block| block.largest[component])
+            .fold(0.0, f64::max)
+    };
     BondSweep {
         internal: InternalForces {
             force_scale: largest(0).max(largest(1)),
             moment_scale: largest(2),
             values,
         },
-        stored_energy,
+        stored_energy: sums.iter().map(|block| block.energy).sum(),
         deformations,
     }
 }
 
-/// Adds up the forces of the bonds at the points from `first_point` on; gives the largest sums of their sizes.
+/// What a block of points gives besides its forces.
+#[derive(Default)]
+struct Gathered {
+    /// Energy of the bonds whose first ends are in the block.
+    energy: f64,
+    /// Largest sum of the sizes of the forces at a point, for each component.
+    largest: [f64; COMPONENTS],
+}
+
+/// Adds up the forces of the bonds at the points from `first_point` on.
 fn gather(
     system: &BondSystem,
-    bond_forces: &[BondForce],
+    responses: &[BondResponse],
     first_point: usize,
     values: &mut [f64],
-) -> [f64; COMPONENTS] {
-    let mut largest = [0.0_f64; COMPONENTS];
+) -> Gathered {
+    let mut gathered = Gathered::default();
     for (index, sum) in values.chunks_exact_mut(COMPONENTS).enumerate() {
         let point = (first_point + index) as u32;
         let mut size = [0.0; COMPONENTS];
         for &bond in system.bonds.incidence.of(point) {
+            let response = &responses[bond as usize];
             let end = usize::from(system.bonds.ends[bond as usize][1] == point);
-            let force = bond_forces[bond as usize].at_end(end);
+            if end == 0 {
+                gathered.energy += response.energy;
+            }
+            let force = response.at_end(end);
             for component in 0..COMPONENTS {
                 sum[component] += force[component];
                 size[component] += force[component].abs();
             }
         }
-        largest = [0, 1, 2].map(|component| largest[component].max(size[component]));
+        gathered.largest =
+            [0, 1, 2].map(|component| gathered.largest[component].max(size[component]));
     }
-    largest
+    gathered
 }
 
 /// Largest |external - internal force| over the given degrees of freedom, relative to the forces that meet at a point.

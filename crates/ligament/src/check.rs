@@ -1,5 +1,7 @@
 //! `ligament check`: everything up to the first solve, or the model alone, and what it takes.
 
+mod equations;
+
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -18,14 +20,6 @@ use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
 use crate::stages::{Stage, Stages};
 use crate::summary::{Spread, correction_line, family};
 
-/// Bytes that a stored value of the factor takes.
-const FACTOR_VALUE: usize = size_of::<f64>();
-
-/// Bytes of one bond while equations are solved: 96 of the model (its record, rigidities, limit and two entries in the lists
-/// of its ends), the rest for state, deformation, points and cells. The estimate lies 0 to 6 % below what runs of 106,000 to
-/// 10,000 points took. The correction, which is over by then, takes 170 at its peak.
-const BOND: usize = 250;
-
 /// How far a check goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
@@ -37,6 +31,16 @@ pub enum Extent {
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
 pub fn check(
+    case: &CaseFile,
+    extent: Extent,
+    fields: Option<&Path>,
+    out: &mut (dyn Write + Send),
+) -> anyhow::Result<()> {
+    resolve::on_threads(case, || check_here(case, extent, fields, out))?
+}
+
+/// Checks a case on the threads of the caller.
+fn check_here(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,
@@ -75,7 +79,7 @@ pub fn check(
     write_boundary(out, &model.mesh, &boundary, &probes)?;
     write_loading(out, case)?;
     if let Some(equilibrium) = &equilibrium {
-        write_equations(out, &model, equilibrium)?;
+        equations::write(out, case, &model, equilibrium)?;
     }
     write_stages(out, stages.done())?;
     let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
@@ -278,32 +282,4 @@ fn place(mesh: &Mesh, point: u32) -> String {
     let [x, y] = mesh.positions[point as usize];
     let tag = mesh.node_tags[point as usize];
     format!("node {tag} at ({x:.6}, {y:.6})")
-}
-
-fn write_equations(
-    out: &mut dyn Write,
-    model: &Model,
-    equilibrium: &Equilibrium<'_>,
-) -> io::Result<()> {
-    let symbolic = equilibrium.symbolic();
-    let matrix = symbolic.pattern().n_entries();
-    let factor = symbolic.n_factor_values();
-    // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.
-    let bytes = FACTOR_VALUE * factor + 4 * FACTOR_VALUE * matrix + BOND * model.system.bonds.len();
-    writeln!(out, "equations")?;
-    writeln!(
-        out,
-        "  unknowns              {}",
-        equilibrium.unknowns().len()
-    )?;
-    writeln!(
-        out,
-        "  factorisation         {:?}, minimum degree ordering",
-        equilibrium.kind()
-    )?;
-    writeln!(
-        out,
-        "  entries               {matrix} in the matrix, {factor} in the factor"
-    )?;
-    writeln!(out, "  estimated memory      {:.1} MB", bytes as f64 / 1e6)
 }

@@ -133,7 +133,7 @@ pub struct CaseArgs {
     /// Change a setting of the case file, e.g. model.horizon_factor=4 (may be repeated)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Threads to compute with [default: one per processor]
+    /// Threads to compute with [default: solver.threads of the case, or one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
 }

@@ -5,9 +5,11 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
-use ligament::case::CaseFile;
+use ligament::case::{CaseError, CaseFile};
 use ligament::check::Extent;
-use ligament::cli::{CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs};
+use ligament::cli::{
+    CaseArgs, CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs,
+};
 use ligament::mesh_command::{MeshRequest, make_mesh};
 use ligament::progress::ProgressMode;
 use ligament::{check, inspect, run};
@@ -31,8 +33,7 @@ fn main() -> ExitCode {
 }
 
 fn run(args: RunArgs) -> anyhow::Result<()> {
-    set_threads(args.case.threads)?;
-    let case = CaseFile::load(&args.case.file, &args.case.overrides)?;
+    let case = load(args.case)?;
     let out = args
         .out
         .unwrap_or_else(|| Path::new("results").join(case.name()));
@@ -43,20 +44,21 @@ fn run(args: RunArgs) -> anyhow::Result<()> {
 }
 
 fn check(args: CheckArgs) -> anyhow::Result<()> {
-    set_threads(args.case.threads)?;
-    let case = CaseFile::load(&args.case.file, &args.case.overrides)?;
+    let case = load(args.case)?;
     let extent = if args.model_only {
         Extent::Model
     } else {
         Extent::Matrix
     };
-    check::check(&case, extent, args.out.as_deref(), &mut io::stdout().lock())
+    check::check(&case, extent, args.out.as_deref(), &mut io::stdout())
 }
 
-/// Limits the threads of all parallel work; without a number there is one a processor.
-fn set_threads(threads: Option<u16>) -> anyhow::Result<()> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0).into());
-    Ok(pool.build_global()?)
+/// Reads the case, with the threads of the command line before its own.
+fn load(args: CaseArgs) -> Result<CaseFile, CaseError> {
+    let mut case = CaseFile::load(&args.file, &args.overrides)?;
+    let threads = &mut case.case.solver.threads;
+    *threads = args.threads.map(u32::from).or(*threads);
+    Ok(case)
 }
 
 fn inspect(args: &InspectArgs) -> anyhow::Result<()> {

@@ -166,7 +166,7 @@ pub fn run(
     force: bool,
     mode: ProgressMode,
 ) -> anyhow::Result<Summary> {
-    resolve::threads(case)?.install(|| run_here(case, out, force, mode))
+    resolve::on_threads(case, || run_here(case, out, force, mode))?
 }
 
 /// Runs a case on the threads of the caller.

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
+use ligament_analysis::stiffness::{FactorKind, Ordering, Update};
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
@@ -55,7 +56,7 @@ pub struct Summary {
     pub energy_balance_error: f64,
     /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
     pub stability: Option<StabilitySummary>,
-    /// Factorisations and solves.
+    /// The solver and its work.
     pub solver: SolverSummary,
     /// Wall time and peak memory of the stages.
     pub stages: Vec<Stage>,
@@ -146,9 +147,17 @@ pub struct StabilitySummary {
     pub expected: usize,
 }
 
-/// Work of the solver.
+/// The solver and its work.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SolverSummary {
+    /// Factorisation: `llt` or `ldlt`.
+    pub factorisation: &'static str,
+    /// Order of elimination: `nested-dissection` or `minimum-degree`.
+    pub ordering: &'static str,
+    /// What happened to the factor when bonds broke: `incremental` or `refactor`.
+    pub update: &'static str,
+    /// Threads.
+    pub threads: usize,
     /// Factorisations.
     pub factorisations: usize,
     /// Changes of a factor in place.
@@ -321,8 +330,21 @@ impl CorrectionSummary {
 
 impl SolverSummary {
     fn new(outcome: &Outcome) -> Self {
-        let costs = &outcome.costs;
+        let (costs, choice) = (&outcome.costs, &outcome.solver);
         Self {
+            factorisation: match choice.factorisation {
+                FactorKind::Llt => "llt",
+                FactorKind::Ldlt => "ldlt",
+            },
+            ordering: match choice.ordering {
+                Ordering::NestedDissection => "nested-dissection",
+                Ordering::MinimumDegree => "minimum-degree",
+            },
+            update: match choice.update {
+                Update::Incremental => "incremental",
+                Update::Refactor => "refactor",
+            },
+            threads: rayon::current_num_threads(),
             factorisations: costs.factorisations,
             changes: costs.changes,
             solves: costs.solves,

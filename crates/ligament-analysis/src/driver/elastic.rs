@@ -76,5 +76,6 @@ pub fn run(
         first_break: None,
         stability: start.elastic.stability,
         costs: *equilibrium.costs(),
+        solver: *equilibrium.choice(),
     })
 }

@@ -3,7 +3,7 @@
 use crate::equilibrium::Stability;
 use crate::history::{StepRecord, Termination};
 use crate::state::State;
-use crate::stiffness::Costs;
+use crate::stiffness::{Costs, SolverChoice};
 
 /// How a run went.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +24,8 @@ pub struct Outcome {
     pub stability: Option<Stability>,
     /// What the equations cost.
     pub costs: Costs,
+    /// How the equations were solved.
+    pub solver: SolverChoice,
 }
 
 /// What the records of a history are.

@@ -298,6 +298,7 @@ impl<'a> Path<'a> {
             first_break: self.elastic.first_break,
             stability: self.elastic.stability,
             costs: *self.equilibrium.costs(),
+            solver: *self.equilibrium.choice(),
             state: self.state,
         }
     }

@@ -10,16 +10,31 @@ use super::domain::StrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
-/// Points a block; fixed, so that the order of summation is fixed too.
+/// Points whose changes of Omega are added up first; fixed, so that the order of summation is fixed too.
 const BLOCK: usize = 1024;
 
 /// Members of a family whose factors are computed at once: square roots and divisions go in pairs through the processor.
 const LANES: usize = 4;
 
-/// The families of some points, one after the other; all but `ends` are arrays over their members.
-struct Block {
-    /// Where the family of each point ends, shape (points of the block).
-    ends: Vec<u32>,
+/// The families of all points along the curve; `rank` is the place of a point on it.
+pub(super) struct Families<'a> {
+    bonds: &'a BondSet,
+    cloud: &'a PointCloud,
+    members: Members,
+    /// Omega of each member.
+    domain_factor: Vec<f64>,
+    /// e_A of the continuum, by rank, J/m^3.
+    target: Vec<f64>,
+    /// e_A/etil_A along x and y, by rank.
+    ratios: Vec<[f64; 2]>,
+    /// The same before the last sweep.
+    before: Vec<[f64; 2]>,
+}
+
+/// What sweeps do not change; all but `starts` are arrays over the members of the families, one after the other.
+struct Members {
+    /// Where the family of each rank starts, and where the last one ends.
+    starts: Vec<usize>,
     /// Rank of the other end B.
     neighbour: Vec<u32>,
     /// a^2.
@@ -28,22 +43,6 @@ struct Block {
     along_y: Vec<f64>,
     /// 1/4 V_B times the bond's density under a strain of size one along x and along y, J/m^3.
     energy: Vec<[f64; 2]>,
-    /// Omega.
-    domain_factor: Vec<f64>,
-}
-
-/// The families of all points, with the factors Omega as they are.
-pub(super) struct Families<'a> {
-    bonds: &'a BondSet,
-    /// The points in the order of their ranks.
-    order: &'a [u32],
-    blocks: Vec<Block>,
-    /// e_A of the continuum, by rank, J/m^3.
-    target: Vec<f64>,
-    /// e_A/etil_A along x and y, by rank.
-    ratios: Vec<[f64; 2]>,
-    /// The same before the last sweep.
-    before: Vec<[f64; 2]>,
 }
 
 impl<'a> Families<'a> {
@@ -57,26 +56,22 @@ impl<'a> Families<'a> {
         density: impl Fn(StrainMode, usize) -> f64 + Sync,
         target: &[f64],
     ) -> Self {
-        let order = &cloud.curve;
-        let mut ranks = vec![0; order.len()];
-        for (rank, &point) in order.iter().enumerate() {
-            ranks[point as usize] = rank as u32;
-        }
-        let blocks: Vec<Block> = order
-            .par_chunks(BLOCK)
-            .map(|points| Block::new(points, bonds, cloud, &ranks, &density))
+        let members = Members::new(bonds, cloud, density);
+        let domain_factor = vec![1.0; members.neighbour.len()];
+        let by_rank = cloud.curve.iter().map(|&point| target[point as usize]);
+        let target: Vec<f64> = by_rank.collect();
+        let ratios: Vec<[f64; 2]> = (0..cloud.len())
+            .into_par_iter()
+            .map(|rank| {
+                let factors = &domain_factor[members.family(rank)];
+                members.energy_ratios(rank, factors, target[rank])
+            })
             .collect();
-        let target: Vec<f64> = order.iter().map(|&point| target[point as usize]).collect();
-        let mut ratios = vec![[0.0; 2]; order.len()];
-        blocks
-            .par_iter()
-            .zip(ratios.par_chunks_mut(BLOCK))
-            .zip(target.par_chunks(BLOCK))
-            .for_each(|((block, ratios), target)| block.energy_ratios(target, ratios));
         Self {
             bonds,
-            order,
-            blocks,
+            cloud,
+            members,
+            domain_factor,
             target,
             before: ratios.clone(),
             ratios,
@@ -86,17 +81,22 @@ impl<'a> Families<'a> {
     /// One sweep of NHPD eq. 13; the sum over the bonds of |change of Omega|.
     pub(super) fn sweep(&mut self) -> f64 {
         std::mem::swap(&mut self.ratios, &mut self.before);
-        let before = &self.before;
-        let changes: Vec<f64> = self
-            .blocks
-            .par_iter_mut()
-            .zip(self.ratios.par_chunks_mut(BLOCK))
-            .zip(self.target.par_chunks(BLOCK))
+        let (members, before, target) = (&self.members, &self.before, &self.target);
+        let changes: Vec<f64> = (
+            members.blocks(&mut self.domain_factor),
+            self.ratios.par_chunks_mut(BLOCK),
+        )
+            .into_par_iter()
             .enumerate()
-            .map(|(number, ((block, ratios), target))| {
-                let change = block.update(number * BLOCK, before);
-                block.energy_ratios(target, ratios);
-                change
+            .map(|(number, (mut factors, ratios))| {
+                let mut change = [0.0; LANES];
+                for (rank, ratio) in (number * BLOCK..).zip(ratios) {
+                    let own;
+                    (own, factors) = factors.split_at_mut(members.family(rank).len());
+                    members.update(rank, before, own, &mut change);
+                    *ratio = members.energy_ratios(rank, own, target[rank]);
+                }
+                change.iter().sum()
             })
             .collect();
         // Every bond was met at either end.
@@ -112,116 +112,140 @@ impl<'a> Families<'a> {
     /// Omega of every bond, shape (n_bonds).
     pub(super) fn into_domain_factors(self) -> Vec<f64> {
         let mut factors = vec![0.0; self.bonds.len()];
-        for (points, block) in self.order.chunks(BLOCK).zip(self.blocks) {
-            for (&point, members) in points.iter().zip(block.families()) {
-                // The bonds whose first end is the point follow one another, at the end of its family.
-                let family = self.bonds.incidence.of(point);
-                let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
-                let others = family.partition_point(is_second);
-                if let Some(&bond) = family.get(others) {
-                    let own = &block.domain_factor[members.start + others..members.end];
-                    factors[bond as usize..][..own.len()].copy_from_slice(own);
-                }
+        for (rank, &point) in self.cloud.curve.iter().enumerate() {
+            // The bonds whose first end is the point follow one another, at the end of its family.
+            let family = self.bonds.incidence.of(point);
+            let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
+            let others = family.partition_point(is_second);
+            if let Some(&bond) = family.get(others) {
+                let own = &self.domain_factor[self.members.family(rank)][others..];
+                factors[bond as usize..][..own.len()].copy_from_slice(own);
             }
         }
         factors
     }
 }
 
-impl Block {
+impl Members {
     fn new(
-        points: &[u32],
         bonds: &BondSet,
         cloud: &PointCloud,
-        ranks: &[u32],
-        density: impl Fn(StrainMode, usize) -> f64,
+        density: impl Fn(StrainMode, usize) -> f64 + Sync,
     ) -> Self {
-        let sizes = points.iter().map(|&point| bonds.incidence.of(point).len());
-        let size = sizes.sum();
-        let mut block = Self {
-            ends: Vec::with_capacity(points.len()),
-            neighbour: Vec::with_capacity(size),
-            along_x: Vec::with_capacity(size),
-            along_y: Vec::with_capacity(size),
-            energy: Vec::with_capacity(size),
-            domain_factor: vec![1.0; size],
+        let mut ranks = vec![0; cloud.len()];
+        let mut starts = vec![0];
+        let mut size = 0;
+        for (rank, &point) in cloud.curve.iter().enumerate() {
+            ranks[point as usize] = rank as u32;
+            size += bonds.incidence.of(point).len();
+            starts.push(size);
+        }
+        let mut members = Self {
+            starts,
+            neighbour: Vec::new(),
+            along_x: Vec::new(),
+            along_y: Vec::new(),
+            energy: Vec::new(),
         };
-        for &point in points {
-            for &bond in bonds.incidence.of(point) {
-                let neighbour = bonds.neighbour(bond, point) as usize;
-                let bond = bond as usize;
-                let [a, b] = bonds.direction[bond];
-                let quarter = 0.25 * cloud.volumes[neighbour];
-                block.neighbour.push(ranks[neighbour]);
-                block.along_x.push(a * a);
-                block.along_y.push(b * b);
-                let modes = [StrainMode::UniaxialX, StrainMode::UniaxialY];
-                block
-                    .energy
-                    .push(modes.map(|mode| quarter * density(mode, bond)));
-            }
-            block.ends.push(block.neighbour.len() as u32);
-        }
-        block
-    }
-
-    /// The members of the family of each point.
-    fn families(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
-        let mut start = 0;
-        let ends = self.ends.iter().map(|&end| end as usize);
-        ends.map(move |end| std::mem::replace(&mut start, end)..end)
-    }
-
-    /// Omega of every member after NHPD eq. 13, from the ratios of all points; `first` is the rank of the first point.
-    /// Gives the sum of |change of Omega|.
-    fn update(&mut self, first: usize, ratios: &[[f64; 2]]) -> f64 {
-        let mut change = [0.0; LANES];
-        let mut start = 0;
-        for (point, &end) in self.ends.iter().enumerate() {
-            let family = start..end as usize;
-            start = end as usize;
-            let own = ratios[first + point];
-            let (neighbours, last_neighbours) = self.neighbour[family.clone()].as_chunks();
-            let (along_x, last_along_x) = self.along_x[family.clone()].as_chunks();
-            let (along_y, last_along_y) = self.along_y[family.clone()].as_chunks();
-            let (factors, last_factors) = self.domain_factor[family].as_chunks_mut();
-            let members = neighbours.iter().zip(along_x).zip(along_y).zip(factors);
-            for (((neighbours, aa), bb), factors) in members {
-                update(own, ratios, neighbours, aa, bb, factors, &mut change);
-            }
-            let members = (last_neighbours.iter().zip(last_along_x))
-                .zip(last_along_y)
-                .zip(last_factors);
-            for (((&neighbour, &aa), &bb), factor) in members {
-                let factor = std::array::from_mut(factor);
-                let [change, ..] = &mut change;
-                let change = std::array::from_mut(change);
-                update(own, ratios, &[neighbour], &[aa], &[bb], factor, change);
-            }
-        }
-        change.iter().sum()
-    }
-
-    /// e_A/etil_A along x and y of the points, with the trial energy density of NHPD eq. 12.
-    fn energy_ratios(&self, target: &[f64], ratios: &mut [[f64; 2]]) {
-        for ((family, e), ratio) in self.families().zip(target).zip(ratios) {
-            let members = self.energy[family.clone()]
-                .iter()
-                .zip(&self.domain_factor[family]);
-            let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
-                [x + omega * density[0], y + omega * density[1]]
+        let mut neighbour = vec![0; size];
+        let mut along_x = vec![0.0; size];
+        let mut along_y = vec![0.0; size];
+        let mut energy = vec![[0.0; 2]; size];
+        (
+            cloud.curve.par_chunks(BLOCK),
+            members.blocks(&mut neighbour),
+            members.blocks(&mut along_x),
+            members.blocks(&mut along_y),
+            members.blocks(&mut energy),
+        )
+            .into_par_iter()
+            .for_each(|(points, neighbour, along_x, along_y, energy)| {
+                let of_point =
+                    |&point: &u32| bonds.incidence.of(point).iter().map(move |&b| (point, b));
+                for (k, (point, bond)) in points.iter().flat_map(of_point).enumerate() {
+                    let other = bonds.neighbour(bond, point) as usize;
+                    let bond = bond as usize;
+                    let [a, b] = bonds.direction[bond];
+                    let quarter = 0.25 * cloud.volumes[other];
+                    neighbour[k] = ranks[other];
+                    along_x[k] = a * a;
+                    along_y[k] = b * b;
+                    energy[k] = [StrainMode::UniaxialX, StrainMode::UniaxialY]
+                        .map(|mode| quarter * density(mode, bond));
+                }
             });
-            *ratio = trial.map(|trial| e / trial);
+        members.neighbour = neighbour;
+        members.along_x = along_x;
+        members.along_y = along_y;
+        members.energy = energy;
+        members
+    }
+
+    /// Members of the family of a rank.
+    fn family(&self, rank: usize) -> std::ops::Range<usize> {
+        self.starts[rank]..self.starts[rank + 1]
+    }
+
+    /// An array over the members, cut into those of the points of each block.
+    fn blocks<'a, T>(&self, mut values: &'a mut [T]) -> Vec<&'a mut [T]> {
+        let starts = self.starts.iter().step_by(BLOCK).skip(1);
+        let mut cut = 0;
+        let mut blocks = Vec::new();
+        for &start in starts {
+            let block;
+            (block, values) = values.split_at_mut(start - cut);
+            cut = start;
+            blocks.push(block);
         }
+        if !(self.starts.len() - 1).is_multiple_of(BLOCK) {
+            blocks.push(values);
+        }
+        blocks
+    }
+
+    /// NHPD eq. 13 for the `factors` Omega of a family, from the ratios of all points; adds |change of Omega|.
+    fn update(
+        &self,
+        rank: usize,
+        ratios: &[[f64; 2]],
+        factors: &mut [f64],
+        change: &mut [f64; LANES],
+    ) {
+        let (family, own) = (self.family(rank), ratios[rank]);
+        let (neighbours, last_neighbours) = self.neighbour[family.clone()].as_chunks();
+        let (along_x, last_along_x) = self.along_x[family.clone()].as_chunks();
+        let (along_y, last_along_y) = self.along_y[family].as_chunks();
+        let (factors, last_factors) = factors.as_chunks_mut();
+        let members = neighbours.iter().zip(along_x).zip(along_y).zip(factors);
+        for (((neighbours, aa), bb), factors) in members {
+            update_members(own, ratios, neighbours, aa, bb, factors, change);
+        }
+        let members = (last_neighbours.iter().zip(last_along_x))
+            .zip(last_along_y)
+            .zip(last_factors);
+        for (((&neighbour, &aa), &bb), factor) in members {
+            let (factor, [change, ..]) = (std::array::from_mut(factor), &mut *change);
+            let change = std::array::from_mut(change);
+            update_members(own, ratios, &[neighbour], &[aa], &[bb], factor, change);
+        }
+    }
+
+    /// e_A/etil_A along x and y of a point, with the trial energy density of NHPD eq. 12.
+    fn energy_ratios(&self, rank: usize, factors: &[f64], target: f64) -> [f64; 2] {
+        let members = self.energy[self.family(rank)].iter().zip(factors);
+        let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
+            [x + omega * density[0], y + omega * density[1]]
+        });
+        trial.map(|trial| target / trial)
     }
 }
 
-/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all; adds |change of Omega|.
+/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all.
 ///
 /// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
 /// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)).
 #[inline(always)]
-fn update<const N: usize>(
+fn update_members<const N: usize>(
     own: [f64; 2],
     ratios: &[[f64; 2]],
     neighbours: &[u32; N],

@@ -15,7 +15,7 @@ use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update}
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::{BondSystem, Material, Plane};
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Stepping, Steps};
 
@@ -149,10 +149,18 @@ pub fn solver(case: &CaseFile) -> SolverSettings {
     }
 }
 
-/// The threads that a case asks for: all of them unless it gives a number.
-pub fn threads(case: &CaseFile) -> Result<ThreadPool, ThreadPoolBuildError> {
-    let count = case.case.solver.threads.unwrap_or_default() as usize;
-    ThreadPoolBuilder::new().num_threads(count).build()
+/// Does some work on as many threads as a case asks for: on those of the program unless it gives a number.
+pub fn on_threads<T: Send>(
+    case: &CaseFile,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, ThreadPoolBuildError> {
+    match case.case.solver.threads {
+        None => Ok(work()),
+        Some(count) => {
+            let pool = ThreadPoolBuilder::new().num_threads(count as usize);
+            Ok(pool.build()?.install(work))
+        }
+    }
 }
 
 /// The probes.
