@@ -98,7 +98,6 @@ fn reactions_balance() {
     let run = bench.solve();
     let system = &bench.model.system;
     let internal::BondSweep {
-        deformations,
         internal: InternalForces {
             values: internal, ..
         },

@@ -1,61 +1,155 @@
-//! What an equilibrium and a breakage are made of, besides factorisation and solve, on the disk of the Brazilian test.
+//! What an equilibrium and a breakage are made of, and a breakage as a whole, on the disk of the Brazilian test.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::hint::black_box;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule, next_to_break};
 use ligament_analysis::connectivity::Fragments;
-use ligament_analysis::{Unknowns, assembly, internal};
-use verification::bench::Bench;
+use ligament_analysis::connectivity::decremental::Connectivity;
+use ligament_analysis::driver::Problem;
+use ligament_analysis::equilibrium::Balanced;
+use ligament_analysis::stiffness::{SolverSettings, Update};
+use ligament_analysis::{Equilibrium, State, Unknowns, assembly, internal};
+use verification::bench::{Bench, Watch};
 use verification::problems;
 
-const RULE: BreakingRule = BreakingRule {
-    order: BreakingOrder::Excess,
-    bonds_per_iteration: 1,
-    tie_tolerance: 1e-8,
-};
+/// Bonds after which the intact body takes the place of the broken one, so that all samples break the same ones.
+const BROKEN: usize = 200;
+
+/// Everything is linear between breakages, so the largest s/s_0 at load factor 1 leads along the exact path.
+fn rule(bonds_per_iteration: usize) -> BreakingRule {
+    BreakingRule {
+        order: BreakingOrder::Ratio,
+        bonds_per_iteration,
+        tie_tolerance: 1e-8,
+    }
+}
 
 fn equilibrium(criterion: &mut Criterion) {
     for name in ["disk-2mm", "disk-1.5mm"] {
         let file = format!("mesh.file=../meshes/{name}.msh");
         let bench = Bench::new(problems::DISK, &[&file]);
-        let system = &bench.model.system;
-        let unknowns = Unknowns::of_problem(system, &bench.boundary);
-        let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-        // At load factor 1 the elastic disk has many bonds beyond their limits.
-        let elastic = bench.solve();
-        let (displacement, intact) = (elastic.displacement(), &elastic.state().intact);
-        let held = &elastic.state().held;
-        let deformations = internal::deformations(system, displacement);
-
         let mut group = criterion.benchmark_group(name);
         group.sampling_mode(SamplingMode::Flat).sample_size(20);
-        group.throughput(Throughput::Elements(system.bonds.len() as u64));
-        group.bench_function("pattern", |bencher| {
-            bencher.iter(|| assembly::pattern(black_box(system), &unknowns).unwrap());
-        });
-        group.bench_function("assembly", |bencher| {
-            bencher
-                .iter(|| assembly::assemble(black_box(system), &unknowns, &pattern, intact, held));
-        });
-        group.bench_function("sweep over the bonds", |bencher| {
-            bencher.iter(|| {
-                let deformations = internal::deformations(system, black_box(displacement));
-                let forces = internal::internal_forces(system, intact, &deformations);
-                let energy = internal::stored_energy(system, intact, &deformations);
-                (deformations, forces, energy)
-            });
-        });
-        group.bench_function("choice of the next bond", |bencher| {
-            let limits = &bench.model.critical_stretch;
-            bencher.iter(|| next_to_break(&RULE, black_box(&deformations), limits, intact));
-        });
-        group.bench_function("connectivity", |bencher| {
-            bencher.iter(|| Fragments::find(black_box(system), intact));
-        });
+        breakages(&mut group, &bench);
+        group.throughput(Throughput::Elements(bench.model.system.bonds.len() as u64));
+        parts(&mut group, &bench);
         group.finish();
+    }
+}
+
+fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
+    let system = &bench.model.system;
+    let unknowns = Unknowns::of_problem(system, &bench.boundary);
+    let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
+    let elastic = bench.solve();
+    let (displacement, intact) = (elastic.displacement(), &elastic.state().intact);
+    let held = &elastic.state().held;
+    group.bench_function("pattern", |bencher| {
+        bencher.iter(|| assembly::pattern(black_box(system), &unknowns).unwrap());
+    });
+    group.bench_function("assembly", |bencher| {
+        bencher.iter(|| assembly::assemble(black_box(system), &unknowns, &pattern, intact, held));
+    });
+    group.bench_function("sweep over the bonds", |bencher| {
+        bencher.iter(|| internal::sweep(system, intact, black_box(displacement)));
+    });
+    let deformations = internal::sweep(system, intact, displacement).deformations;
+    let next = |count: usize| {
+        let limits = &bench.model.critical_stretch;
+        next_to_break(&rule(count), black_box(&deformations), limits, intact)
+    };
+    group.bench_function("choice of the next bond", |bencher| {
+        bencher.iter(|| next(1));
+    });
+    group.bench_function("connectivity, whole body", |bencher| {
+        bencher.iter(|| Fragments::find(black_box(system), intact));
+    });
+    let whole = Connectivity::new(system);
+    let broken = next(10);
+    group.bench_function("connectivity, 10 bonds", |bencher| {
+        bencher.iter_batched(
+            || whole.clone(),
+            |mut connectivity| {
+                connectivity.bonds_broke(system, black_box(&broken));
+                connectivity
+            },
+            BatchSize::LargeInput,
+        );
+    });
+}
+
+/// Breakages from the choice of the bonds to the new equilibrium, the choice not timed.
+fn breakages(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
+    for (update, counts) in [
+        (Update::Incremental, [1, 5, 10].as_slice()),
+        (Update::Refactor, &[5]),
+    ] {
+        let problem = Problem {
+            solver: SolverSettings {
+                update: Some(update),
+                ..SolverSettings::default()
+            },
+            ..bench.problem()
+        };
+        for &count in counts {
+            let mut body = Body::intact(&problem);
+            group.bench_function(format!("{update:?}, breakage of {count}"), |bencher| {
+                bencher.iter_custom(|iterations| {
+                    (0..iterations)
+                        .map(|_| {
+                            if body.state.broken_bonds() + count > BROKEN {
+                                body = Body::intact(&problem);
+                            }
+                            body.break_next(&rule(count), &bench.model.critical_stretch)
+                        })
+                        .sum()
+                });
+            });
+        }
+    }
+}
+
+/// A body in equilibrium whose bonds break.
+struct Body<'a> {
+    equilibrium: Equilibrium<'a>,
+    state: State,
+    balanced: Balanced,
+    watch: Watch,
+}
+
+impl<'a> Body<'a> {
+    fn intact(problem: &Problem<'a>) -> Self {
+        let mut equilibrium = Equilibrium::of(problem, 1e-4).unwrap();
+        let mut state = State::fresh(problem.system);
+        state.load_factor = 1.0;
+        equilibrium.break_bonds(&mut state, &[]);
+        let mut watch = Watch::default();
+        let balanced = equilibrium.balance(&mut state, &mut watch);
+        Self {
+            balanced: balanced.unwrap().unwrap(),
+            equilibrium,
+            state,
+            watch,
+        }
+    }
+
+    /// Breaks the bonds whose turn it is, and tells how long that and the new equilibrium took.
+    fn break_next(&mut self, rule: &BreakingRule, critical_stretch: &[f64]) -> Duration {
+        let (deformations, intact) = (&self.balanced.deformations, &self.state.intact);
+        let bonds = next_to_break(rule, deformations, critical_stretch, intact);
+        let start = Instant::now();
+        self.equilibrium.break_bonds(&mut self.state, &bonds);
+        let balanced = self.equilibrium.balance(&mut self.state, &mut self.watch);
+        let duration = start.elapsed();
+        self.balanced = balanced.unwrap().unwrap();
+        duration
     }
 }
 

@@ -55,7 +55,7 @@ impl Dissection<'_> {
                 .then(one.cmp(&other))
         });
         let (lower, upper) = points.split_at_mut(middle);
-        let [in_lower, in_upper] = [lower.as_ref(), upper.as_ref()].map(|half| self.mark(half));
+        let [in_lower, in_upper] = [&*lower, &*upper].map(|half| self.mark(half));
         let rim_of_lower = self.rim(lower, in_upper);
         let rim_of_upper = self.rim(upper, in_lower);
         let (separator, cut, whole) = if rim_of_lower.len() < rim_of_upper.len() {

@@ -234,9 +234,7 @@ impl<'a> Stiffness<'a> {
         let in_place = update == Update::Incremental
             && self.n_broken / rebuild_every == period_before
             && broken.len() <= most_bonds_in_place;
-        let Some(mut factor) = self.factor.take().filter(|_| in_place) else {
-            return None;
-        };
+        let mut factor = self.factor.take().filter(|_| in_place)?;
         let start = Instant::now();
         let terms = self.terms(&broken, &held);
         let force = self.unbalanced_force(&broken, state);

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use ligament_linalg::{FactorKind, Pattern, Symbolic, SymmetricMatrix};
+use ligament_linalg::{Elimination, FactorKind, Pattern, Symbolic, SymmetricMatrix};
 
 /// Horizon in spacings.
 const REACH: i64 = 3;
@@ -63,7 +63,8 @@ fn factorisation(criterion: &mut Criterion) {
     for side in [50, 100] {
         let pattern = Arc::new(pattern(side));
         let matrix = matrix(pattern.clone());
-        let analyse = || Symbolic::analyse(black_box(&pattern).clone()).unwrap();
+        let analyse =
+            || Symbolic::analyse(black_box(&pattern).clone(), Elimination::MinimumDegree).unwrap();
         let symbolic = Arc::new(analyse());
 
         let mut group = criterion.benchmark_group(format!("lattice of {} points", side * side));
