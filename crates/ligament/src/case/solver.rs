@@ -8,7 +8,10 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::require_at_least_one;
+use super::values::{require, require_at_least_one};
+
+/// Threads at most: with thousands of them waking up takes the time of the work, and the program seems to hang.
+pub const MOST_THREADS: u32 = 1024;
 
 /// How the equations are solved. The results are the same up to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -90,10 +93,13 @@ impl RawSolver {
             rebuild_every,
             threads,
         } = self.0;
-        for (name, count) in [("rebuild_every", rebuild_every), ("threads", threads)] {
-            if let Some(count) = count {
-                require_at_least_one(key, name, count)?;
-            }
+        if let Some(count) = rebuild_every {
+            require_at_least_one(key, "rebuild_every", count)?;
+        }
+        if let Some(count) = threads {
+            let expected = format!("1 to {MOST_THREADS}");
+            let fits = (1..=MOST_THREADS).contains(&count);
+            require(fits, || key.child("threads"), &expected, count)?;
         }
         Ok(Solver {
             factorisation,
