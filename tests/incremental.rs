@@ -403,11 +403,11 @@ fn tracked_inertia_is_that_of_a_dense_elimination() {
     let mut run = Tearing::intact(&bench, IN_PLACE);
     run.balance();
     let mut counts = Vec::new();
-    let order = blocks_first(system, 6, 0.035);
-    for (round, bonds) in order[..800].chunks(2).enumerate() {
+    let order = blocks_first(system, 5, 0.0);
+    for (round, bonds) in order[..1200].chunks(2).enumerate() {
         // Where nothing is out of balance no factor is made.
         let iterations = run.tear(bonds).iterations;
-        if round % 40 == 0 && iterations > 0 {
+        if round % 20 == 0 && iterations > 0 {
             let count = run.equilibrium.negative_eigenvalues();
             counts.push(count);
             assert_eq!(count, dense_count(&run.problem, &run.state), "{round}");
@@ -416,7 +416,11 @@ fn tracked_inertia_is_that_of_a_dense_elimination() {
     println!("negative eigenvalues on the way: {counts:?}");
     assert_eq!(run.equilibrium.costs().factorisations, 1);
     assert!(counts.len() > 5 && counts.iter().any(|&count| count != counts[0]));
-    assert!(run.state.held.contains(&true), "also where parts are loose");
+    let held_rotation = |dof: usize| run.state.held[dof] && dof % 3 == 2;
+    assert!(
+        (0..run.state.held.len()).any(held_rotation),
+        "also where points are loose"
+    );
 }
 
 /// Rows of a bond: what takes the unknowns of its ends to stretch, shear and relative rotation, with the rigidities.

@@ -35,7 +35,7 @@ pub use mesh_section::{MeshSection, Plane};
 pub use model::{Correction, CorrectionDomain, CorrectionRule, Law, ModelSection};
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Place, Precrack, Region};
-pub use solver::{Factorisation, Ordering, Solver, Update};
+pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
 pub use values::{Axis, Point};
 
 use document::Node;

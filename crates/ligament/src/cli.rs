@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
+use crate::case::MOST_THREADS;
+
 /// Peridynamics for the plane: mesh in, cracks out.
 ///
 /// A case file (TOML) names a Gmsh mesh, materials, supports and loads; `ligament run` computes
@@ -134,8 +136,8 @@ pub struct CaseArgs {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Threads to compute with [default: solver.threads of the case, or one per processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
+    pub threads: Option<u32>,
 }
 
 /// `ligament inspect`.

@@ -57,7 +57,7 @@ fn check(args: CheckArgs) -> anyhow::Result<()> {
 fn load(args: CaseArgs) -> Result<CaseFile, CaseError> {
     let mut case = CaseFile::load(&args.file, &args.overrides)?;
     let threads = &mut case.case.solver.threads;
-    *threads = args.threads.map(u32::from).or(*threads);
+    *threads = args.threads.or(*threads);
     Ok(case)
 }
 

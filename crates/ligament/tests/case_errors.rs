@@ -57,6 +57,69 @@ fn unknown_keys_get_the_nearest_valid_one() {
     ));
 }
 
+/// The section of the solver stands before the others, so that its lines are 3 and 4.
+fn error_with_solver(section: &str) -> String {
+    error_with("[mesh]", &format!("{section}\n[mesh]"))
+}
+
+#[test]
+fn the_solver_is_auto_or_a_table_of_its_keys() {
+    assert_eq!(
+        error_with_solver("[solver]\nfactorization = \"llt\""),
+        "4:1: solver.factorization: unknown key `factorization` in [solver]; did you mean \
+         `factorisation`? valid keys: `factorisation`, `ordering`, `update`, `rebuild_every`, \
+         `threads`"
+    );
+    for (setting, message) in [
+        (
+            "factorisation = \"lltt\"",
+            "4:17: solver.factorisation: unknown value \"lltt\"; did you mean \"llt\"? valid values: \
+             \"auto\", \"llt\", \"ldlt\"",
+        ),
+        (
+            "ordering = \"nested_dissection\"",
+            "4:12: solver.ordering: unknown value \"nested_dissection\"; did you mean \
+             \"nested-dissection\"? valid values: \"auto\", \"nested-dissection\", \"minimum-degree\"",
+        ),
+        (
+            "update = \"incremetal\"",
+            "4:10: solver.update: unknown value \"incremetal\"; did you mean \"incremental\"? valid \
+             values: \"auto\", \"incremental\", \"refactor\"",
+        ),
+        (
+            "update = true",
+            "4:10: solver.update: expected one of \"auto\", \"incremental\", \"refactor\", found true",
+        ),
+        (
+            "rebuild_every = 0",
+            "4:17: solver.rebuild_every: must be at least 1, found 0",
+        ),
+        (
+            "rebuild_every = 2.5",
+            "4:17: solver.rebuild_every: expected a whole number, 0 or more, found the number 2.5",
+        ),
+        (
+            "threads = 0",
+            "4:11: solver.threads: must be 1 to 1024, found 0",
+        ),
+        (
+            "threads = 70000",
+            "4:11: solver.threads: must be 1 to 1024, found 70000",
+        ),
+    ] {
+        assert_eq!(error_with_solver(&format!("[solver]\n{setting}")), message);
+    }
+    let top = |value: &str| error_of(&format!("solver = {value}\n{TEXT}"));
+    assert_eq!(
+        top("\"fast\""),
+        "1:10: solver: expected \"auto\" or a table, found the string \"fast\""
+    );
+    assert_eq!(
+        top("3"),
+        "1:10: solver: expected \"auto\" or a table, found the number 3"
+    );
+}
+
 #[test]
 fn wrong_types_say_what_is_expected_and_in_which_unit() {
     assert_eq!(

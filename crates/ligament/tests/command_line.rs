@@ -108,6 +108,79 @@ fn a_wrong_setting_is_blamed_on_the_command_line() {
 }
 
 #[test]
+fn a_wrong_setting_of_the_solver_exits_with_1() {
+    let path = data("brazilian-disk.toml");
+    for (setting, message) in [
+        (
+            "solver.updat=refactor",
+            "solver.updat: unknown key `updat` in [solver]; did you mean `update`?",
+        ),
+        (
+            "solver.update=refactr",
+            "solver.update: unknown value \"refactr\"; did you mean \"refactor\"?",
+        ),
+        ("solver=fast", "solver: expected \"auto\" or a table"),
+        ("solver.threads=5000", "solver.threads: must be 1 to 1024"),
+    ] {
+        let arguments = ["run".as_ref(), path.as_os_str(), "--set".as_ref()];
+        let output = ligament(arguments.into_iter().chain([setting.as_ref()]));
+        assert_eq!(output.status.code(), Some(1), "{setting}");
+        let expected = format!("error: --set {setting}: {message}");
+        assert!(
+            stderr(&output).starts_with(&expected),
+            "{}",
+            stderr(&output)
+        );
+    }
+    let output = ligament(["run", "case.toml", "--threads", "5000"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// L L^T for a stiffness that is not positive definite (nu = 0.38): an outcome that tells what to choose, and a run with
+/// what was advised.
+#[test]
+fn llt_of_an_indefinite_stiffness_says_what_to_choose() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = format!(
+        "mesh = {{ file = {:?} }}\n\
+         material = {{ young = 15e9, poisson = 0.38, tensile_strength = 3.81e6 }}\n\
+         model = {{ law = \"nhpd\", horizon_factor = 3.0 }}\n\
+         support = [{{ group = \"left\", displacement = {{ x = 0.0, y = 0.0 }} }}]\n\
+         load = [{{ group = \"right\", displacement = {{ x = 1e-5 }} }}]\n\
+         fracture = {{ steps = 2 }}\n",
+        plate()
+    );
+    fs::write(&path, text).unwrap();
+    let run = |setting: &str| {
+        let out = folder.path().join(setting);
+        let output = ligament([
+            OsStr::new("run"),
+            path.as_os_str(),
+            "--out".as_ref(),
+            out.as_os_str(),
+            "--set".as_ref(),
+            OsStr::new(setting),
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+        (stdout(&output), summary)
+    };
+    let (said, summary) = run("solver.factorisation=llt");
+    assert!(summary.contains("\"no-equilibrium\""), "{summary}");
+    let advice = "let the factorisation be \"auto\" or \"ldlt\"";
+    assert!(
+        said.contains("not positive definite") && said.contains(advice),
+        "{said}"
+    );
+    for setting in ["solver.factorisation=ldlt", "solver=auto"] {
+        let (_, summary) = run(setting);
+        assert!(summary.contains("\"steps-done\""), "{summary}");
+        assert!(summary.contains("\"factorisation\": \"ldlt\""), "{summary}");
+    }
+}
+
+#[test]
 fn files_that_are_not_there_are_named() {
     for command in ["run", "check", "inspect"] {
         let output = ligament([command, "nowhere/file"]);

@@ -10,8 +10,8 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{require, require_at_least_one};
 
-/// More threads than any machine has would be started all the same, and stop it.
-const MOST_THREADS: u32 = 1024;
+/// Threads at most: with thousands of them waking up takes the time of the work, and the program seems to hang.
+pub const MOST_THREADS: u32 = 1024;
 
 /// How the equations are solved. The results are the same up to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -97,9 +97,9 @@ impl RawSolver {
             require_at_least_one(key, "rebuild_every", count)?;
         }
         if let Some(count) = threads {
-            let holds = (1..=MOST_THREADS).contains(&count);
-            let expected = format!("between 1 and {MOST_THREADS}");
-            require(holds, || key.child("threads"), &expected, count)?;
+            let expected = format!("1 to {MOST_THREADS}");
+            let fits = (1..=MOST_THREADS).contains(&count);
+            require(fits, || key.child("threads"), &expected, count)?;
         }
         Ok(Solver {
             factorisation,
