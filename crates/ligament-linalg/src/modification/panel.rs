@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::{TERMS_AT_ONCE, VANISHING_PIVOT};
+use super::{DiagonalEntry, TERMS_AT_ONCE, VANISHING_PIVOT};
 use crate::storage::Form;
 
 /// Columns of a panel that are changed together.
@@ -84,7 +84,7 @@ impl Terms {
         simd: S,
         form: Form,
         panel: &mut [f64],
-        diagonal: &[f64],
+        diagonal: &[DiagonalEntry],
     ) -> Result<isize, usize> {
         let mut more_negative = 0;
         for (index, block) in panel.chunks_mut(BLOCK * self.height).enumerate() {
@@ -109,7 +109,7 @@ impl Terms {
         block: &mut [f64],
         first: usize,
         width: usize,
-        diagonal: &[f64],
+        diagonal: &[DiagonalEntry],
     ) -> Result<isize, usize> {
         let height = self.height;
         self.rotations.clear();
@@ -119,6 +119,7 @@ impl Terms {
         for (k, column) in block.chunks_exact_mut(height).enumerate() {
             let row = first + k;
             let was_negative = column[row] < 0.0;
+            let vanishing = VANISHING_PIVOT * diagonal[row].largest;
             for (place, &term) in self.active.iter().enumerate() {
                 let w = &mut self.rows[place * height..][..height];
                 let weight = &mut self.weights[term];
@@ -127,19 +128,19 @@ impl Terms {
                     Form::Ldlt => rotate(&mut column[row], weight, w[row]),
                 }
                 .ok_or(row)?;
+                let pivot = match form {
+                    Form::Llt => column[row] * column[row],
+                    Form::Ldlt => column[row],
+                };
+                // After each term: what one loses the next does not bring back. Also where it is no number.
+                if !(pivot.abs() > vanishing) {
+                    return Err(row);
+                }
                 for r in row + 1..first + width {
                     w[r] -= rotation.c * column[r];
                     column[r] = rotation.p * column[r] + rotation.q * w[r];
                 }
                 self.rotations[place][k] = rotation;
-            }
-            let pivot = match form {
-                Form::Llt => column[row] * column[row],
-                Form::Ldlt => column[row],
-            };
-            // Also where it is no number.
-            if !(pivot.abs() > VANISHING_PIVOT * diagonal[row].abs()) {
-                return Err(row);
             }
             more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
         }
