@@ -1,4 +1,4 @@
-//! Symbolic analysis, factorisation and solve, on square lattices with the pattern that bonds give.
+//! Symbolic analysis, factorisation, solve and change in place, on square lattices with the pattern that bonds give.
 //!
 //! This crate knows no meshes: a point of the lattice has the 28 neighbours within three spacings and three unknowns.
 #![allow(clippy::unwrap_used, missing_docs)]
@@ -7,7 +7,9 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use ligament_linalg::{Elimination, FactorKind, Pattern, Symbolic, SymmetricMatrix};
+use ligament_linalg::{
+    Elimination, FactorKind, Factorisation, HalfSolved, Pattern, RankOne, Symbolic, SymmetricMatrix,
+};
 
 /// Horizon in spacings.
 const REACH: i64 = 3;
@@ -59,12 +61,88 @@ fn matrix(pattern: Arc<Pattern>) -> SymmetricMatrix {
     matrix
 }
 
+/// Points of a rectangle in the order of nested dissection: both halves, then the columns or rows between them.
+fn dissect(side: i64, [x, y]: [std::ops::Range<i64>; 2], order: &mut Vec<usize>) {
+    let (width, height) = (x.end - x.start, y.end - y.start);
+    if width.max(height) <= 2 * REACH {
+        order.extend(y.flat_map(|y| x.clone().map(move |x| (y * side + x) as usize)));
+    } else if width >= height {
+        let cut = x.start + (width - REACH) / 2;
+        dissect(side, [x.start..cut, y.clone()], order);
+        dissect(side, [cut + REACH..x.end, y.clone()], order);
+        order.extend(y.flat_map(|y| (cut..cut + REACH).map(move |x| (y * side + x) as usize)));
+    } else {
+        let cut = y.start + (height - REACH) / 2;
+        dissect(side, [x.clone(), y.start..cut], order);
+        dissect(side, [x.clone(), cut + REACH..y.end], order);
+        order.extend(
+            (cut..cut + REACH).flat_map(|y| x.clone().map(move |x| (y * side + x) as usize)),
+        );
+    }
+}
+
+/// The unknowns by nested dissection of their points.
+fn elimination(side: i64) -> Elimination {
+    let mut points = Vec::new();
+    dissect(side, [0..side, 0..side], &mut points);
+    let unknowns = points
+        .iter()
+        .flat_map(|point| COMPONENTS * point..COMPONENTS * (point + 1));
+    Elimination::Given(unknowns.collect())
+}
+
+/// Three terms for each of some bonds between neighbours in a row, spread over the lattice.
+fn bonds(side: i64, count: usize) -> Vec<RankOne> {
+    let n_points = (side * side) as usize;
+    let first_points = (0..count).map(|k| n_points * (2 * k + 1) / (2 * count) + 7 * k % 31);
+    first_points
+        .flat_map(|point| {
+            (0..COMPONENTS).map(move |mode| {
+                let unknowns = COMPONENTS * point..COMPONENTS * (point + 2);
+                let sign = |k: usize| if k / COMPONENTS == 0 { 1.0 } else { -1.0 };
+                RankOne {
+                    weight: 1.0,
+                    entries: (unknowns.enumerate())
+                        .map(|(k, unknown)| {
+                            (unknown, sign(k) / (1 + (k + mode) % COMPONENTS) as f64)
+                        })
+                        .collect(),
+                }
+            })
+        })
+        .collect()
+}
+
+/// Puts stiffness in and takes it out again, in turns.
+struct ThereAndBack {
+    terms: Vec<RankOne>,
+    right_hand_side: Vec<(usize, f64)>,
+}
+
+impl ThereAndBack {
+    fn new(side: i64, n_bonds: usize) -> Self {
+        let terms = bonds(side, n_bonds);
+        let right_hand_side = terms.iter().flat_map(|term| term.entries.clone()).collect();
+        Self {
+            terms,
+            right_hand_side,
+        }
+    }
+
+    fn change(&mut self, factor: &mut dyn Factorisation) -> HalfSolved {
+        let half_solved = factor.change(&self.terms, &self.right_hand_side).unwrap();
+        for term in &mut self.terms {
+            term.weight = -term.weight;
+        }
+        half_solved
+    }
+}
+
 fn factorisation(criterion: &mut Criterion) {
     for side in [50, 100] {
         let pattern = Arc::new(pattern(side));
         let matrix = matrix(pattern.clone());
-        let analyse =
-            || Symbolic::analyse(black_box(&pattern).clone(), Elimination::MinimumDegree).unwrap();
+        let analyse = || Symbolic::analyse(black_box(&pattern).clone(), elimination(side)).unwrap();
         let symbolic = Arc::new(analyse());
 
         let mut group = criterion.benchmark_group(format!("lattice of {} points", side * side));
@@ -84,6 +162,19 @@ fn factorisation(criterion: &mut Criterion) {
                     unknowns
                 });
             });
+            for n_bonds in [1, 5, 10] {
+                let mut there_and_back = ThereAndBack::new(side, n_bonds);
+                let half_solved = there_and_back.change(factor.as_mut());
+                group.bench_function(format!("{name}, change of {n_bonds} bonds"), |bencher| {
+                    bencher.iter(|| there_and_back.change(factor.as_mut()));
+                });
+                if n_bonds == 1 {
+                    group.bench_function(format!("{name}, backward pass"), |bencher| {
+                        bencher.iter(|| factor.finish(black_box(&half_solved).clone()));
+                    });
+                }
+                factor.refactorise(&matrix).unwrap();
+            }
         }
         group.finish();
     }

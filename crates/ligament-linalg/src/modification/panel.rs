@@ -146,7 +146,8 @@ impl Terms {
         Ok(more_negative)
     }
 
-    /// Applies the rotations to the rows below a block of columns.
+    /// Applies the rotations to the rows below a block of columns, for two terms at a time: the columns are then read and
+    /// written half as often.
     #[inline(always)]
     fn change_below<S: Simd, const WIDTH: usize>(
         &mut self,
@@ -155,38 +156,67 @@ impl Terms {
         first_row: usize,
     ) {
         let height = self.height;
-        for (w, rotations) in self
-            .rows
-            .chunks_exact_mut(height)
-            .zip(self.rotations.iter())
-        {
-            let (w, w_rest) = S::as_mut_simd_f64s(&mut w[first_row..]);
-            let mut columns = block.chunks_exact_mut(height);
-            let mut columns: [_; WIDTH] = std::array::from_fn(|_| {
-                let column = columns.next().unwrap_or_default();
-                S::as_mut_simd_f64s(&mut column[first_row..])
-            });
-            let c: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(rotations[k].c));
-            let p: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(rotations[k].p));
-            let q: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(rotations[k].q));
-            for column in &columns {
-                assert_eq!(column.0.len(), w.len());
+        let mut pairs = self.rows.chunks_exact_mut(2 * height);
+        let mut rotations = self.rotations.chunks_exact(2);
+        for (w, rotations) in (&mut pairs).zip(&mut rotations) {
+            let (one, other) = w.split_at_mut(height);
+            let w = [&mut one[first_row..], &mut other[first_row..]];
+            let rotations = [rotations[0], rotations[1]];
+            apply::<S, WIDTH, 2>(simd, block, w, &rotations);
+        }
+        if let ([rotations], w) = (rotations.remainder(), pairs.into_remainder()) {
+            apply::<S, WIDTH, 1>(simd, block, [&mut w[first_row..]], &[*rotations]);
+        }
+    }
+}
+
+/// Applies the rotations of some terms, one after the other, to the last rows of a block of columns.
+#[inline(always)]
+fn apply<S: Simd, const WIDTH: usize, const TERMS: usize>(
+    simd: S,
+    block: &mut [f64],
+    terms: [&mut [f64]; TERMS],
+    rotations: &[[Rotation; BLOCK]; TERMS],
+) {
+    let height = block.len() / WIDTH;
+    let n_rows = terms[0].len();
+    let mut terms = terms.map(|w| S::as_mut_simd_f64s(w));
+    let mut columns = block.chunks_exact_mut(height);
+    let mut columns: [_; WIDTH] = std::array::from_fn(|_| {
+        let column = columns.next().unwrap_or_default();
+        S::as_mut_simd_f64s(&mut column[height - n_rows..])
+    });
+    let splat = |part: fn(&Rotation) -> f64| -> [[_; WIDTH]; TERMS] {
+        std::array::from_fn(|t| std::array::from_fn(|k| simd.splat_f64s(part(&rotations[t][k]))))
+    };
+    let (c, p, q) = (splat(|r| r.c), splat(|r| r.p), splat(|r| r.q));
+    let n_vectors = terms[0].0.len();
+    for w in &terms {
+        assert_eq!(w.0.len(), n_vectors);
+    }
+    for column in &columns {
+        assert_eq!(column.0.len(), n_vectors);
+    }
+    for r in 0..n_vectors {
+        let mut values: [_; TERMS] = std::array::from_fn(|t| terms[t].0[r]);
+        for k in 0..WIDTH {
+            let mut l = columns[k].0[r];
+            for t in 0..TERMS {
+                values[t] = simd.negate_mul_add_e_f64s(c[t][k], l, values[t]);
+                l = simd.mul_add_e_f64s(q[t][k], values[t], simd.mul_f64s(p[t][k], l));
             }
-            for (r, w) in w.iter_mut().enumerate() {
-                let mut value = *w;
-                for k in 0..WIDTH {
-                    let l = &mut columns[k].0[r];
-                    value = simd.negate_mul_add_e_f64s(c[k], *l, value);
-                    *l = simd.mul_add_e_f64s(q[k], value, simd.mul_f64s(p[k], *l));
-                }
-                *w = value;
-            }
-            for (r, w) in w_rest.iter_mut().enumerate() {
-                for (column, rotation) in columns.iter_mut().zip(rotations) {
-                    let l = &mut column.1[r];
-                    *w -= rotation.c * *l;
-                    *l = rotation.p * *l + rotation.q * *w;
-                }
+            columns[k].0[r] = l;
+        }
+        for t in 0..TERMS {
+            terms[t].0[r] = values[t];
+        }
+    }
+    for (w, rotations) in terms.iter_mut().zip(rotations) {
+        for (r, w) in w.1.iter_mut().enumerate() {
+            for (column, rotation) in columns.iter_mut().zip(rotations) {
+                let l = &mut column.1[r];
+                *w -= rotation.c * *l;
+                *l = rotation.p * *l + rotation.q * *w;
             }
         }
     }
