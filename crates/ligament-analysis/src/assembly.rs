@@ -119,9 +119,12 @@ fn fill_columns(
             *slot = if row_held || column_held { 0.0 } else { value };
         }
         if let Some(diagonal) = slots.next() {
-            // A held point may have lost all its bonds; any pivot does for an equation that stands alone.
-            let alone = column_held && own_block[(c, c)] == 0.0;
-            *diagonal = if alone { 1.0 } else { own_block[(c, c)] };
+            // Any positive pivot does for an equation that stands alone: a held point may have lost all its bonds.
+            *diagonal = match own_block[(c, c)] {
+                0.0 if column_held => 1.0,
+                own if column_held => own.abs(),
+                own => own,
+            };
         }
     }
 }

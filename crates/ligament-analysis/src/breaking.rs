@@ -1,6 +1,10 @@
 //! Which bonds break next (NHPD section 2.4, Fig. 5), with an explicit rule for ties.
 
 use ligament_model::element::beam::BondDeformation;
+use rayon::prelude::*;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 4096;
 
 /// What orders the bonds that exceed their critical stretch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +38,8 @@ pub fn next_to_break(
     intact: &[bool],
 ) -> Vec<u32> {
     let mut ranked: Vec<Candidate> = (0..deformations.len())
+        .into_par_iter()
+        .with_min_len(TASK)
         .filter(|&bond| intact[bond])
         .map(|bond| (bond, deformations[bond].stretch, critical_stretch[bond]))
         .filter(|&(_, stretch, limit)| {
@@ -77,32 +83,27 @@ pub struct FirstToBreak {
     pub bonds: Vec<u32>,
 }
 
-/// The intact bonds with the largest s/s_0 (s > 0), with those within the relative `tie_tolerance` below it, in one pass.
+/// The intact bonds with the largest s/s_0 (s > 0), with those within the relative `tie_tolerance` below it.
 pub fn first_to_break(
     tie_tolerance: f64,
     deformations: &[BondDeformation],
     critical_stretch: &[f64],
     intact: &[bool],
 ) -> FirstToBreak {
-    let mut ratio = 0.0;
-    let mut lowest_tied = 0.0;
-    let mut candidates = Vec::new();
-    for (bond, deformation) in deformations.iter().enumerate() {
-        let (stretch, limit) = (deformation.stretch, critical_stretch[bond]);
-        // An infinite limit is never reached: nor is infinity times zero, which is no number.
-        if stretch > 0.0 && intact[bond] && stretch >= lowest_tied * limit {
-            let own = stretch / limit;
-            if own > ratio {
-                ratio = own;
-                lowest_tied = ratio - tie_tolerance * ratio;
-            }
-            candidates.push((own, bond as u32));
-        }
-    }
-    let tied = candidates.iter().filter(|(own, _)| *own >= lowest_tied);
+    let bonds = || (0..deformations.len()).into_par_iter().with_min_len(TASK);
+    // An infinite limit is never reached: nor is infinity times zero, which is no number.
+    let ratio_of = |bond: usize| {
+        let stretch = deformations[bond].stretch;
+        let counts = intact[bond] && stretch > 0.0;
+        counts.then(|| stretch / critical_stretch[bond])
+    };
+    let ratio = bonds().filter_map(ratio_of).reduce(|| 0.0, f64::max);
+    let lowest_tied = ratio - tie_tolerance * ratio;
+    let is_tied =
+        |bond: &usize| ratio > 0.0 && ratio_of(*bond).is_some_and(|own| own >= lowest_tied);
     FirstToBreak {
         ratio,
-        bonds: tied.map(|&(_, bond)| bond).collect(),
+        bonds: bonds().filter(is_tied).map(|bond| bond as u32).collect(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, PatternError, Symbolic};
+use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BondDeformation;
 use rayon::prelude::*;
@@ -109,6 +109,17 @@ pub enum Unbalanced {
         "the stiffness lost stability: vanishing pivot at point {point}, component {component}"
     )]
     VanishingPivot {
+        /// Point index.
+        point: u32,
+        /// Component name.
+        component: &'static str,
+    },
+    /// L L^T was asked for where bonds have negative stiffness, and met a pivot that is not positive.
+    #[error(
+        "the stiffness is not positive definite, as L L^T needs (pivot at point {point}, component {component}): bonds \
+         have a negative shear stiffness (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\""
+    )]
+    NotPositiveDefinite {
         /// Point index.
         point: u32,
         /// Component name.
@@ -247,7 +258,7 @@ impl<'a> Equilibrium<'a> {
             iterations = 1;
         }
         loop {
-            let (residual_forces, mut balanced) = self.measure(state);
+            let mut balanced = self.measure(state);
             if iterations > 0 {
                 observer.iteration(iterations, balanced.residual, balanced.stored_energy)?;
             }
@@ -283,16 +294,17 @@ impl<'a> Equilibrium<'a> {
                 Ok(found) => mechanisms.extend(found),
                 Err(unbalanced) => return Ok(Err(unbalanced)),
             }
-            let mut correction = residual_forces;
-            self.stiffness.solve(&mut correction);
+            let (boundary, internal) = (self.boundary, &balanced.internal);
+            let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
+            let correction = self.stiffness.solve(state, force);
             self.add_correction(state, &correction);
             previous_energy = energy;
             iterations += 1;
         }
     }
 
-    /// Deformations, forces, residual and energy of a state, and F - K u at the unknowns.
-    fn measure(&mut self, state: &State) -> (Vec<f64>, Balanced) {
+    /// Deformations, forces, residual and energy of a state.
+    fn measure(&mut self, state: &State) -> Balanced {
         let start = Instant::now();
         let BondSweep {
             deformations,
@@ -303,19 +315,15 @@ impl<'a> Equilibrium<'a> {
         let residual = self.relative_residual(state, &residual_forces, &internal);
         self.count_bond_work(start);
         let energy_is_negative = stored_energy < -self.energy_of_rounding(state);
-        let mechanisms = Vec::new();
-        (
-            residual_forces,
-            Balanced {
-                deformations,
-                internal,
-                stored_energy,
-                residual,
-                iterations: 0,
-                energy_is_negative,
-                mechanisms,
-            },
-        )
+        Balanced {
+            deformations,
+            internal,
+            stored_energy,
+            residual,
+            iterations: 0,
+            energy_is_negative,
+            mechanisms: Vec::new(),
+        }
     }
 
     /// Inertia of the stiffness and of its rotation block for the state's bonds, once the state was balanced.
@@ -418,9 +426,12 @@ impl<'a> Equilibrium<'a> {
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.unknowns().degrees_of_freedom()[unknown] as usize;
         let point = (dof / COMPONENTS) as u32;
-        Unbalanced::VanishingPivot {
-            point,
-            component: Component::of(dof).name(),
+        let component = Component::of(dof).name();
+        let is_llt = self.choice().factorisation == FactorKind::Llt;
+        if is_llt && self.system.has_negative_stiffness() {
+            Unbalanced::NotPositiveDefinite { point, component }
+        } else {
+            Unbalanced::VanishingPivot { point, component }
         }
     }
 }

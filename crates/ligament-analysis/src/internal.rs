@@ -1,13 +1,19 @@
 //! Deformations, internal forces and energies of the bonds.
 
+use std::ops::Range;
+
 use ligament_model::BondSystem;
-use ligament_model::element::beam::{BondDeformation, BondResponse};
+use ligament_model::element::beam::BondDeformation;
 use rayon::prelude::*;
 
 use crate::unknowns::COMPONENTS;
 
-/// Bonds, or points, of one task; fixed for the points, so that the order of summation is fixed too.
-const BLOCK: usize = 2048;
+/// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
+/// too. Each part adds to forces of its own at all points, so more parts cost memory.
+const PARTS: usize = 4;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 2048;
 
 /// What a sweep over all bonds gives.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,83 +37,99 @@ pub struct InternalForces {
     pub moment_scale: f64,
 }
 
-/// Deformations, forces and energy: once over the bonds, and once over the points to gather the forces.
+/// Deformations, forces and energy of all bonds.
 ///
-/// The forces at a point are added by one thread over its bonds in their order, so that nothing depends on the number of
-/// threads.
+/// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
+/// after each other.
 pub fn sweep(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
-    let (mut deformations, mut responses) = (Vec::new(), Vec::new());
-    (0..system.bonds.len())
+    let n_bonds = system.bonds.len();
+    let deformations: Vec<BondDeformation> = (0..n_bonds)
         .into_par_iter()
-        .with_min_len(BLOCK)
-        .map(|bond| {
-            let deformation = system.deformation(bond, displacement);
-            let response = if intact[bond] {
-                system.element(bond).response(&deformation)
-            } else {
-                BondResponse::default()
-            };
-            (deformation, response)
+        .with_min_len(TASK)
+        .map(|bond| system.deformation(bond, displacement))
+        .collect();
+    let parts: Vec<Part> = (0..PARTS)
+        .into_par_iter()
+        .map(|part| {
+            let bonds = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+            Part::of(system, intact, &deformations, bonds)
         })
-        .unzip_into_vecs(&mut deformations, &mut responses);
-    let mut values = vec![0.0; COMPONENTS * system.cloud.len()];
-    let sums: Vec<Gathered> = values
-        .par_chunks_mut(COMPONENTS * BLOCK)
-        .enumerate()
-        .map(|(block, values)| gather(system, &responses, BLOCK * block, values))
+        .collect();
+    let sums: Vec<PointForces> = (0..system.cloud.len())
+        .into_par_iter()
+        .with_min_len(TASK)
+        .map(|point| {
+            let of_parts = parts.iter().map(|part| part.forces[point]);
+            of_parts.fold(PointForces::default(), PointForces::plus)
+        })
         .collect();
     let largest = |component: usize| {
         sums.iter()
-            .map(|block| block.largest[component])
+            .map(|forces| forces.size[component])
             .fold(0.0, f64::max)
     };
     BondSweep {
         internal: InternalForces {
             force_scale: largest(0).max(largest(1)),
             moment_scale: largest(2),
-            values,
+            values: sums.iter().flat_map(|forces| forces.sum).collect(),
         },
-        stored_energy: sums.iter().map(|block| block.energy).sum(),
+        stored_energy: parts.iter().map(|part| part.energy).sum(),
         deformations,
     }
 }
 
-/// What a block of points gives besides its forces.
-#[derive(Default)]
-struct Gathered {
-    /// Energy of the bonds whose first ends are in the block.
+/// What the bonds of one part give.
+struct Part {
+    forces: Vec<PointForces>,
     energy: f64,
-    /// Largest sum of the sizes of the forces at a point, for each component.
-    largest: [f64; COMPONENTS],
 }
 
-/// Adds up the forces of the bonds at the points from `first_point` on.
-fn gather(
-    system: &BondSystem,
-    responses: &[BondResponse],
-    first_point: usize,
-    values: &mut [f64],
-) -> Gathered {
-    let mut gathered = Gathered::default();
-    for (index, sum) in values.chunks_exact_mut(COMPONENTS).enumerate() {
-        let point = (first_point + index) as u32;
-        let mut size = [0.0; COMPONENTS];
-        for &bond in system.bonds.incidence.of(point) {
-            let response = &responses[bond as usize];
-            let end = usize::from(system.bonds.ends[bond as usize][1] == point);
-            if end == 0 {
-                gathered.energy += response.energy;
-            }
-            let force = response.at_end(end);
-            for component in 0..COMPONENTS {
-                sum[component] += force[component];
-                size[component] += force[component].abs();
-            }
+/// The end forces that meet at a point.
+#[derive(Debug, Clone, Copy, Default)]
+struct PointForces {
+    sum: [f64; COMPONENTS],
+    /// Sum of their sizes.
+    size: [f64; COMPONENTS],
+}
+
+impl PointForces {
+    fn add(&mut self, end_force: [f64; COMPONENTS]) {
+        for component in 0..COMPONENTS {
+            self.sum[component] += end_force[component];
+            self.size[component] += end_force[component].abs();
         }
-        gathered.largest =
-            [0, 1, 2].map(|component| gathered.largest[component].max(size[component]));
     }
-    gathered
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            sum: [0, 1, 2].map(|component| self.sum[component] + other.sum[component]),
+            size: [0, 1, 2].map(|component| self.size[component] + other.size[component]),
+        }
+    }
+}
+
+impl Part {
+    fn of(
+        system: &BondSystem,
+        intact: &[bool],
+        deformations: &[BondDeformation],
+        bonds: Range<usize>,
+    ) -> Self {
+        let mut part = Self {
+            forces: vec![PointForces::default(); system.cloud.len()],
+            energy: 0.0,
+        };
+        for bond in bonds.filter(|&bond| intact[bond]) {
+            let element = system.element(bond);
+            part.energy += element.energy(&deformations[bond]);
+            let [at_a, at_b] = element.end_forces(&deformations[bond]);
+            let [a, b] = system.bonds.ends[bond];
+            part.forces[a as usize].add(at_a);
+            part.forces[b as usize].add(at_b);
+        }
+        part
+    }
 }
 
 /// Largest |external - internal force| over the given degrees of freedom, relative to the forces that meet at a point.

@@ -212,8 +212,9 @@ impl<'a> Stiffness<'a> {
     /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
     /// unknowns, shape (n_unknowns). None where nothing was noted or the factor has to be made anew.
     ///
-    /// K' du = K_b u, K' = K - K_b + the terms of the holds (a positive definite diagonal entry of the size of the one that
-    /// was there). A hold carries no force in equilibrium, so the size of its term does not matter.
+    /// K' du = K_b u, K' = K - K_b + the terms of the holds (a positive diagonal entry of the size of the one that was
+    /// there). A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there: up to
+    /// rounding, which is taken away. For this the forces at the holds must be in the right-hand side.
     pub(crate) fn follow(&mut self, state: &State) -> Option<Vec<f64>> {
         let (broken, held) = (
             std::mem::take(&mut self.broken),
@@ -242,7 +243,8 @@ impl<'a> Stiffness<'a> {
         self.costs.change += start.elapsed();
         self.costs.changes += 1;
         let start = Instant::now();
-        let correction = factor.finish(half_solved.ok()?);
+        let mut correction = factor.finish(half_solved.ok()?);
+        self.keep_held(state, &mut correction);
         self.costs.backward += start.elapsed();
         self.costs.solves += 1;
         self.is_changed = true;
@@ -254,7 +256,7 @@ impl<'a> Stiffness<'a> {
     fn terms(&self, broken: &[u32], held: &[usize]) -> Vec<RankOne> {
         let holds = held.iter().filter_map(|&dof| {
             let entries = vec![(self.number(dof)?, 1.0)];
-            let diagonal = self.whole_diagonal(dof);
+            let diagonal = self.whole_diagonal(dof).abs();
             let weight = if diagonal == 0.0 { 1.0 } else { diagonal };
             Some(RankOne { weight, entries })
         });
@@ -311,7 +313,7 @@ impl<'a> Stiffness<'a> {
             for (end, values) in self.system.bonds.ends[bond].iter().zip(end_forces) {
                 for (component, value) in values.into_iter().enumerate() {
                     let dof = COMPONENTS * *end as usize + component;
-                    if let Some(unknown) = self.unknowns.number(dof).filter(|_| !state.held[dof]) {
+                    if let Some(unknown) = self.number(dof) {
                         force.push((unknown, value));
                     }
                 }
@@ -358,27 +360,53 @@ impl<'a> Stiffness<'a> {
         )
     }
 
-    /// Solves for a correction of all unknowns, in place.
-    pub(crate) fn solve(&mut self, right_hand_side: &mut [f64]) {
+    /// Solves for a correction of all unknowns; the forces are given at each degree of freedom, shape (3 n_points).
+    pub(crate) fn solve(&mut self, state: &State, force: impl Fn(usize) -> f64) -> Vec<f64> {
         let start = Instant::now();
+        let dofs = self.unknowns.degrees_of_freedom().iter();
+        let mut correction: Vec<f64> = dofs
+            .map(|&dof| {
+                self.number(dof as usize)
+                    .map_or(0.0, |_| force(dof as usize))
+            })
+            .collect();
         if let Some(factor) = &mut self.factor {
-            factor.solve_in_place(right_hand_side);
+            factor.solve_in_place(&mut correction);
         }
+        self.keep_held(state, &mut correction);
         self.costs.solves += 1;
         self.costs.solve += start.elapsed();
+        correction
+    }
+
+    /// Takes the rounding off a correction where the state is held.
+    fn keep_held(&self, state: &State, correction: &mut [f64]) {
+        let dofs = self.unknowns.degrees_of_freedom().iter();
+        for (value, &dof) in correction.iter_mut().zip(dofs) {
+            if state.held[dof as usize] {
+                *value = 0.0;
+            }
+        }
     }
 
     /// Negative eigenvalues of the rotation block for the state's bonds.
+    ///
+    /// Holding the rigid motions of a part takes no negative eigenvalue from its stiffness (they have none), but it would
+    /// from this block where it holds a rotation: so only points that lost all their bonds are held here.
     pub(crate) fn negative_rotations(&self, state: &State) -> Result<usize, SetupError> {
         let rotations = self.unknowns.rotations_only();
+        let is_alone = |dof: usize| {
+            let mut bonds = self
+                .system
+                .bonds
+                .incidence
+                .of((dof / COMPONENTS) as u32)
+                .iter();
+            bonds.all(|&bond| !state.intact[bond as usize])
+        };
+        let alone: Vec<bool> = (0..state.held.len()).map(is_alone).collect();
         let pattern = Arc::new(assembly::pattern(self.system, &rotations)?);
-        let block = assembly::assemble(
-            self.system,
-            &rotations,
-            &pattern,
-            &state.intact,
-            &state.held,
-        );
+        let block = assembly::assemble(self.system, &rotations, &pattern, &state.intact, &alone);
         let elimination = self.choice.ordering.elimination(self.system, &rotations);
         let symbolic = Arc::new(Symbolic::analyse(pattern, elimination)?);
         let factor = FactorKind::Ldlt.factorise(&symbolic, &block)?;

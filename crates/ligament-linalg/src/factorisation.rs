@@ -22,16 +22,23 @@ pub trait Factorisation {
     /// Changes the matrix A by the terms c w w^T, in place of its factor, and does the first half of solving A' x = b for a
     /// b of few entries (unknown and value): the forward substitution.
     ///
-    /// The cost is that of the parts of the factor that the terms and the entries reach. After an error (a pivot that
-    /// vanished, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used before
-    /// [`Factorisation::refactorise`] succeeded.
+    /// Terms go in one after the other, and each matrix on the way must have a factor: what adds stiffness belongs before
+    /// what takes it. Entries of b for the same unknown add up. The cost is that of the parts of the factor that the terms
+    /// and the entries reach.
+    ///
+    /// After an error (a pivot that vanished, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used
+    /// before [`Factorisation::refactorise`] succeeded.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no such unknown.
     fn change(
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
     ) -> Result<HalfSolved, FactorError>;
 
-    /// The other half: the backward substitution; x of shape (n).
+    /// The other half, before the factor changes again: the backward substitution; x of shape (n).
     fn finish(&self, half_solved: HalfSolved) -> Vec<f64>;
 
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).

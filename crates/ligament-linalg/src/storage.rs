@@ -7,7 +7,7 @@ use faer::sparse::linalg::cholesky::SymbolicCholesky;
 
 use crate::factorisation::{FactorError, HalfSolved, Inertia};
 use crate::matrix::SymmetricMatrix;
-use crate::modification::{Modification, RankOne, Target, VanishingPivot};
+use crate::modification::{DiagonalEntry, Modification, RankOne, Target, VanishingPivot};
 use crate::substitution::{Backward, Forward};
 use crate::symbolic::Symbolic;
 
@@ -27,7 +27,7 @@ pub(crate) struct Storage {
     values: Vec<f64>,
     workspace: MemBuffer,
     /// Diagonal of the matrix in the order of elimination, shape (n).
-    diagonal: Vec<f64>,
+    diagonal: Vec<DiagonalEntry>,
     negative_pivots: usize,
     /// Made when the factor is first changed in place.
     modification: Option<Modification>,
@@ -63,7 +63,8 @@ impl Storage {
     /// Takes note of the matrix that was just factorised.
     pub(crate) fn factorised(&mut self, matrix: &SymmetricMatrix) {
         let unknowns = self.symbolic.unknown_of_row().iter();
-        self.diagonal = unknowns.map(|&unknown| matrix.diagonal(unknown)).collect();
+        let entries = unknowns.map(|&unknown| DiagonalEntry::new(matrix.diagonal(unknown)));
+        self.diagonal = entries.collect();
         let diagonal = self.symbolic.diagonal(&self.values);
         self.negative_pivots = diagonal.iter().filter(|pivot| **pivot < 0.0).count();
     }

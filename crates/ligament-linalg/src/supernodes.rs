@@ -3,36 +3,54 @@
 use std::ops::Range;
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+use faer::sparse::linalg::cholesky::{SymbolicCholesky, SymbolicCholeskyRaw};
 
 /// Where the panels of a supernodal factor lie. Rows and columns are counted in the order of elimination.
 #[derive(Clone, Copy)]
-pub(crate) struct Supernodes<'a>(pub(crate) &'a SymbolicSupernodalCholesky<usize>);
+pub(crate) struct Supernodes<'a>(Option<&'a SymbolicSupernodalCholesky<usize>>);
 
 impl<'a> Supernodes<'a> {
+    /// Those of an analysis; a matrix without unknowns has none.
+    pub(crate) fn of(cholesky: &'a SymbolicCholesky<usize>) -> Self {
+        match cholesky.raw() {
+            SymbolicCholeskyRaw::Supernodal(structure) => Self(Some(structure)),
+            SymbolicCholeskyRaw::Simplicial(_) => Self(None),
+        }
+    }
+
+    fn structure(self) -> &'a SymbolicSupernodalCholesky<usize> {
+        match self.0 {
+            Some(structure) => structure,
+            None => unreachable!("there is no supernode to ask for"),
+        }
+    }
+
     /// Number of supernodes.
     pub(crate) fn len(self) -> usize {
-        self.0.n_supernodes()
+        self.0.map_or(0, SymbolicSupernodalCholesky::n_supernodes)
     }
 
     /// Columns of a supernode, which are also the first rows of its panel.
     pub(crate) fn columns(self, supernode: usize) -> Range<usize> {
-        self.0.supernode_begin()[supernode]..self.0.supernode_end()[supernode]
+        let structure = self.structure();
+        structure.supernode_begin()[supernode]..structure.supernode_end()[supernode]
     }
 
     /// Rows of the panel below its columns, ascending; the first belongs to the parent in the elimination tree.
     pub(crate) fn rows_below(self, supernode: usize) -> &'a [usize] {
-        self.0.supernode(supernode).pattern()
+        self.structure().supernode(supernode).pattern()
     }
 
     /// Place of the panel in the values of the factor: column-major, as high as there are columns and rows below.
     pub(crate) fn panel(self, supernode: usize) -> Range<usize> {
-        let starts = self.0.col_ptr_for_val();
+        let starts = self.structure().col_ptr_for_val();
         starts[supernode]..starts[supernode + 1]
     }
 
     /// Supernode that each row belongs to as a column, shape (n).
     pub(crate) fn of_rows(self) -> Vec<u32> {
-        let mut of_row = vec![0; self.0.nrows()];
+        let n_rows = self.0.map_or(0, SymbolicSupernodalCholesky::nrows);
+        let mut of_row = vec![0; n_rows];
         for supernode in 0..self.len() {
             of_row[self.columns(supernode)].fill(supernode as u32);
         }

@@ -6,14 +6,17 @@ use faer::Side;
 use faer::perm::Perm;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use crate::factorisation::FactorError;
 use crate::matrix::{Pattern, SymmetricMatrix};
 use crate::supernodes::Supernodes;
+
+/// Operations per entry of the factor above which there are supernodes. faer's own `FORCE_SUPERNODAL` is zero, which a
+/// diagonal matrix does not exceed.
+const ALWAYS_SUPERNODAL: SupernodalThreshold = SupernodalThreshold(-1.0);
 
 /// In which order the unknowns are eliminated.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,7 +44,7 @@ impl Symbolic {
     /// Panics if a given order is no permutation of the unknowns.
     pub fn analyse(pattern: Arc<Pattern>, elimination: Elimination) -> Result<Self, FactorError> {
         let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_flop_ratio_threshold: ALWAYS_SUPERNODAL,
             ..Default::default()
         };
         let analyse = |ordering| {
@@ -98,12 +101,7 @@ impl Symbolic {
 
     /// The panels of the factor.
     pub(crate) fn supernodes(&self) -> Supernodes<'_> {
-        match self.cholesky.raw() {
-            SymbolicCholeskyRaw::Supernodal(structure) => Supernodes(structure),
-            SymbolicCholeskyRaw::Simplicial(_) => {
-                unreachable!("the analysis was told to make supernodes")
-            }
-        }
+        Supernodes::of(&self.cholesky)
     }
 
     /// Index in the matrix of each row of the factor, shape (n).

@@ -33,14 +33,6 @@ pub enum Error {
         /// The cause.
         source: io::Error,
     },
-    /// The grid could not be turned into a VTU document.
-    #[error("cannot encode {path} as VTU")]
-    EncodeVtu {
-        /// The file meant.
-        path: PathBuf,
-        /// The cause.
-        source: Box<vtkio::xml::Error>,
-    },
     /// A grid without points or without cells, which VTU readers do not accept.
     #[error(
         "{path}: a VTU file needs points and cells, got {n_points} points and {n_cells} cells; write no file instead"

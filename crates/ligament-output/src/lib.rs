@@ -19,5 +19,6 @@ pub mod folder;
 pub mod pvd;
 pub mod results;
 pub mod vtu;
+mod xml;
 
 pub use error::{Error, FieldLocation};

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::Error;
 use crate::atomic::replace_file;
+use crate::xml::escape_attribute;
 
 /// A list of VTU files with their times, which ParaView opens as one series.
 ///
@@ -59,22 +60,6 @@ impl Collection {
         xml.push_str("</Collection>\n</VTKFile>\n");
         xml
     }
-}
-
-/// The text as the value of an XML attribute in double quotes.
-fn escape_attribute(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&apos;"),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]

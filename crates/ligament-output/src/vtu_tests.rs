@@ -1,7 +1,9 @@
 use super::*;
 use std::fs;
 use vtkio::IOBuffer;
-use vtkio::model::{Piece, VertexNumbers};
+use vtkio::model::{
+    Attribute, CellType, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk,
+};
 
 const POINTS: [[f64; 2]; 5] = [
     [0.0, 0.0],
@@ -97,7 +99,7 @@ fn points_cells_and_fields_read_back() {
 
 #[test]
 fn arrays_of_whole_compression_blocks_read_back() {
-    // vtkio compresses blocks of 32768 bytes, 4096 numbers.
+    // A block has 32768 bytes, 4096 numbers.
     for n_points in [4095, 4096, 4097, 8192] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fields_0000.vtu");
@@ -125,8 +127,53 @@ fn is_compressed_and_leaves_no_other_file() {
     write_vtu(&path, &grid(&[], &[])).unwrap();
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains("compressor=\"vtkZLibDataCompressor\""));
-    assert!(text.ends_with("</VTKFile>"));
+    assert!(text.ends_with("</VTKFile>\n"));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn the_first_scalar_and_the_first_vector_are_shown_first() {
+    let numbers = [0.5; 5];
+    let point_fields = [
+        Field::integer("node", &[7; 5]),
+        Field::scalar("damage & more", &numbers),
+        Field::scalar("volume", &numbers),
+        Field::vector("displacement", &[[0.0; 3]; 5]),
+        Field::vector("reaction", &[[0.0; 3]; 5]),
+    ];
+    let xml = grid(&point_fields, &[Field::integer("intact", &[1; 4])]).to_xml();
+    assert!(
+        xml.contains("<PointData Scalars=\"damage &amp; more\" Vectors=\"displacement\">"),
+        "{xml}"
+    );
+    assert!(xml.contains("<CellData>"), "{xml}");
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    // Some ten blocks an array, so that threads finish them out of order.
+    let points: Vec<_> = (0..40_000).map(|i| [f64::from(i).sqrt(), 0.0]).collect();
+    let cells: Vec<_> = (0..40_000).map(|i| Cell::Vertex([i])).collect();
+    let volume: Vec<_> = points.iter().map(|[x, _]| x.sin()).collect();
+    let damage: Vec<_> = points.iter().map(|[x, _]| x.cos()).collect();
+    let grid = UnstructuredGrid {
+        points: &points,
+        cells: &cells,
+        point_fields: &[
+            Field::scalar("volume", &volume),
+            Field::scalar("damage", &damage),
+        ],
+        cell_fields: &[],
+    };
+    let with_threads = |n_threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads);
+        pool.build().unwrap().install(|| grid.to_xml())
+    };
+    let one = with_threads(1);
+    for n_threads in [2, 5] {
+        // Not assert_eq, which would print megabytes.
+        assert!(with_threads(n_threads) == one, "{n_threads} threads");
+    }
 }
 
 /// The error of writing `grid`, after checking that no file was written.

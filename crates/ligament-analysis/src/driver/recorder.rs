@@ -1,6 +1,7 @@
 //! Bookkeeping that every driver shares: energies and records.
 
 use ligament_model::element::beam::BondDeformation;
+use rayon::prelude::*;
 
 use super::Problem;
 use crate::boundary::Boundary;
@@ -154,10 +155,9 @@ fn group_forces(
 
 /// Largest s/s_0 over the intact bonds; 0 without critical stretches.
 pub(super) fn largest_ratio(state: &State, balanced: &Balanced, critical_stretch: &[f64]) -> f64 {
-    critical_stretch
-        .iter()
-        .enumerate()
-        .filter(|&(bond, _)| state.intact[bond])
-        .map(|(bond, limit)| balanced.deformations[bond].stretch / limit)
-        .fold(0.0, f64::max)
+    (critical_stretch, &state.intact, &balanced.deformations)
+        .into_par_iter()
+        .filter(|(_, intact, _)| **intact)
+        .map(|(limit, _, deformation)| deformation.stretch / limit)
+        .reduce(|| 0.0, f64::max)
 }

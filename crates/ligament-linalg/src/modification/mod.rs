@@ -22,15 +22,16 @@ use panel::Terms;
 pub struct RankOne {
     /// The factor c: positive where stiffness is added, negative where it leaves.
     pub weight: f64,
-    /// Unknowns and values of w; every pair of them must be in the pattern of the matrix.
+    /// Unknowns and values of w, which add up where an unknown comes twice; every pair of unknowns must be in the pattern
+    /// of the matrix.
     pub entries: Vec<(usize, f64)>,
 }
 
 /// Terms that go through the factor at once: their part of a panel stays in the cache.
 const TERMS_AT_ONCE: usize = 32;
 
-/// A pivot below this share of its own diagonal entry of the matrix counts as zero: what downdates leave of a zero is
-/// rounding, some 1e-14 of the entry.
+/// A pivot below this share of its own diagonal entry of the matrix, at its largest since the matrix was factorised, counts
+/// as zero: what downdates leave of a zero is rounding, some 1e-14 of that entry.
 pub const VANISHING_PIVOT: f64 = 1e-10;
 
 /// What changing a factor needs beside it. Rows are in the order of elimination.
@@ -51,9 +52,29 @@ pub(crate) struct Target<'a> {
     pub(crate) supernodes: Supernodes<'a>,
     pub(crate) values: &'a mut [f64],
     /// Diagonal of the matrix in the order of elimination, shape (n); changed along.
-    pub(crate) diagonal: &'a mut [f64],
+    pub(crate) diagonal: &'a mut [DiagonalEntry],
     /// Number of negative pivots; changed along.
     pub(crate) negative_pivots: &'a mut usize,
+}
+
+/// A diagonal entry of the matrix.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DiagonalEntry {
+    value: f64,
+    /// Its largest size since the matrix was factorised, which is the measure of what rounding left in the factor.
+    largest: f64,
+}
+
+impl DiagonalEntry {
+    pub(crate) fn new(value: f64) -> Self {
+        let largest = value.abs();
+        Self { value, largest }
+    }
+
+    fn add(&mut self, change: f64) {
+        self.value += change;
+        self.largest = self.largest.max(self.value.abs());
+    }
 }
 
 /// The row whose pivot vanished; the factor is then half changed and worthless.
@@ -112,13 +133,19 @@ impl Modification {
     }
 
     /// Puts terms at the start of their way.
-    fn scatter(&mut self, terms: &[RankOne], row_of_unknown: &[usize], diagonal: &mut [f64]) {
+    fn scatter(
+        &mut self,
+        terms: &[RankOne],
+        row_of_unknown: &[usize],
+        diagonal: &mut [DiagonalEntry],
+    ) {
         self.terms.start(terms.iter().map(|term| term.weight));
         for (index, term) in terms.iter().enumerate() {
             for &(unknown, value) in &term.entries {
                 let row = row_of_unknown[unknown];
-                self.on_the_way[TERMS_AT_ONCE * row + index] = value;
-                diagonal[row] += term.weight * value * value;
+                let w = &mut self.on_the_way[TERMS_AT_ONCE * row + index];
+                diagonal[row].add(term.weight * value * (2.0 * *w + value));
+                *w += value;
                 self.touch(row);
             }
         }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::{TERMS_AT_ONCE, VANISHING_PIVOT};
+use super::{DiagonalEntry, TERMS_AT_ONCE, VANISHING_PIVOT};
 use crate::storage::Form;
 
 /// Columns of a panel that are changed together.
@@ -84,7 +84,7 @@ impl Terms {
         simd: S,
         form: Form,
         panel: &mut [f64],
-        diagonal: &[f64],
+        diagonal: &[DiagonalEntry],
     ) -> Result<isize, usize> {
         let mut more_negative = 0;
         for (index, block) in panel.chunks_mut(BLOCK * self.height).enumerate() {
@@ -109,7 +109,7 @@ impl Terms {
         block: &mut [f64],
         first: usize,
         width: usize,
-        diagonal: &[f64],
+        diagonal: &[DiagonalEntry],
     ) -> Result<isize, usize> {
         let height = self.height;
         self.rotations.clear();
@@ -119,27 +119,27 @@ impl Terms {
         for (k, column) in block.chunks_exact_mut(height).enumerate() {
             let row = first + k;
             let was_negative = column[row] < 0.0;
+            let vanishing = VANISHING_PIVOT * diagonal[row].largest;
             for (place, &term) in self.active.iter().enumerate() {
                 let w = &mut self.rows[place * height..][..height];
                 let weight = &mut self.weights[term];
-                let rotation = match form {
+                let (rotation, pivot) = match form {
                     Form::Llt => rotate_root(&mut column[row], weight, w[row]),
                     Form::Ldlt => rotate(&mut column[row], weight, w[row]),
+                };
+                let size = match form {
+                    Form::Llt => pivot,
+                    Form::Ldlt => pivot.abs(),
+                };
+                // After each term: what is lost with one does not come back with the next.
+                if size.is_nan() || size <= vanishing {
+                    return Err(row);
                 }
-                .ok_or(row)?;
                 for r in row + 1..first + width {
                     w[r] -= rotation.c * column[r];
                     column[r] = rotation.p * column[r] + rotation.q * w[r];
                 }
                 self.rotations[place][k] = rotation;
-            }
-            let pivot = match form {
-                Form::Llt => column[row] * column[row],
-                Form::Ldlt => column[row],
-            };
-            // Also where it is no number.
-            if pivot.is_nan() || pivot.abs() <= VANISHING_PIVOT * diagonal[row].abs() {
-                return Err(row);
             }
             more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
         }
@@ -172,16 +172,14 @@ impl Terms {
             for column in &columns {
                 assert_eq!(column.0.len(), w.len());
             }
-            // By index: with the lengths asserted above, no access is checked.
-            #[expect(clippy::needless_range_loop)]
-            for r in 0..w.len() {
-                let mut value = w[r];
+            for (r, w) in w.iter_mut().enumerate() {
+                let mut value = *w;
                 for k in 0..WIDTH {
                     let l = &mut columns[k].0[r];
                     value = simd.negate_mul_add_e_f64s(c[k], *l, value);
                     *l = simd.mul_add_e_f64s(q[k], value, simd.mul_f64s(p[k], *l));
                 }
-                w[r] = value;
+                *w = value;
             }
             for (r, w) in w_rest.iter_mut().enumerate() {
                 for (column, rotation) in columns.iter_mut().zip(rotations) {
@@ -195,36 +193,31 @@ impl Terms {
 }
 
 /// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill, Golub, Murray & Saunders, Math. Comp.
-/// 28, 1974, method C1). None where d' is zero.
+/// 28, 1974, method C1). Gives what it does to the column, and d'; worthless where that vanishes.
 #[inline(always)]
-fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> Option<Rotation> {
+fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     let old = *pivot;
     let new = old + *weight * w * w;
-    if new == 0.0 {
-        return None;
-    }
     let q = *weight * w / new;
     *weight *= old / new;
     *pivot = new;
-    Some(Rotation { c: w, p: 1.0, q })
+    (Rotation { c: w, p: 1.0, q }, new)
 }
 
 /// The same where the diagonal holds the square root of the pivot, and each column is that root times the one of a unit
-/// L. None where the new pivot is not positive.
+/// L. Worthless where the new pivot is not positive.
 #[inline(always)]
-fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> Option<Rotation> {
+fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     let old = *root;
     let new = old * old + *weight * w * w;
-    if new.is_nan() || new <= 0.0 {
-        return None;
-    }
     let new_root = new.sqrt();
     let q = *weight * w / new_root;
     *weight *= old * old / new;
     *root = new_root;
-    Some(Rotation {
+    let rotation = Rotation {
         c: w / old,
         p: new_root / old,
         q,
-    })
+    };
+    (rotation, new)
 }

@@ -34,31 +34,6 @@ pub struct BondDeformation {
     pub rotation: f64,
 }
 
-/// What a bond answers to its deformation.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BondResponse {
-    /// Force that holds end B, along x and y, N; the opposite holds end A.
-    pub force: [f64; 2],
-    /// Moment of the shear force at either end, N m.
-    pub half_shear_moment: f64,
-    /// Moment of the relative rotation at end B, N m; the opposite holds end A.
-    pub moment: f64,
-    /// Strain energy, J.
-    pub energy: f64,
-}
-
-impl BondResponse {
-    /// Force along x, along y and moment at end A (0) or B (1).
-    pub fn at_end(&self, end: usize) -> [f64; UNKNOWNS] {
-        let [x, y] = self.force;
-        if end == 0 {
-            [-x, -y, self.half_shear_moment - self.moment]
-        } else {
-            [x, y, self.half_shear_moment + self.moment]
-        }
-    }
-}
-
 impl BeamBond {
     /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):
     ///
@@ -87,27 +62,20 @@ impl BeamBond {
             + self.rotational_rigidity * one.rotation * other.rotation)
     }
 
-    /// Forces, moments and energy for a deformation.
-    pub fn response(&self, deformation: &BondDeformation) -> BondResponse {
+    /// Internal forces and moment K u at the ends A and B, N and N m.
+    pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
         let [a, b] = self.direction;
         let per_length = 1.0 / self.length;
         let axial = self.axial_rigidity * deformation.stretch * per_length;
         let shear = self.shear_rigidity * deformation.shear;
-        BondResponse {
-            force: [
-                axial * a - shear * per_length * b,
-                axial * b + shear * per_length * a,
-            ],
-            half_shear_moment: -0.5 * shear,
-            moment: self.rotational_rigidity * deformation.rotation,
-            energy: self.energy(deformation),
-        }
-    }
-
-    /// Internal forces and moment K u at the ends A and B, N and N m.
-    pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
-        let response = self.response(deformation);
-        [response.at_end(0), response.at_end(1)]
+        let transverse = shear * per_length;
+        let (force_x, force_y) = (axial * a - transverse * b, axial * b + transverse * a);
+        let half_moment = -0.5 * shear;
+        let moment = self.rotational_rigidity * deformation.rotation;
+        [
+            [-force_x, -force_y, half_moment - moment],
+            [force_x, force_y, half_moment + moment],
+        ]
     }
 
     /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).

@@ -8,7 +8,10 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::require_at_least_one;
+use super::values::{require, require_at_least_one};
+
+/// More threads than any machine has would be started all the same, and stop it.
+const MOST_THREADS: u32 = 1024;
 
 /// How the equations are solved. The results are the same up to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -90,10 +93,13 @@ impl RawSolver {
             rebuild_every,
             threads,
         } = self.0;
-        for (name, count) in [("rebuild_every", rebuild_every), ("threads", threads)] {
-            if let Some(count) = count {
-                require_at_least_one(key, name, count)?;
-            }
+        if let Some(count) = rebuild_every {
+            require_at_least_one(key, "rebuild_every", count)?;
+        }
+        if let Some(count) = threads {
+            let holds = (1..=MOST_THREADS).contains(&count);
+            let expected = format!("between 1 and {MOST_THREADS}");
+            require(holds, || key.child("threads"), &expected, count)?;
         }
         Ok(Solver {
             factorisation,

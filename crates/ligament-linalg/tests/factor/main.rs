@@ -1,0 +1,10 @@
+//! Factors of random sparse symmetric systems: solved, changed in place, broken and made anew.
+#![allow(clippy::unwrap_used)]
+
+mod changes;
+mod failures;
+mod solving;
+mod systems;
+
+/// Unit roundoff times two.
+const EPSILON: f64 = f64::EPSILON;
