@@ -95,9 +95,9 @@ struct PointForces {
 
 impl PointForces {
     fn add(&mut self, end_force: [f64; COMPONENTS]) {
-        for component in 0..COMPONENTS {
-            self.sum[component] += end_force[component];
-            self.size[component] += end_force[component].abs();
+        for (component, value) in end_force.into_iter().enumerate() {
+            self.sum[component] += value;
+            self.size[component] += value.abs();
         }
     }
 
