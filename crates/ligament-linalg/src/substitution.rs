@@ -5,8 +5,8 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::storage::Form;
 use crate::supernodes::Supernodes;
 
-/// Columns of a panel that are read together.
-const BLOCK: usize = 4;
+/// Columns of a panel that are read together: as many streams from memory.
+const BLOCK: usize = 8;
 
 /// Solves L y = b: all supernodes, from the leaves to the root.
 pub(crate) struct Forward<'a> {
@@ -110,6 +110,10 @@ pub(crate) fn forward<S: Simd>(
         }
         let (solved, rest) = column.split_at_mut(end);
         match end - first {
+            8 => subtract::<S, 8>(simd, block, &solved[first..], rest),
+            7 => subtract::<S, 7>(simd, block, &solved[first..], rest),
+            6 => subtract::<S, 6>(simd, block, &solved[first..], rest),
+            5 => subtract::<S, 5>(simd, block, &solved[first..], rest),
             4 => subtract::<S, 4>(simd, block, &solved[first..], rest),
             3 => subtract::<S, 3>(simd, block, &solved[first..], rest),
             2 => subtract::<S, 2>(simd, block, &solved[first..], rest),
@@ -147,6 +151,10 @@ fn backward<S: Simd>(
         let known = &column[end..];
         let mut sums = [0.0; BLOCK];
         match end - first {
+            8 => products::<S, 8>(simd, block, known, &mut sums),
+            7 => products::<S, 7>(simd, block, known, &mut sums),
+            6 => products::<S, 6>(simd, block, known, &mut sums),
+            5 => products::<S, 5>(simd, block, known, &mut sums),
             4 => products::<S, 4>(simd, block, known, &mut sums),
             3 => products::<S, 3>(simd, block, known, &mut sums),
             2 => products::<S, 2>(simd, block, known, &mut sums),
