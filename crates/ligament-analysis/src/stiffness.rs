@@ -112,6 +112,8 @@ pub(crate) struct Stiffness<'a> {
     symbolic: Arc<Symbolic>,
     choice: SolverChoice,
     factor: Option<Box<dyn Factorisation>>,
+    /// A factor that is out of date: its memory is used again.
+    stale: Option<Box<dyn Factorisation>>,
     /// Degrees of freedom that were held when the factor was made, and so are cut off from the others.
     cut_off: Vec<bool>,
     /// Bonds that broke and degrees of freedom that were held since the factor was last made or changed.
@@ -158,6 +160,7 @@ impl<'a> Stiffness<'a> {
             },
             symbolic,
             factor: None,
+            stale: None,
             broken: Vec::new(),
             held: Vec::new(),
             is_changed: false,
@@ -200,7 +203,7 @@ impl<'a> Stiffness<'a> {
 
     /// Forgets the factor: the next one is made from the bonds.
     pub(crate) fn forget(&mut self) {
-        self.factor = None;
+        self.stale = self.factor.take().or(self.stale.take());
     }
 
     /// Takes note of bonds that broke and degrees of freedom that are held from now on.
@@ -234,16 +237,23 @@ impl<'a> Stiffness<'a> {
         let in_place = update == Update::Incremental
             && self.n_broken / rebuild_every == period_before
             && broken.len() <= most_bonds_in_place;
-        let mut factor = self.factor.take().filter(|_| in_place)?;
+        if !in_place {
+            self.forget();
+        }
+        let mut factor = self.factor.take()?;
         let start = Instant::now();
         let terms = self.terms(&broken, &held);
         let force = self.unbalanced_force(&broken, state);
-        // A change that failed leaves no factor behind: the next one is made anew, and tells what is wrong if anything is.
         let half_solved = factor.change(&terms, &force);
         self.costs.change += start.elapsed();
         self.costs.changes += 1;
+        // After a change that failed the factor is made anew, and that tells what is wrong if anything is.
+        let Ok(half_solved) = half_solved else {
+            self.stale = Some(factor);
+            return None;
+        };
         let start = Instant::now();
-        let mut correction = factor.finish(half_solved.ok()?);
+        let mut correction = factor.finish(half_solved);
         self.keep_held(state, &mut correction);
         self.costs.backward += start.elapsed();
         self.costs.solves += 1;
@@ -332,7 +342,10 @@ impl<'a> Stiffness<'a> {
         let matrix = self.assemble(state);
         self.costs.assembly += start.elapsed();
         let start = Instant::now();
-        let factor = self.choice.factorisation.factorise(&self.symbolic, &matrix);
+        let factor = match self.stale.take() {
+            Some(mut stale) => stale.refactorise(&matrix).map(|()| stale),
+            None => self.choice.factorisation.factorise(&self.symbolic, &matrix),
+        };
         self.costs.factorisation += start.elapsed();
         self.costs.factorisations += 1;
         let vanishing = match &factor {

@@ -2,7 +2,8 @@
 //!
 //! The pattern of a matrix is made once ([`Pattern`]), analysed once for an order of elimination ([`Symbolic`]), and then
 //! factorised as often as its values change ([`FactorKind::factorise`]). Where a change is a sum of few terms of rank one
-//! ([`RankOne`]), the factor is changed in place ([`Factorisation::change`]), for a fraction of the cost. Everything runs on one thread in a fixed order, so that the same matrix gives the same bits.
+//! ([`RankOne`]), the factor is changed in place ([`Factorisation::change`]), for a fraction of the cost. Everything runs on
+//! one thread in a fixed order, so that the same matrix gives the same bits.
 
 mod factorisation;
 mod ldlt;
