@@ -7,7 +7,8 @@ use ligament_model::BondSystem;
 
 use crate::unknowns::Unknowns;
 
-/// Parts of so many points are not cut any further: their points are all bonded with each other.
+/// Parts of so many points are not cut any further: most of their points are bonded with each other, and smaller parts
+/// were measured to save no fill.
 const SMALLEST_PART: usize = 12;
 
 /// The unknowns in the order of elimination: those of a point together, points by nested dissection.

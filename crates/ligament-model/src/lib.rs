@@ -25,13 +25,10 @@ pub mod law;
 pub mod material;
 pub mod system;
 
-mod ordered_sum;
-
 pub use bonds::{BondSet, Incidence};
 pub use cloud::PointCloud;
 pub use correction::Correction;
 pub use horizon::Horizons;
 pub use law::BondStiffness;
 pub use material::{Material, Plane};
-pub use ordered_sum::ordered_sum;
 pub use system::BondSystem;
