@@ -69,7 +69,7 @@ fn bonds_of_the_square() {
         assert_eq!(bonds.len(), expected.len(), "{set}: number of bonds");
         assert_eq!(bonds.len(), summary.count(row, "bonds"));
         assert_eq!(
-            model.correction.sweeps,
+            model.correction.unwrap().sweeps,
             summary.count(row, "sweeps"),
             "{set}"
         );
@@ -302,7 +302,7 @@ fn separation_of_the_square() {
 #[test]
 fn path_of_the_disk() {
     let bench = Bench::new(DISK, &AS_IN_REFERENCE);
-    assert_eq!(bench.model.correction.sweeps, 72);
+    assert_eq!(bench.model.correction.unwrap().sweeps, 72);
     let run = bench.break_up();
     compare_path(&bench, &run, "disk", 100);
     let first_peak = run.outcome.first_peak(0.02).unwrap();

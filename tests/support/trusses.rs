@@ -5,7 +5,7 @@ use ligament_analysis::boundary::{Boundary, Control, ControlKind};
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::{Outcome, Problem, StopRules, event};
 use ligament_analysis::unknowns::Component;
-use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
+use ligament_model::{BondSet, BondSystem, ElementKind, Horizons, PointCloud};
 
 use crate::bench::Watch;
 
@@ -95,6 +95,7 @@ impl Truss {
                 })
                 .collect(),
             system: BondSystem {
+                element: ElementKind::Beam,
                 weight: vec![1.0; bonds.len()],
                 axial_rigidity: of_bonds(&rigidity),
                 shear_rigidity: of_bonds(&rigidity),

@@ -1,6 +1,6 @@
 //! Which bonds break next (NHPD section 2.4, Fig. 5), with an explicit rule for ties.
 
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
 /// Bonds that make a task worth while.

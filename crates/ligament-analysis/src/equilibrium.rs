@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
 use ligament_model::BondSystem;
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -450,10 +450,10 @@ fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
     for point in 0..system.cloud.len() as u32 {
         let mut sum = [0.0; 2];
         for &bond in system.bonds.incidence.of(point) {
-            let element = system.element(bond as usize);
-            let shear = element.shear_rigidity.abs();
-            sum[0] += (element.axial_rigidity.abs() + shear) / element.length.powi(2);
-            sum[1] += (shear + element.rotational_rigidity.abs()) / element.length;
+            let bond = bond as usize;
+            let (length, shear) = (system.bonds.length[bond], system.shear_rigidity[bond].abs());
+            sum[0] += (system.axial_rigidity[bond].abs() + shear) / length.powi(2);
+            sum[1] += (shear + system.rotational_rigidity[bond].abs()) / length;
         }
         largest = [0, 1].map(|k| largest[k].max(sum[k]));
     }

@@ -1,7 +1,7 @@
 //! Fields on the points, for output and probes.
 
 use ligament_model::BondSystem;
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::BondDeformation;
 
 /// Damage of every point (NHPD eq. 17): 1 - (sum over its intact bonds of Omega alpha)/(sum over all its bonds).
 ///

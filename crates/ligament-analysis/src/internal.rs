@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use ligament_model::BondSystem;
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
 use crate::unknowns::COMPONENTS;

@@ -140,8 +140,9 @@ impl<'a> Stiffness<'a> {
             .unwrap_or(Ordering::suited_to(system.cloud.len()));
         let elimination = ordering.elimination(system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
-        // Without a positive shear stiffness positive definiteness is not to be counted on.
-        let definite = system.shear_rigidity.iter().all(|&rigidity| rigidity > 0.0);
+        // Without positive stiffnesses positive definiteness is not to be counted on.
+        let mut rigidities = system.axial_rigidity.iter().chain(&system.shear_rigidity);
+        let definite = rigidities.all(|&rigidity| rigidity > 0.0);
         let suitable = if definite {
             FactorKind::Llt
         } else {
@@ -408,6 +409,9 @@ impl<'a> Stiffness<'a> {
     /// from this block where it holds a rotation: so only points that lost all their bonds are held here.
     pub(crate) fn negative_rotations(&self, state: &State) -> Result<usize, SetupError> {
         let rotations = self.unknowns.rotations_only();
+        if rotations.is_empty() {
+            return Ok(0);
+        }
         let is_alone = |dof: usize| {
             let mut bonds = self
                 .system

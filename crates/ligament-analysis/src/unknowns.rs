@@ -1,6 +1,6 @@
 //! Numbering of the unknowns: which components of which points the system of equations solves for.
 
-use ligament_model::BondSystem;
+use ligament_model::{BondSystem, ElementKind};
 
 use crate::boundary::Boundary;
 
@@ -54,8 +54,8 @@ const KNOWN: u32 = u32::MAX;
 impl Unknowns {
     /// Everything that no support or load prescribes and that has a stiffness at all.
     ///
-    /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point: such
-    /// rotations carry nothing and are held at zero.
+    /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point, and bonds without
+    /// rotations never do: such rotations carry nothing and are held at zero.
     pub fn of_problem(system: &BondSystem, boundary: &Boundary) -> Self {
         let rotates = rotations_with_stiffness(system);
         Self::select(system.cloud.len(), |point, component| {
@@ -127,6 +127,9 @@ impl Unknowns {
 
 fn rotations_with_stiffness(system: &BondSystem) -> Vec<bool> {
     let mut rotates = vec![false; system.cloud.len()];
+    if system.element == ElementKind::Spring {
+        return rotates;
+    }
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         if system.shear_rigidity[bond] != 0.0 || system.rotational_rigidity[bond] != 0.0 {
             for end in ends {

@@ -6,10 +6,13 @@ use std::path::Path;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use ligament_mesh::{Mesh, gmsh};
+use ligament_model::correction::length::length_factors;
 use ligament_model::correction::{StopRule, Sweeps, domain};
 use ligament_model::failure::strength::critical_stretches;
-use ligament_model::law::nhpd;
-use ligament_model::{BondSet, BondSystem, Horizons, Material, Plane, PointCloud};
+use ligament_model::law::beam;
+use ligament_model::{
+    BondSet, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Material, Plane, PointCloud,
+};
 
 const HORIZON_FACTOR: f64 = 3.0;
 
@@ -26,10 +29,13 @@ fn mesh(name: &str) -> Mesh {
 }
 
 fn preparation(criterion: &mut Criterion) {
-    let materials = [Material {
-        name: "rock".to_owned(),
+    let rock = Isotropic {
         young: 15e9,
         poisson: 0.21,
+    };
+    let materials = [Material {
+        name: "rock".to_owned(),
+        elasticity: Elasticity::Isotropic(rock),
         tensile_strength: Some(3.81e6),
         density: None,
     }];
@@ -41,15 +47,19 @@ fn preparation(criterion: &mut Criterion) {
         let cloud = points();
         let horizons = Horizons::from_spacing(&cloud.spacing, HORIZON_FACTOR);
         let bonds = BondSet::search(&cloud, &horizons);
-        let stiffness = nhpd::stiffness(&bonds, &cloud, &materials, plane);
-        let correct = || domain::iterate(&bonds, &cloud, &stiffness, &materials, plane, SWEEPS);
+        let stiffness = beam::stiffness(&bonds, &cloud, &[rock], plane);
+        let correct = || {
+            let alpha = length_factors(&bonds, &cloud);
+            domain::iterate(&bonds, &cloud, &stiffness, alpha, &materials, plane, SWEEPS)
+        };
         let correction = correct();
         let stages = || {
             let alpha = correction.length_factor.clone();
             (cloud.clone(), bonds.clone(), stiffness.clone(), alpha)
         };
         let put_together = |(cloud, bonds, stiffness, alpha)| {
-            BondSystem::new(cloud, bonds, stiffness, alpha, &correction.domain_factor)
+            let omega = &correction.domain_factor;
+            BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, alpha, omega)
         };
         let system = put_together(stages());
         let no_fail = vec![false; cloud.len()];
@@ -62,7 +72,7 @@ fn preparation(criterion: &mut Criterion) {
         });
         group.throughput(Throughput::Elements(bonds.len() as u64));
         group.bench_function("law", |bencher| {
-            bencher.iter(|| nhpd::stiffness(black_box(&bonds), &cloud, &materials, plane));
+            bencher.iter(|| beam::stiffness(black_box(&bonds), &cloud, &[rock], plane));
         });
         group.bench_function("correction, 10 sweeps", |bencher| bencher.iter(correct));
         group.bench_function("bond system", |bencher| {

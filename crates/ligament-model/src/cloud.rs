@@ -113,6 +113,11 @@ impl PointCloud {
         [position[0] - self.origin[0], position[1] - self.origin[1]]
     }
 
+    /// Sides of the rectangle that a point stands for, m: on a mesh those of a square with its area V_i/t.
+    pub fn cell_size(&self, point: u32) -> [f64; 2] {
+        [(self.volumes[point as usize] / self.thickness).sqrt(); 2]
+    }
+
     /// Shares of the materials in the volume of a point, shape (n_materials).
     pub fn shares(&self, point: usize) -> &[f64] {
         &self.material_shares[point * self.n_materials..(point + 1) * self.n_materials]

@@ -8,7 +8,7 @@
 //! | horizon of each point | [`Horizons`] | [`horizon`] |
 //! | dual-horizon bonds | [`BondSet`] | [`bonds`] |
 //! | micromoduli | [`BondStiffness`] | [`law`] |
-//! | length and domain correction | [`Correction`] | [`correction`] |
+//! | factors alpha and Omega | [`Correction`] | [`correction`] |
 //! | critical stretches | `Vec<f64>` | [`failure`] |
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //!
@@ -23,12 +23,14 @@ pub mod failure;
 pub mod horizon;
 pub mod law;
 pub mod material;
+pub mod moduli;
 pub mod system;
 
 pub use bonds::{BondSet, Incidence};
 pub use cloud::PointCloud;
 pub use correction::Correction;
+pub use element::ElementKind;
 pub use horizon::Horizons;
 pub use law::BondStiffness;
-pub use material::{Material, Plane};
+pub use material::{Elasticity, Isotropic, Material, Orthotropic, Plane};
 pub use system::BondSystem;

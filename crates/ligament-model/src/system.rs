@@ -4,7 +4,9 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::element::beam::{BeamBond, BondDeformation, UNKNOWNS};
+use crate::element::beam::BeamBond;
+use crate::element::spring::SpringBond;
+use crate::element::{BondDeformation, BondElement, ElementKind, UNKNOWNS};
 use crate::law::BondStiffness;
 
 /// Points and bonds with their rigidities; it never changes after construction.
@@ -14,6 +16,8 @@ pub struct BondSystem {
     pub cloud: PointCloud,
     /// The bonds (without those that pre-cracks cut).
     pub bonds: BondSet,
+    /// Kinematics of the bonds.
+    pub element: ElementKind,
     /// Omega alpha of each bond: its weight in the damage of its ends, shape (n_bonds).
     pub weight: Vec<f64>,
     /// Omega alpha V_A V_B k_n l, shape (n_bonds), J.
@@ -29,6 +33,7 @@ impl BondSystem {
     pub fn new(
         cloud: PointCloud,
         bonds: BondSet,
+        element: ElementKind,
         stiffness: BondStiffness,
         length_factor: Vec<f64>,
         domain_factor: &[f64],
@@ -58,24 +63,37 @@ impl BondSystem {
             shear_rigidity: shear,
             rotational_rigidity: rotational,
             weight,
+            element,
             bonds,
             cloud,
         }
     }
 
-    /// Whether some bond has a negative shear stiffness, so that the stiffness of the body may be indefinite.
+    /// Whether some bond has a negative axial or shear stiffness, so that the stiffness of the body may be indefinite.
     pub fn has_negative_stiffness(&self) -> bool {
-        self.shear_rigidity.iter().any(|&rigidity| rigidity < 0.0)
+        let mut rigidities = self.axial_rigidity.iter().chain(&self.shear_rigidity);
+        rigidities.any(|&rigidity| rigidity < 0.0)
     }
 
     /// The element of a bond.
-    pub fn element(&self, bond: usize) -> BeamBond {
-        BeamBond {
-            length: self.bonds.length[bond],
-            direction: self.bonds.direction[bond],
-            axial_rigidity: self.axial_rigidity[bond],
-            shear_rigidity: self.shear_rigidity[bond],
-            rotational_rigidity: self.rotational_rigidity[bond],
+    pub fn element(&self, bond: usize) -> BondElement {
+        let (length, direction) = (self.bonds.length[bond], self.bonds.direction[bond]);
+        let (axial_rigidity, shear_rigidity) =
+            (self.axial_rigidity[bond], self.shear_rigidity[bond]);
+        match self.element {
+            ElementKind::Beam => BondElement::Beam(BeamBond {
+                length,
+                direction,
+                axial_rigidity,
+                shear_rigidity,
+                rotational_rigidity: self.rotational_rigidity[bond],
+            }),
+            ElementKind::Spring => BondElement::Spring(SpringBond {
+                length,
+                direction,
+                axial_rigidity,
+                shear_rigidity,
+            }),
         }
     }
 

@@ -5,6 +5,7 @@
 //! every fault is reported with its line, column and key path.
 
 mod conditions;
+mod correction;
 mod decode;
 mod document;
 mod fault;
@@ -27,12 +28,13 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 pub use conditions::{Action, Displacement, Load, Support, Vector};
+pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop};
-pub use material::Material;
+pub use material::{Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
-pub use model::{Correction, CorrectionDomain, CorrectionRule, Law, ModelSection};
+pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
@@ -55,7 +57,7 @@ pub struct Case {
     pub materials: Vec<Material>,
     /// The bond model.
     pub model: ModelSection,
-    /// The domain correction of the bonds.
+    /// The corrections of the bonds.
     pub correction: Correction,
     /// Cracks that are there from the start.
     #[serde(rename = "precrack", skip_serializing_if = "Vec::is_empty")]
@@ -90,9 +92,9 @@ struct RawCase {
     mesh: mesh_section::RawMesh,
     #[serde(rename = "material")]
     _material: serde::de::IgnoredAny,
-    model: ModelSection,
+    model: model::RawModel,
     #[serde(default)]
-    correction: model::RawCorrection,
+    correction: correction::RawCorrection,
     #[serde(default)]
     precrack: Vec<Precrack>,
     #[serde(default)]
@@ -132,12 +134,13 @@ impl Case {
             .fracture
             .map(|it| it.check(&section("fracture")))
             .transpose()?;
+        let model = raw.model.check(&section("model"))?;
         let case = Self {
             title: raw.title,
             mesh: raw.mesh.check(&section("mesh"), folder)?,
             materials,
-            model: raw.model.check(&section("model"))?,
-            correction: raw.correction.check(&section("correction"))?,
+            correction: raw.correction.check(&section("correction"), &model)?,
+            model,
             precracks: each("precrack", raw.precrack, Precrack::check)?,
             supports: each("support", raw.support, conditions::RawSupport::check)?,
             loads,
@@ -152,6 +155,7 @@ impl Case {
     }
 
     fn check_across_sections(&self) -> Result<(), KeyFault> {
+        material::require_suitable(&self.materials, self.model.law, self.mesh.plane)?;
         if self.fracture.is_some() {
             material::require_strengths(&self.materials)?;
         }

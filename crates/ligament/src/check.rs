@@ -10,7 +10,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::{Boundary, Equilibrium};
 use ligament_mesh::Mesh;
-use ligament_model::Material;
+use ligament_model::Elasticity;
 use ligament_output::results::{MeshCells, point_grid};
 
 use crate::case::{CaseFile, Control, Steps};
@@ -18,7 +18,7 @@ use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
 use crate::stages::{Stage, Stages};
-use crate::summary::{Spread, correction_line, family};
+use crate::summary::{Spread, correction_line, family, formulation_line};
 
 /// How far a check goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,7 +74,7 @@ fn check_here(
     )?;
     write_mesh(out, &model)?;
     write_materials(out, case, &model)?;
-    write_bonds(out, &model)?;
+    write_bonds(out, case, &model)?;
     write_energy_ratios(out, &model)?;
     write_boundary(out, &model.mesh, &boundary, &probes)?;
     write_loading(out, case)?;
@@ -149,33 +149,30 @@ fn write_mesh(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
-    for (
-        index,
-        Material {
-            name,
-            young,
-            poisson,
-            tensile_strength,
-            density,
-        },
-    ) in resolve::materials(case).iter().enumerate()
-    {
+    for (index, material) in resolve::materials(case).iter().enumerate() {
         let volume: f64 = (0..cloud.len())
             .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
             .sum();
-        let name = if name.is_empty() {
+        let name = if material.name.is_empty() {
             "the whole body"
         } else {
-            name
+            &material.name
         };
-        write!(
-            out,
-            "  {name}: E = {young:.4e} Pa, nu = {poisson}, volume {volume:.6e} m^3"
-        )?;
-        if let Some(strength) = tensile_strength {
+        let constants = match material.elasticity {
+            Elasticity::Isotropic(it) => format!("E = {:.4e} Pa, nu = {}", it.young, it.poisson),
+            Elasticity::Orthotropic(it) => {
+                let [young_1, young_2] = it.young;
+                format!(
+                    "E_1 = {young_1:.4e} Pa, E_2 = {young_2:.4e} Pa, nu_12 = {}, G = {:.4e} Pa, axis 1 at {} rad",
+                    it.poisson, it.shear_modulus, it.angle
+                )
+            }
+        };
+        write!(out, "  {name}: {constants}, volume {volume:.6e} m^3")?;
+        if let Some(strength) = material.tensile_strength {
             write!(out, ", F_t = {strength:.4e} Pa")?;
         }
-        match density {
+        match material.density {
             Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,
             None => writeln!(out)?,
         }
@@ -183,7 +180,7 @@ fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::R
     Ok(())
 }
 
-fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let spread = |out: &mut dyn Write, name: &str, values: Spread, unit: &str| {
         writeln!(
             out,
@@ -212,7 +209,12 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         " m",
     )?;
     spread(out, "bonds of a point", family(model), "")?;
-    writeln!(out, "  {}", correction_line(&model.correction))?;
+    writeln!(out, "  {}", formulation_line(case))?;
+    writeln!(
+        out,
+        "  {}",
+        correction_line(case, model.correction.as_ref())
+    )?;
     spread(
         out,
         "correction factor",

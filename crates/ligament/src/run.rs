@@ -7,14 +7,14 @@ use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::{Observer, SetupError};
 use ligament_mesh::Mesh;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
-use ligament_model::correction::{Correction, CorrectionReport, domain, energy_ratios};
+use ligament_model::correction::{Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::strength::critical_stretches;
-use ligament_model::law::{BondStiffness, nhpd};
-use ligament_model::{BondSet, BondSystem, Horizons, Material, Plane, PointCloud};
+use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{FixedFields, MeshCells, ResultWriter, Time, WriteRule};
 
 use crate::case::{CaseFile, Control, CorrectionDomain, Fracture};
+use crate::formulation;
 use crate::inspect::read_mesh;
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
@@ -35,8 +35,8 @@ pub struct Model {
     pub system: BondSystem,
     /// Fields that a run does not change.
     pub fixed: FixedFields,
-    /// How the domain correction went.
-    pub correction: CorrectionReport,
+    /// How the domain correction went, where there was one.
+    pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
     /// Critical stretch of each bond, shape (n_bonds).
@@ -74,7 +74,7 @@ pub fn build_model(
         (is_cut, touched, precrack_share)
     });
     let corrected = stages.time("correction", || {
-        correct(case, &cloud, bonds, &is_cut, &materials, plane)
+        correct(case, &cloud, &horizons, bonds, &is_cut)
     });
     let Corrected {
         bonds,
@@ -83,7 +83,7 @@ pub fn build_model(
         energy_ratios,
     } = corrected;
     let report = correction.report;
-    progress.stage(&summary::correction_line(&report));
+    progress.stage(&summary::correction_line(case, report.as_ref()));
 
     let no_fail = resolve::no_fail(case, &mesh, &cloud)?;
     let correction_range = correction.domain_factor_range();
@@ -95,12 +95,13 @@ pub fn build_model(
     };
     let (alpha, omega) = (correction.length_factor, &fixed.domain_factor);
     let (system, critical_stretch) = stages.time("rigidities", || {
-        let system = BondSystem::new(cloud, bonds, stiffness, alpha, omega);
+        let element = formulation::element(case.case.model.law);
+        let system = BondSystem::new(cloud, bonds, element, stiffness, alpha, omega);
         let critical_stretch = critical_stretches(&system, &materials, plane, &no_fail);
         (system, critical_stretch)
     });
     Ok(Model {
-        warnings: warnings::of_model(case, &mesh, &report, &fixed, touched),
+        warnings: warnings::of_model(case, &mesh, report.as_ref(), &fixed, touched),
         correction: report,
         correction_range,
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
@@ -120,15 +121,14 @@ struct Corrected {
     energy_ratios: [Vec<f64>; 4],
 }
 
-/// Corrects the bonds of the whole body and then drops those that pre-cracks cut, or the other way round if the case
-/// says so.
+/// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
+/// way round if the case says so.
 fn correct(
     case: &CaseFile,
     cloud: &PointCloud,
+    horizons: &Horizons,
     bonds: BondSet,
     is_cut: &[bool],
-    materials: &[Material],
-    plane: Plane,
 ) -> Corrected {
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     let any_is_cut = is_cut.contains(&true);
@@ -138,10 +138,11 @@ fn correct(
     } else {
         bonds
     };
-    let sweeps = resolve::sweeps(case, bonds.len());
-    let stiffness = nhpd::stiffness(&bonds, cloud, materials, plane);
-    let correction = domain::iterate(&bonds, cloud, &stiffness, materials, plane, sweeps);
-    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, materials, plane);
+    let alpha = formulation::alpha(case, &bonds, cloud);
+    let stiffness = formulation::stiffness(case, &bonds, cloud, &alpha);
+    let correction = formulation::correction(case, &bonds, cloud, horizons, &stiffness, alpha);
+    let (materials, plane) = (resolve::materials(case), resolve::plane(case));
+    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, &materials, plane);
     let corrected = Corrected {
         bonds,
         stiffness,

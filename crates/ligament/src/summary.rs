@@ -4,10 +4,12 @@ use std::io::{self, Write};
 
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::stiffness::{FactorKind, Ordering, Update};
+use ligament_model::ElementKind;
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
-use crate::case::CaseFile;
+use crate::case::{Alpha, Calibration, CaseFile, RotationalStiffness, Surface};
+use crate::formulation;
 use crate::run::Model;
 use crate::stages::Stage;
 
@@ -18,6 +20,8 @@ pub struct Summary {
     pub title: String,
     /// Version of the program.
     pub version: &'static str,
+    /// Law and corrections of the bonds, in words.
+    pub formulation: String,
     /// Number of points.
     pub points: usize,
     /// Number of bonds, without those that pre-cracks cut.
@@ -32,7 +36,7 @@ pub struct Summary {
     pub horizon: Spread,
     /// Smallest, mean and largest number of bonds of a point.
     pub family: Spread,
-    /// The domain correction.
+    /// The corrections of the bonds.
     pub correction: CorrectionSummary,
     /// Force over displacement of the first load before the first breakage, N/m.
     pub elastic_stiffness: Option<f64>,
@@ -81,21 +85,25 @@ pub struct Spread {
     pub max: f64,
 }
 
-/// How the domain correction went.
+/// The corrections, and how the domain correction went if it is the one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CorrectionSummary {
+    /// The factor alpha.
+    pub alpha: Alpha,
+    /// The correction of surfaces.
+    pub surface: Surface,
     /// Sweeps.
-    pub sweeps: usize,
+    pub sweeps: Option<usize>,
     /// Whether it converged.
-    pub converged: bool,
+    pub converged: Option<bool>,
     /// Sum over the bonds of |change of Omega| in the last sweep.
-    pub last_change: f64,
+    pub last_change: Option<f64>,
     /// Smallest Omega.
     pub factor_min: f64,
     /// Largest Omega.
     pub factor_max: f64,
     /// Largest |energy ratio - 1| of a point under uniaxial strain along x or y.
-    pub largest_residual: f64,
+    pub largest_residual: Option<f64>,
     /// Energy ratios over the points for uniaxial x, uniaxial y, biaxial and shear strain.
     pub energy_ratios: [Spread; 4],
 }
@@ -204,6 +212,11 @@ impl Summary {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
+            formulation: format!(
+                "{}; {}",
+                formulation_line(case),
+                correction_line(case, model.correction.as_ref())
+            ),
             points: model.system.cloud.len(),
             bonds: model.system.bonds.len(),
             cut_bonds: model.cut_bonds,
@@ -211,7 +224,7 @@ impl Summary {
             volume: model.system.cloud.volumes.iter().sum(),
             horizon: Spread::of(model.fixed.horizon.iter().copied()),
             family: family(model),
-            correction: CorrectionSummary::new(model),
+            correction: CorrectionSummary::new(case, model),
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),
@@ -238,6 +251,7 @@ impl Summary {
     /// The lines that a user sees at the end of a run.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{}", self.title)?;
+        writeln!(out, "  {}", self.formulation)?;
         writeln!(
             out,
             "  points {}, bonds {}, volume {:.6e} m^3",
@@ -309,16 +323,18 @@ pub fn family(model: &Model) -> Spread {
 
 impl CorrectionSummary {
     /// The correction of a model.
-    pub fn new(model: &Model) -> Self {
-        let report = &model.correction;
+    pub fn new(case: &CaseFile, model: &Model) -> Self {
+        let report = model.correction.as_ref();
         let (factor_min, factor_max) = model.correction_range;
         Self {
-            sweeps: report.sweeps,
-            converged: report.converged,
-            last_change: report.last_change,
+            alpha: case.case.correction.alpha,
+            surface: case.case.correction.surface,
+            sweeps: report.map(|it| it.sweeps),
+            converged: report.map(|it| it.converged),
+            last_change: report.map(|it| it.last_change),
             factor_min,
             factor_max,
-            largest_residual: report.largest_residual,
+            largest_residual: report.map(|it| it.largest_residual),
             energy_ratios: model
                 .fixed
                 .energy_ratios
@@ -360,8 +376,47 @@ impl SolverSummary {
     }
 }
 
-/// How the correction went, in a line.
-pub fn correction_line(report: &CorrectionReport) -> String {
+/// The law of the bonds, in a line.
+pub fn formulation_line(case: &CaseFile) -> String {
+    let model = &case.case.model;
+    let unknowns = match formulation::element(model.law) {
+        ElementKind::Beam => "two displacements and a rotation a point",
+        ElementKind::Spring => "two displacements a point",
+    };
+    let constants = match model.calibration {
+        Some(Calibration::Discrete) => ", constants from sums over the families",
+        Some(Calibration::Integral) | None => "",
+    };
+    let rotational = match model.rotational_stiffness {
+        Some(RotationalStiffness::Decaying) => ", k_theta = k_t l (1 - l/H)/2",
+        Some(RotationalStiffness::Quarter) => ", k_theta = k_t l/4",
+        Some(RotationalStiffness::Beam) => ", k_theta = k_t l/12",
+        Some(RotationalStiffness::None) => ", k_theta = 0",
+        None => "",
+    };
+    format!(
+        "law {}: {unknowns}{constants}{rotational}",
+        model.law.word()
+    )
+}
+
+/// Which corrections the bonds have, and how the iterated one went, in a line.
+pub fn correction_line(case: &CaseFile, report: Option<&CorrectionReport>) -> String {
+    let correction = &case.case.correction;
+    let alpha = match correction.alpha {
+        Alpha::None => "no factor alpha",
+        Alpha::PartialVolume => "alpha by partial volume",
+        Alpha::Length => "alpha by length",
+    };
+    let surface = match correction.surface {
+        Surface::None => "no surface correction".to_owned(),
+        Surface::Volume => "surface correction by volume".to_owned(),
+        Surface::Domain => report.map(domain_correction).unwrap_or_default(),
+    };
+    format!("{alpha}, {surface}")
+}
+
+fn domain_correction(report: &CorrectionReport) -> String {
     let verdict = if report.converged {
         "converged"
     } else {

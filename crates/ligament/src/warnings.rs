@@ -2,10 +2,10 @@
 
 use ligament_mesh::Mesh;
 use ligament_model::correction::CorrectionReport;
-use ligament_model::{Material, Plane};
+use ligament_model::{Isotropic, Plane};
 use ligament_output::results::FixedFields;
 
-use crate::case::CaseFile;
+use crate::case::{CaseFile, Law};
 use crate::resolve;
 
 /// Below this the domain correction is not known to have a fixed point.
@@ -14,12 +14,15 @@ const SMALLEST_SAFE_FACTOR: f64 = 2.0;
 /// A point whose energy under uniaxial strain is off by more than this is told of.
 const ENERGY_TOLERANCE: f64 = 1e-4;
 
+/// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
+const POISSON_TOLERANCE: f64 = 1e-3;
+
 /// Warnings about the mesh, the horizon factor, the correction, pre-cracks (`touched`: bonds that only touch an end of
 /// one) and the materials.
 pub fn of_model(
     case: &CaseFile,
     mesh: &Mesh,
-    correction: &CorrectionReport,
+    correction: Option<&CorrectionReport>,
     fixed: &FixedFields,
     touched: usize,
 ) -> Vec<String> {
@@ -29,13 +32,13 @@ pub fn of_model(
         .map(|remark| format!("mesh: {remark}"))
         .collect();
     let factor = case.case.model.horizon_factor;
-    if factor < SMALLEST_SAFE_FACTOR {
+    if correction.is_some() && factor < SMALLEST_SAFE_FACTOR {
         warnings.push(format!(
             "model.horizon_factor = {factor} is less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no \
              fixed point, and peak loads then depend on the number of sweeps"
         ));
     }
-    if !correction.converged {
+    if let Some(correction) = correction.filter(|report| !report.converged) {
         warnings.push(correction_warning(mesh, correction, fixed));
     }
     if touched > 0 {
@@ -45,11 +48,9 @@ pub fn of_model(
         ));
     }
     let plane = resolve::plane(case);
-    warnings.extend(
-        resolve::materials(case)
-            .iter()
-            .filter_map(|material| poisson_warning(material, plane)),
-    );
+    let materials = resolve::materials(case);
+    let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
+    warnings.extend(constants.filter_map(|it| poisson_warning(case.case.model.law, &it, plane)));
     warnings
 }
 
@@ -75,13 +76,21 @@ fn correction_warning(mesh: &Mesh, correction: &CorrectionReport, fixed: &FixedF
     )
 }
 
-fn poisson_warning(material: &Material, plane: Plane) -> Option<String> {
-    let limit = Material::central_force_poisson(plane);
-    (material.poisson > limit).then(|| {
-        format!(
-            "Poisson's ratio {} is greater than {limit:.4}: shear and rotational stiffness of the bonds are negative, \
-             the stability of the intact model is checked",
-            material.poisson
-        )
-    })
+fn poisson_warning(law: Law, material: &Isotropic, plane: Plane) -> Option<String> {
+    let (poisson, limit) = (material.poisson, Isotropic::central_force_poisson(plane));
+    match law {
+        Law::Bbpd if (poisson - limit).abs() > POISSON_TOLERANCE => Some(format!(
+            "Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}"
+        )),
+        Law::Bbpd => None,
+        Law::Pds if poisson > limit => Some(format!(
+            "Poisson's ratio {poisson} is greater than {limit:.4}: the shear stiffness of the bonds is negative, the stability \
+             of the intact model is checked"
+        )),
+        _ if poisson > limit => Some(format!(
+            "Poisson's ratio {poisson} is greater than {limit:.4}: shear and rotational stiffness of the bonds are negative, \
+             the stability of the intact model is checked"
+        )),
+        _ => None,
+    }
 }

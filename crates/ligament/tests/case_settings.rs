@@ -35,8 +35,8 @@ fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;
     assert_eq!((case.mesh.thickness, case.mesh.plane), (1.0, Plane::Stress));
     assert_eq!(
-        (case.correction.rule, case.correction.max_sweeps),
-        (CorrectionRule::Mean, 500)
+        case.correction.iteration.map(|it| (it.rule, it.max_sweeps)),
+        Some((CorrectionRule::Mean, 500))
     );
     assert_eq!(case.loads[0].name, "load-1");
     assert_eq!(

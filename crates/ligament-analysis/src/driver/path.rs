@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::BondDeformation;
 
 use super::Problem;
 use super::outcome::{Outcome, Rows};

@@ -1,6 +1,6 @@
 //! Bookkeeping that every driver shares: energies and records.
 
-use ligament_model::element::beam::BondDeformation;
+use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
 use super::Problem;

@@ -3,12 +3,14 @@
 //!
 //! The correction is tied to the axes: quarter turns of the mesh leave the answer as it is, other turns do not.
 
+use nalgebra::Vector3;
+
 use super::families::Families;
-use super::{Correction, CorrectionReport, length::length_factors};
+use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
-use crate::material::{Material, Plane};
+use crate::material::{Elasticity, Material, Plane};
 
 /// When the sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,13 +57,15 @@ impl StrainMode {
         }
     }
 
-    /// Strain energy density of the continuum, J/m^3.
-    pub fn energy(self, material: &Material, plane: Plane) -> f64 {
-        match self {
-            Self::UniaxialX | Self::UniaxialY => material.uniaxial_strain_energy(plane),
-            Self::Biaxial => material.biaxial_strain_energy(plane),
-            Self::Shear => material.shear_strain_energy(),
-        }
+    /// Strain energy density 1/2 eps C eps of the continuum, J/m^3 (NHPD eq. 11 for the uniaxial ones).
+    pub fn energy(self, material: &Elasticity, plane: Plane) -> f64 {
+        let strain = match self {
+            Self::UniaxialX => Vector3::new(1.0, 0.0, 0.0),
+            Self::UniaxialY => Vector3::new(0.0, 1.0, 0.0),
+            Self::Biaxial => Vector3::new(1.0, 1.0, 0.0),
+            Self::Shear => Vector3::new(0.0, 0.0, 1.0),
+        };
+        0.5 * strain.dot(&(material.plane_stiffness(plane) * strain))
     }
 }
 
@@ -69,24 +73,25 @@ impl StrainMode {
 ///
 /// Omega <- Omega / sqrt((a/p_x)^2 + (b/p_y)^2), p_x = (e_A/etil_A,x + e_B/etil_B,x)/2, p_y alike,
 ///
-/// with the trial energy density etil_A = (1/4) sum over B of Omega alpha V_B (k_n s^2 + k_t gamma^2) l (eq. 12). At an
+/// from given length factors alpha (n_bonds), with the trial energy density etil_A = (1/4) sum over B of Omega alpha V_B (k_n s^2 + k_t gamma^2) l (eq. 12). At an
 /// interface e_A is the volume-weighted mean of the materials'.
 pub fn iterate(
     bonds: &BondSet,
     cloud: &PointCloud,
     stiffness: &BondStiffness,
+    length_factor: Vec<f64>,
     materials: &[Material],
     plane: Plane,
     sweeps: Sweeps,
 ) -> Correction {
-    let length_factor = length_factors(bonds, cloud);
     let tolerance = match sweeps.stop {
         StopRule::Sum(tolerance) => tolerance,
         StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
     };
     let density = |mode, bond| energy_density(mode, bond, bonds, stiffness, &length_factor);
-    let target = target_energies(StrainMode::UniaxialX, cloud, materials, plane);
-    let mut families = Families::new(bonds, cloud, density, &target);
+    let targets = [StrainMode::UniaxialX, StrainMode::UniaxialY]
+        .map(|mode| target_energies(mode, cloud, materials, plane));
+    let mut families = Families::new(bonds, cloud, density, &targets);
     let mut last_change = f64::INFINITY;
     let mut done = 0;
     while last_change >= tolerance && done < sweeps.limit {
@@ -102,7 +107,7 @@ pub fn iterate(
     Correction {
         domain_factor: families.into_domain_factors(),
         length_factor,
-        report,
+        report: Some(report),
     }
 }
 
@@ -156,7 +161,7 @@ fn target_energies(
 ) -> Vec<f64> {
     let energies: Vec<f64> = materials
         .iter()
-        .map(|material| mode.energy(material, plane))
+        .map(|material| mode.energy(&material.elasticity, plane))
         .collect();
     (0..cloud.len())
         .map(|point| cloud.mean_property(point, &energies))

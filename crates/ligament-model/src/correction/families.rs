@@ -23,8 +23,8 @@ pub(super) struct Families<'a> {
     members: Members,
     /// Omega of each member.
     domain_factor: Vec<f64>,
-    /// e_A of the continuum, by rank, J/m^3.
-    target: Vec<f64>,
+    /// e_A of the continuum along x and y, by rank, J/m^3.
+    target: Vec<[f64; 2]>,
     /// e_A/etil_A along x and y, by rank.
     ratios: Vec<[f64; 2]>,
     /// The same before the last sweep.
@@ -48,18 +48,18 @@ struct Members {
 impl<'a> Families<'a> {
     /// The families with all factors 1.
     ///
-    /// `density(mode, bond)` is alpha (k_n s^2 + k_t gamma^2) l under a strain of size one, `target` (n_points) the
-    /// energy density e_A of the continuum.
+    /// `density(mode, bond)` is alpha (k_n s^2 + k_t gamma^2) l under a strain of size one, `targets` (2, n_points) the
+    /// energy densities e_A of the continuum.
     pub(super) fn new(
         bonds: &'a BondSet,
         cloud: &'a PointCloud,
         density: impl Fn(StrainMode, usize) -> f64 + Sync,
-        target: &[f64],
+        targets: &[Vec<f64>; 2],
     ) -> Self {
         let members = Members::new(bonds, cloud, density);
         let domain_factor = vec![1.0; members.neighbour.len()];
-        let by_rank = cloud.curve.iter().map(|&point| target[point as usize]);
-        let target: Vec<f64> = by_rank.collect();
+        let at = |point: u32| [0, 1].map(|axis| targets[axis][point as usize]);
+        let target: Vec<[f64; 2]> = cloud.curve.iter().map(|&point| at(point)).collect();
         let ratios: Vec<[f64; 2]> = (0..cloud.len())
             .into_par_iter()
             .map(|rank| {
@@ -231,12 +231,12 @@ impl Members {
     }
 
     /// e_A/etil_A along x and y of a point, with the trial energy density of NHPD eq. 12.
-    fn energy_ratios(&self, rank: usize, factors: &[f64], target: f64) -> [f64; 2] {
+    fn energy_ratios(&self, rank: usize, factors: &[f64], target: [f64; 2]) -> [f64; 2] {
         let members = self.energy[self.family(rank)].iter().zip(factors);
         let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
             [x + omega * density[0], y + omega * density[1]]
         });
-        trial.map(|trial| target / trial)
+        [target[0] / trial[0], target[1] / trial[1]]
     }
 }
 

@@ -1,8 +1,17 @@
-//! Corrections of the bonds: the length factor alpha and the iterative domain correction Omega.
+//! Corrections of the bonds: a factor alpha for what of its ends a bond connects, and a factor Omega for what surfaces and
+//! irregular meshes take from the families.
+//!
+//! | alpha | Omega |
+//! |---|---|
+//! | [`length`]: short bonds count more (NHPD eq. 7) | [`domain`]: iterated until energies are right (NHPD eqs 11 to 13) |
+//! | [`partial_volume`]: cells that the horizon cuts (MPPD eq. 9) | [`surface`]: by the volumes of the families (MPPD) |
+//! | none: 1 | none: 1 |
 
 pub mod domain;
 mod families;
 pub mod length;
+pub mod partial_volume;
+pub mod surface;
 
 pub use domain::{StopRule, Sweeps, energy_ratios};
 
@@ -11,12 +20,12 @@ use crate::bonds::retained;
 /// Factors of the bonds and how they were found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {
-    /// Length factors alpha, shape (n_bonds).
+    /// Length or partial-volume factors alpha, shape (n_bonds).
     pub length_factor: Vec<f64>,
-    /// Domain-correction factors Omega, shape (n_bonds).
+    /// Domain-correction factors Omega, or the surface factors in their place, shape (n_bonds).
     pub domain_factor: Vec<f64>,
-    /// How the iteration for Omega went.
-    pub report: CorrectionReport,
+    /// How the iteration for Omega went, where there was one.
+    pub report: Option<CorrectionReport>,
 }
 
 /// How the domain correction went.
@@ -33,6 +42,15 @@ pub struct CorrectionReport {
 }
 
 impl Correction {
+    /// Factors that are not iterated.
+    pub fn fixed(length_factor: Vec<f64>, domain_factor: Vec<f64>) -> Self {
+        Self {
+            length_factor,
+            domain_factor,
+            report: None,
+        }
+    }
+
     /// The bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         Self {

@@ -1,3 +1,236 @@
 //! Elements: the kinematics of bonds.
+//!
+//! | element | a point has | deformation of a bond | laws |
+//! |---|---|---|---|
+//! | [`beam`] | two displacements and a rotation | stretch, shear less the mean rotation, relative rotation | micropolar ones |
+//! | [`spring`] | two displacements | stretch, shear | `bbpd`, `pds` |
+//!
+//! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Arrays over degrees of freedom have
+//! three components a point for either element; the rotations of a body of springs are zero and no unknowns.
 
 pub mod beam;
+pub mod spring;
+
+use nalgebra::{Matrix6, Vector6};
+
+use beam::BeamBond;
+use spring::SpringBond;
+
+/// Components of a point: displacement along x, along y, rotation.
+pub const UNKNOWNS: usize = 3;
+
+/// Which kinematics the bonds of a body have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ElementKind {
+    /// With rotations of the points: [`BeamBond`].
+    Beam,
+    /// Without: [`SpringBond`].
+    Spring,
+}
+
+/// Deformation of a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BondDeformation {
+    /// Stretch s.
+    pub stretch: f64,
+    /// Shear deformation gamma, rad.
+    pub shear: f64,
+    /// Relative rotation theta_B - theta_A, rad.
+    pub rotation: f64,
+}
+
+/// One bond with its geometry and rigidity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BondElement {
+    /// With rotations of its ends.
+    Beam(BeamBond),
+    /// Without.
+    Spring(SpringBond),
+}
+
+impl BondElement {
+    /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
+    pub fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
+        match self {
+            Self::Beam(bond) => bond.deformation(end_a, end_b),
+            Self::Spring(bond) => bond.deformation(end_a, end_b),
+        }
+    }
+
+    /// Strain energy 1/2 u^T K u, J (NHPD eq. 10).
+    pub fn energy(&self, deformation: &BondDeformation) -> f64 {
+        self.mutual_energy(deformation, deformation)
+    }
+
+    /// 1/2 u^T K u', J, for two deformations of the same bond.
+    pub fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+        match self {
+            Self::Beam(bond) => bond.mutual_energy(one, other),
+            Self::Spring(bond) => bond.mutual_energy(one, other),
+        }
+    }
+
+    /// Internal forces and moments K u at the ends A and B, N and N m.
+    pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
+        match self {
+            Self::Beam(bond) => bond.end_forces(deformation),
+            Self::Spring(bond) => bond.end_forces(deformation),
+        }
+    }
+
+    /// K as a sum over stretch, shear and relative rotation of rigidity g g^T; the rows g take the unknowns of A and B to
+    /// (s, gamma, theta_rel).
+    pub fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
+        match self {
+            Self::Beam(bond) => bond.modes(),
+            Self::Spring(bond) => bond.modes(),
+        }
+    }
+
+    /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
+    pub fn stiffness(&self) -> Matrix6<f64> {
+        let modes = self.modes().into_iter();
+        modes.fold(Matrix6::zeros(), |sum, (rigidity, gradient)| {
+            let gradient = Vector6::from(gradient);
+            sum + rigidity * gradient * gradient.transpose()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LENGTH: f64 = 0.7;
+
+    fn beam(angle: f64, shear_sign: f64) -> BondElement {
+        BondElement::Beam(BeamBond {
+            length: LENGTH,
+            direction: [angle.cos(), angle.sin()],
+            axial_rigidity: 5.0,
+            shear_rigidity: 3.0 * shear_sign,
+            rotational_rigidity: 0.2 * shear_sign,
+        })
+    }
+
+    fn spring(angle: f64, shear_sign: f64) -> BondElement {
+        BondElement::Spring(SpringBond {
+            length: LENGTH,
+            direction: [angle.cos(), angle.sin()],
+            axial_rigidity: 5.0,
+            shear_rigidity: 3.0 * shear_sign,
+        })
+    }
+
+    fn deformation(bond: &BondElement, u: &Vector6<f64>) -> BondDeformation {
+        bond.deformation(&u.as_slice()[..UNKNOWNS], &u.as_slice()[UNKNOWNS..])
+    }
+
+    /// Some unknowns of both ends.
+    fn unknowns() -> Vector6<f64> {
+        Vector6::new(0.3, -0.1, 0.2, 0.5, 0.4, -0.3)
+    }
+
+    /// A rigid motion moves a point by translation + rotation x position, and turns it by the rotation.
+    fn rigid_motion(angle: f64, translation: [f64; 2], rotation: f64) -> Vector6<f64> {
+        let at = |p: [f64; 2]| {
+            [
+                translation[0] - rotation * p[1],
+                translation[1] + rotation * p[0],
+                rotation,
+            ]
+        };
+        let b = [2.0 + LENGTH * angle.cos(), -1.0 + LENGTH * angle.sin()];
+        let both = [at([2.0, -1.0]), at(b)];
+        Vector6::from_iterator(both.into_iter().flatten())
+    }
+
+    const TRANSLATIONS: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
+
+    /// What a motion costs, relative to the rigidities: round-off of entries of size 50 bounds a zero at 1e-12.
+    fn force(bond: &BondElement, u: &Vector6<f64>) -> f64 {
+        (bond.stiffness() * u).norm()
+    }
+
+    /// A beam has exactly three zero-energy modes, all rigid motions.
+    #[test]
+    fn rigid_motions_cost_a_beam_nothing() {
+        for shear_sign in [1.0, -1.0] {
+            let bond = beam(0.6, shear_sign);
+            let eigenvalues = bond.stiffness().symmetric_eigenvalues();
+            assert_eq!(eigenvalues.iter().filter(|it| it.abs() < 1e-12).count(), 3);
+            for (translation, rotation) in TRANSLATIONS
+                .map(|t| (t, 0.0))
+                .into_iter()
+                .chain([([0.3, -0.2], 1.0)])
+            {
+                assert!(force(&bond, &rigid_motion(0.6, translation, rotation)) < 1e-12);
+            }
+        }
+    }
+
+    /// A spring bond has two rigidities on four displacements: translations cost nothing, a rotation shears it, unless it has
+    /// no shear rigidity; rotations of its ends do nothing.
+    #[test]
+    fn a_rotation_shears_a_spring() {
+        let bond = spring(0.6, 1.0);
+        for translation in TRANSLATIONS {
+            assert!(force(&bond, &rigid_motion(0.6, translation, 0.0)) < 1e-12);
+        }
+        let rotation = rigid_motion(0.6, [0.3, -0.2], 1.0);
+        assert!((deformation(&bond, &rotation).shear - 1.0).abs() < 1e-14);
+        assert!(force(&spring(0.6, 0.0), &rotation) < 1e-12);
+        let turned_ends = Vector6::new(0.0, 0.0, 0.7, 0.0, 0.0, -0.4);
+        assert_eq!(deformation(&bond, &turned_ends), BondDeformation::default());
+    }
+
+    /// force = d energy / du and stiffness = d force / du by central differences; both are exact for a quadratic
+    /// energy, so that only round-off (1e-16 / 1e-4 steps) remains.
+    #[test]
+    fn forces_and_stiffness_are_derivatives() {
+        for bond in [beam(2.1, 1.0), spring(2.1, 1.0)] {
+            let u = unknowns();
+            let force = |u: &Vector6<f64>| {
+                let ends = bond.end_forces(&deformation(&bond, u));
+                Vector6::from_iterator(ends.into_iter().flatten())
+            };
+            let energy = |u: &Vector6<f64>| bond.energy(&deformation(&bond, u));
+            let step = 1e-4;
+            for i in 0..6 {
+                let [mut forward, mut backward] = [u, u];
+                forward[i] += step;
+                backward[i] -= step;
+                let slope = (energy(&forward) - energy(&backward)) / (2.0 * step);
+                assert!((slope - force(&u)[i]).abs() < 1e-10, "force {i}");
+                let column = (force(&forward) - force(&backward)) / (2.0 * step);
+                assert!(
+                    (column - bond.stiffness().column(i)).norm() < 1e-9,
+                    "column {i}"
+                );
+            }
+            assert!(force(&u).norm() > 0.1, "the test must see forces");
+        }
+    }
+
+    /// Turning the bond and its unknowns together leaves the energy as it is.
+    #[test]
+    fn energy_does_not_depend_on_the_orientation() {
+        for element in [beam, spring] {
+            let u = unknowns();
+            let energy = |angle: f64, u: &Vector6<f64>| {
+                let bond = element(angle, 1.0);
+                bond.energy(&deformation(&bond, u))
+            };
+            let reference = energy(0.4, &u);
+            for turn in [0.3, 1.2, 2.9, -2.0] {
+                let (sin, cos) = f64::sin_cos(turn);
+                let mut turned = u;
+                for end in [0, UNKNOWNS] {
+                    turned[end] = cos * u[end] - sin * u[end + 1];
+                    turned[end + 1] = sin * u[end] + cos * u[end + 1];
+                }
+                assert!((energy(0.4 + turn, &turned) / reference - 1.0).abs() < 1e-13);
+            }
+        }
+    }
+}

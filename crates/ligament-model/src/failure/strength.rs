@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::cloud::PointCloud;
-use crate::material::{Material, Plane};
+use crate::material::{Isotropic, Material, Plane};
 use crate::system::BondSystem;
 
 /// Critical strain energy density e_0, J/m^3 (NHPD eq. 14):
@@ -26,7 +26,8 @@ pub fn critical_energy(young: f64, poisson: f64, tensile_strength: f64, plane: P
 /// s_0 = sqrt(e_0 (V_A + V_B) / (Omega alpha V_A V_B c l))
 ///
 /// A bond between materials takes the smaller e_0 of all that have a share in one of its ends. A bond of which an end is
-/// marked in `no_fail` (n_points) never breaks: s_0 is infinite; so it is where a material has no tensile strength.
+/// marked in `no_fail` (n_points) never breaks: s_0 is infinite; so it is where a material has no tensile strength or
+/// is orthotropic, for which eq. 14 says nothing.
 pub fn critical_stretches(
     system: &BondSystem,
     materials: &[Material],
@@ -36,8 +37,9 @@ pub fn critical_stretches(
     let energies: Vec<f64> = materials
         .iter()
         .map(|m| {
-            m.tensile_strength.map_or(f64::INFINITY, |f_t| {
-                critical_energy(m.young, m.poisson, f_t, plane)
+            let constants = m.elasticity.isotropic().zip(m.tensile_strength);
+            constants.map_or(f64::INFINITY, |(Isotropic { young, poisson }, f_t)| {
+                critical_energy(young, poisson, f_t, plane)
             })
         })
         .collect();

@@ -1,6 +1,31 @@
 //! Bond laws: from materials and bond horizons to the stiffness densities of the bonds.
+//!
+//! | law | densities | element |
+//! |---|---|---|
+//! | [`bbpd`] | k_n | spring |
+//! | [`pds`] | k_n, constant k_t | spring |
+//! | [`mppd`] | those of [`pds`] and k_theta | beam |
+//! | [`beam`] | k_n, k_t = 12 d/l^2, k_theta = d/l: MPPD's beam form, and NHPD's law | beam |
+//! | [`orthotropic`] | k_n and k_t that depend on the direction, k_theta | beam |
+//!
+//! They come from integrals over a full circle; [`calibration`] puts sums over the families of the points in their place.
 
-pub mod nhpd;
+pub mod bbpd;
+pub mod beam;
+pub mod calibration;
+pub mod mppd;
+pub mod orthotropic;
+pub mod pds;
+pub mod rotational;
+
+use rayon::prelude::*;
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+
+/// Below this |1 - 3 nu| (or |1 - 4 nu| in plane strain) the shear stiffness counts as exactly zero, and with it the
+/// rotational one: what rounding leaves of it would only make the system nearly singular.
+const CENTRAL_FORCE_TOLERANCE: f64 = 1e-9;
 
 /// Stiffness densities of the bonds.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +38,69 @@ pub struct BondStiffness {
     pub rotational: Vec<f64>,
 }
 
+/// Densities of one bond.
+struct Densities {
+    axial: f64,
+    shear: f64,
+    rotational: f64,
+}
+
+/// What a law sees of a bond.
+struct BondGeometry {
+    /// Length l, m.
+    length: f64,
+    /// Bond horizon H, m.
+    horizon: f64,
+    /// Direction cosines (a, b).
+    direction: [f64; 2],
+}
+
 impl BondStiffness {
+    /// Densities from `constants` of the materials (n_materials): a point at an interface has the volume-weighted mean of its
+    /// materials' constants, a bond the mean of its two ends'.
+    fn from_constants<const N: usize>(
+        bonds: &BondSet,
+        cloud: &PointCloud,
+        constants: &[[f64; N]],
+        densities: impl Fn(&[f64; N], &BondGeometry) -> Densities + Sync,
+    ) -> Self {
+        let of_point = |point: usize| {
+            let shares = cloud.shares(point).iter().zip(constants);
+            shares.fold([0.0; N], |mut sum, (share, constants)| {
+                for (value, constant) in sum.iter_mut().zip(constants) {
+                    *value += share * constant;
+                }
+                sum
+            })
+        };
+        let at_points: Vec<[f64; N]> = (0..cloud.len()).into_par_iter().map(of_point).collect();
+        let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
+        (
+            (&bonds.ends, &bonds.length, &bonds.horizon, &bonds.direction).into_par_iter(),
+            (&mut axial, &mut shear, &mut rotational).into_par_iter(),
+        )
+            .into_par_iter()
+            .for_each(
+                |((ends, &length, &horizon, &direction), (axial, shear, rotational))| {
+                    let [a, b] = ends.map(|end| &at_points[end as usize]);
+                    let mean = std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+                    let bond = BondGeometry {
+                        length,
+                        horizon,
+                        direction,
+                    };
+                    let of_bond = densities(&mean, &bond);
+                    (*axial, *shear, *rotational) =
+                        (of_bond.axial, of_bond.shear, of_bond.rotational);
+                },
+            );
+        Self {
+            axial,
+            shear,
+            rotational,
+        }
+    }
+
     /// The bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         use crate::bonds::retained;

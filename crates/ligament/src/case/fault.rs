@@ -53,7 +53,7 @@ pub enum Fault {
         /// The key.
         key: &'static str,
         /// The setting that it does not go with.
-        setting: &'static str,
+        setting: String,
         /// Why not.
         reason: &'static str,
     },

@@ -260,7 +260,7 @@ impl RawFracture {
                 key.child(name),
                 Fault::NotWith {
                     key: name,
-                    setting: "control = \"event\"",
+                    setting: "control = \"event\"".to_owned(),
                     reason: "the path goes from breakage to breakage without load steps",
                 },
             )),

@@ -1,7 +1,5 @@
 //! `[material]` or `[material.NAME]`: the materials of the body.
 
-use std::collections::BTreeMap;
-
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -9,9 +7,11 @@ use super::decode::decode;
 use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::mesh_section::Plane;
+use super::model::Law;
 use super::values::{require, require_positive, require_unique};
 
-/// An isotropic linear elastic material with a tensile strength.
+/// A linear elastic material with a tensile strength.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Material {
     /// Its name, NAME of `[material.NAME]`; none for the one `[material]` of the whole body.
@@ -20,17 +20,67 @@ pub struct Material {
     /// The physical surface it fills; none for the whole body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
-    /// Young's modulus, Pa.
-    pub young: f64,
-    /// Poisson's ratio.
-    pub poisson: f64,
+    /// Its elastic constants.
+    #[serde(flatten)]
+    pub elasticity: Elasticity,
     /// Tensile strength, Pa; always there if the case has a `[fracture]` section.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tensile_strength: Option<f64>,
-    /// Mass density, kg/m^3; only reported.
+    /// Mass density, kg/m^3.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
 }
+
+/// Elastic constants.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Elasticity {
+    /// The same in all directions.
+    Isotropic {
+        /// Young's modulus, Pa.
+        young: f64,
+        /// Poisson's ratio.
+        poisson: f64,
+    },
+    /// With axes.
+    Orthotropic(Orthotropic),
+}
+
+/// Constants of an orthotropic material.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Orthotropic {
+    /// Young's modulus along the axis 1, Pa.
+    pub young_1: f64,
+    /// Young's modulus along the axis 2, Pa.
+    pub young_2: f64,
+    /// Poisson's ratio: contraction along 2 under stress along 1.
+    pub poisson_12: f64,
+    /// Shear modulus in the plane, Pa.
+    pub shear_modulus: f64,
+    /// Angle from the x axis to the axis 1, rad.
+    pub angle: f64,
+    /// Constants across the plane, for plane strain: Young's modulus, Pa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub young_3: Option<f64>,
+    /// Contraction across under stress along 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson_13: Option<f64>,
+    /// Contraction across under stress along 2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson_23: Option<f64>,
+}
+
+/// Keys that only an orthotropic material has: one of them tells it.
+const ORTHOTROPIC_KEYS: [&str; 8] = [
+    "young_1",
+    "young_2",
+    "poisson_12",
+    "shear_modulus",
+    "angle",
+    "young_3",
+    "poisson_13",
+    "poisson_23",
+];
 
 impl Material {
     /// Key path of its table in the case file.
@@ -47,14 +97,18 @@ impl Material {
 
     fn check(self) -> Result<Self, KeyFault> {
         let key = self.key_path();
-        require_positive(&key, "young", self.young)?;
-        let stable = self.poisson > -1.0 && self.poisson < 0.5;
-        require(
-            stable,
-            || key.child("poisson"),
-            "greater than -1 and less than 0.5",
-            self.poisson,
-        )?;
+        match &self.elasticity {
+            Elasticity::Isotropic { young, poisson } => {
+                require_positive(&key, "young", *young)?;
+                require(
+                    *poisson > -1.0 && *poisson < 0.5,
+                    || key.child("poisson"),
+                    "greater than -1 and less than 0.5",
+                    poisson,
+                )?;
+            }
+            Elasticity::Orthotropic(constants) => constants.check(&key)?,
+        }
         if let Some(strength) = self.tensile_strength {
             require_positive(&key, "tensile_strength", strength)?;
         }
@@ -65,9 +119,69 @@ impl Material {
     }
 }
 
+impl Orthotropic {
+    fn check(&self, key: &KeyPath) -> Result<(), KeyFault> {
+        require_positive(key, "young_1", self.young_1)?;
+        require_positive(key, "young_2", self.young_2)?;
+        require_positive(key, "shear_modulus", self.shear_modulus)?;
+        let across = [self.young_3, self.poisson_13, self.poisson_23];
+        if across.iter().any(Option::is_some) {
+            self.require_across(
+                key,
+                "because the other constants across the plane are given",
+            )?;
+        }
+        if let Some(young_3) = self.young_3 {
+            require_positive(key, "young_3", young_3)?;
+        }
+        let stable = ligament_model::Orthotropic::from(*self).is_stable();
+        require(
+            stable,
+            || key.child("poisson_12"),
+            "so small that every strain costs energy (nu_12^2 < E_1/E_2, and the like across the plane)",
+            self.poisson_12,
+        )
+    }
+
+    fn require_across(&self, key: &KeyPath, reason: &'static str) -> Result<(), KeyFault> {
+        let across = [
+            ("young_3", self.young_3),
+            ("poisson_13", self.poisson_13),
+            ("poisson_23", self.poisson_23),
+        ];
+        match across.into_iter().find(|(_, value)| value.is_none()) {
+            None => Ok(()),
+            Some((name, _)) => {
+                let fault = Fault::Required { key: name, reason };
+                Err(KeyFault::new(key.child(name), fault))
+            }
+        }
+    }
+}
+
+impl From<Orthotropic> for ligament_model::Orthotropic {
+    fn from(constants: Orthotropic) -> Self {
+        let across = constants.young_3.zip(constants.poisson_13);
+        let across = across.zip(constants.poisson_23);
+        Self {
+            young: [constants.young_1, constants.young_2],
+            poisson: constants.poisson_12,
+            shear_modulus: constants.shear_modulus,
+            out_of_plane: across.map(|((young, along_1), along_2)| {
+                ligament_model::material::OutOfPlane {
+                    young,
+                    poisson: [along_1, along_2],
+                }
+            }),
+            angle: constants.angle,
+        }
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct OnlyMaterial {
+struct RawIsotropic {
+    group: Option<String>,
     young: f64,
     poisson: f64,
     tensile_strength: Option<f64>,
@@ -76,10 +190,17 @@ struct OnlyMaterial {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct NamedMaterial {
-    group: String,
-    young: f64,
-    poisson: f64,
+struct RawOrthotropic {
+    group: Option<String>,
+    young_1: f64,
+    young_2: f64,
+    poisson_12: f64,
+    shear_modulus: f64,
+    #[serde(default)]
+    angle: f64,
+    young_3: Option<f64>,
+    poisson_13: Option<f64>,
+    poisson_23: Option<f64>,
     tensile_strength: Option<f64>,
     density: Option<f64>,
 }
@@ -87,32 +208,19 @@ struct NamedMaterial {
 /// Reads the section: one material, or a table for each of several.
 pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
     let key = KeyPath::default().child("material");
-    let mut tables = section
-        .entries()
-        .iter()
-        .filter(|entry| matches!(entry.node.value, Value::Table(_)));
-    let Some(first) = tables.next() else {
-        let OnlyMaterial {
-            young,
-            poisson,
-            tensile_strength,
-            density,
-        } = decode(section, &key)?;
-        let material = Material {
-            name: None,
-            group: None,
-            young,
-            poisson,
-            tensile_strength,
-            density,
-        };
-        return Ok(vec![material.check()?]);
+    let is_table = |node: &Node| matches!(node.value, Value::Table(_));
+    let entries = section.entries();
+    let Some(first) = entries.iter().find(|entry| is_table(&entry.node)) else {
+        let material = read_one(section, None)?;
+        if material.group.is_some() {
+            return Err(KeyFault::new(
+                key.child("group"),
+                "the one [material] fills the whole body: for a part write [material.NAME]",
+            ));
+        }
+        return Ok(vec![material]);
     };
-    if let Some(loose) = section
-        .entries()
-        .iter()
-        .find(|entry| !matches!(entry.node.value, Value::Table(_)))
-    {
+    if let Some(loose) = entries.iter().find(|entry| !is_table(&entry.node)) {
         let reason = format!(
             "`{}` belongs to no material: next to [{}] every key of [material] must be in a table [material.NAME]",
             loose.key,
@@ -120,35 +228,11 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
         );
         return Err(KeyFault::new(key.child(&loose.key), reason));
     }
-    read_named(decode(section, &key)?)
-}
-
-fn read_named(tables: BTreeMap<String, NamedMaterial>) -> Result<Vec<Material>, KeyFault> {
-    let mut materials = Vec::with_capacity(tables.len());
-    for (
-        name,
-        NamedMaterial {
-            group,
-            young,
-            poisson,
-            tensile_strength,
-            density,
-        },
-    ) in tables
-    {
-        let (name, group) = (Some(name), Some(group));
-        materials.push(
-            Material {
-                name,
-                group,
-                young,
-                poisson,
-                tensile_strength,
-                density,
-            }
-            .check()?,
-        );
-    }
+    let mut materials = entries
+        .iter()
+        .map(|entry| read_one(&entry.node, Some(entry.key.clone())))
+        .collect::<Result<Vec<_>, _>>()?;
+    materials.sort_by(|one, other| one.name.cmp(&other.name));
     let groups = materials.iter().filter_map(|material| {
         let group = material.group.as_deref()?;
         Some((material.key_path().child("group"), group))
@@ -157,24 +241,97 @@ fn read_named(tables: BTreeMap<String, NamedMaterial>) -> Result<Vec<Material>, 
     Ok(materials)
 }
 
-/// The fault of a material without strength in a case with fracture.
+/// Reads one material; one with a name must have a group.
+fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
+    let section = KeyPath::default().child("material");
+    let key = name.iter().fold(section, |path, name| path.child(name));
+    let is_orthotropic = ORTHOTROPIC_KEYS.iter().any(|key| table.get(key).is_some());
+    let material = if is_orthotropic {
+        let raw: RawOrthotropic = decode(table, &key)?;
+        Material {
+            name,
+            group: raw.group,
+            elasticity: Elasticity::Orthotropic(Orthotropic {
+                young_1: raw.young_1,
+                young_2: raw.young_2,
+                poisson_12: raw.poisson_12,
+                shear_modulus: raw.shear_modulus,
+                angle: raw.angle,
+                young_3: raw.young_3,
+                poisson_13: raw.poisson_13,
+                poisson_23: raw.poisson_23,
+            }),
+            tensile_strength: raw.tensile_strength,
+            density: raw.density,
+        }
+    } else {
+        let raw: RawIsotropic = decode(table, &key)?;
+        Material {
+            name,
+            group: raw.group,
+            elasticity: Elasticity::Isotropic {
+                young: raw.young,
+                poisson: raw.poisson,
+            },
+            tensile_strength: raw.tensile_strength,
+            density: raw.density,
+        }
+    };
+    if material.name.is_some() && material.group.is_none() {
+        let fault = Fault::MissingKey {
+            key: "group".to_owned(),
+            table: key.table_title(),
+            unit: None,
+        };
+        return Err(KeyFault::new(key.child("group"), fault));
+    }
+    material.check()
+}
+
+/// The fault of a material without strength in a case with fracture, or with axes, for which there is no criterion.
 pub(super) fn require_strengths(materials: &[Material]) -> Result<(), KeyFault> {
-    match materials
-        .iter()
-        .find(|material| material.tensile_strength.is_none())
-    {
-        None => Ok(()),
-        Some(material) => {
+    for material in materials {
+        let key = material.key_path();
+        if let Elasticity::Orthotropic(_) = material.elasticity {
+            return Err(KeyFault::new(
+                key,
+                "the strength criterion of [fracture] is one for isotropic materials",
+            ));
+        }
+        if material.tensile_strength.is_none() {
             let fault = Fault::Required {
                 key: "tensile_strength",
                 reason: "(in Pa) because the case has a [fracture] section",
             };
-            Err(KeyFault::new(
-                material.key_path().child("tensile_strength"),
-                fault,
-            ))
+            return Err(KeyFault::new(key.child("tensile_strength"), fault));
         }
     }
+    Ok(())
+}
+
+/// The fault of a material with axes under a law for isotropic ones, or without the constants that plane strain needs.
+pub(super) fn require_suitable(
+    materials: &[Material],
+    law: Law,
+    plane: Plane,
+) -> Result<(), KeyFault> {
+    for material in materials {
+        let Elasticity::Orthotropic(constants) = &material.elasticity else {
+            continue;
+        };
+        let key = material.key_path();
+        if law != Law::Orthotropic {
+            let reason = format!(
+                "an orthotropic material needs model.law = \"orthotropic\": \"{}\" is a law for isotropic ones",
+                law.word()
+            );
+            return Err(KeyFault::new(key, reason));
+        }
+        if plane == Plane::Strain {
+            constants.require_across(&key, "because of plane strain")?;
+        }
+    }
+    Ok(())
 }
 
 /// Writes the materials as they stand in a case file.

@@ -11,7 +11,11 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
         .filter(|part| part.parse::<usize>().is_err())
         .collect();
     match keys.as_slice() {
-        [.., "young" | "tensile_strength"] => Some("Pa"),
+        [
+            ..,
+            "young" | "young_1" | "young_2" | "young_3" | "shear_modulus" | "tensile_strength",
+        ] => Some("Pa"),
+        [.., "angle"] => Some("rad"),
         [.., "density"] => Some("kg/m^3"),
         [.., "displacement", "rotation"] => Some("rad"),
         [.., "force", "x" | "y"] => Some("N"),

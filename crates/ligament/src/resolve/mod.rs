@@ -14,10 +14,10 @@ use ligament_analysis::probe::{PointField, Probe, Reading};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::{StopRule, Sweeps};
-use ligament_model::{BondSystem, Material, Plane};
+use ligament_model::{BondSystem, Elasticity, Isotropic, Material, Plane};
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
-use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Stepping, Steps};
+use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
 
 pub use boundary::boundary;
 pub use places::{material_of_cell, no_fail};
@@ -34,8 +34,12 @@ pub fn plane(case: &CaseFile) -> Plane {
 pub fn materials(case: &CaseFile) -> Vec<Material> {
     let material = |material: &case::Material| Material {
         name: material.name.clone().unwrap_or_default(),
-        young: material.young,
-        poisson: material.poisson,
+        elasticity: match material.elasticity {
+            case::Elasticity::Isotropic { young, poisson } => {
+                Elasticity::Isotropic(Isotropic { young, poisson })
+            }
+            case::Elasticity::Orthotropic(constants) => Elasticity::Orthotropic(constants.into()),
+        },
         tensile_strength: material.tensile_strength,
         density: material.density,
     };
@@ -46,8 +50,7 @@ pub fn materials(case: &CaseFile) -> Vec<Material> {
 const LARGE_MODEL: usize = 1_000_000;
 
 /// Stop rule and limit of the domain correction for a model of so many bonds.
-pub fn sweeps(case: &CaseFile, n_bonds: usize) -> Sweeps {
-    let correction = &case.case.correction;
+pub fn sweeps(correction: &Iteration, n_bonds: usize) -> Sweeps {
     let rule = match correction.rule {
         CorrectionRule::Auto if n_bonds > LARGE_MODEL => CorrectionRule::Mean,
         CorrectionRule::Auto => CorrectionRule::Sum,

@@ -1,0 +1,79 @@
+//! Discrete calibration: sums over the families of the points in place of the integrals over a full circle.
+//!
+//! The integrals know neither the lattice nor the surface. Here the energies of uniform strains decide, as the bonds of a point
+//! give them: that of equal strains along x and y, and that of a shear in the mean over its directions.
+
+use rayon::prelude::*;
+
+use super::BondStiffness;
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::material::{Isotropic, Plane};
+
+/// Scales the densities of a law so that every point has the right energy, with the factors alpha (n_bonds).
+///
+/// With (k_n, k_t) of the law a strain eps along x and y costs a point 1/4 sum alpha V_B l k_n eps^2 (MPPD eq. 33 in sums), which
+/// should be (C_11 + C_12) eps^2; a shear gamma costs 1/32 sum alpha V_B l (k_n + k_t) gamma^2 in the mean over its directions,
+/// which should be G/2 gamma^2. So
+///
+/// q_n = 4 (C_11 + C_12) / sum(alpha V_B l k_n), q_t = (16 G - 4 (C_11 + C_12)) / sum(alpha V_B l k_t)
+///
+/// are the factors of a point, and a bond takes the mean of its ends'. Points near a surface have smaller sums and larger
+/// factors: there is nothing left for a surface correction. `materials` are those that the law makes of the given ones.
+pub fn calibrated(
+    stiffness: BondStiffness,
+    length_factor: &[f64],
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    materials: &[Isotropic],
+    plane: Plane,
+) -> BondStiffness {
+    let targets: [Vec<f64>; 2] = {
+        let stiffness: Vec<_> = materials
+            .iter()
+            .map(|it| it.plane_stiffness(plane))
+            .collect();
+        let bulk = stiffness.iter().map(|c| 4.0 * (c[(0, 0)] + c[(0, 1)]));
+        let bulk: Vec<f64> = bulk.collect();
+        let shear = stiffness.iter().zip(&bulk);
+        let shear = shear.map(|(c, bulk)| 16.0 * c[(2, 2)] - bulk).collect();
+        [bulk, shear]
+    };
+    let BondStiffness {
+        mut axial,
+        mut shear,
+        mut rotational,
+    } = stiffness;
+    let factors = cloud.over_points(|point| {
+        let mut sums = [0.0; 2];
+        for &bond in bonds.incidence.of(point) {
+            let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
+            let bond = bond as usize;
+            let weight = length_factor[bond] * volume * bonds.length[bond];
+            sums[0] += weight * axial[bond];
+            sums[1] += weight * shear[bond];
+        }
+        [0, 1].map(|k| {
+            let target = cloud.mean_property(point as usize, &targets[k]);
+            // Without a density there is nothing to scale: k_t = 0, or a point without bonds.
+            if sums[k] == 0.0 {
+                1.0
+            } else {
+                target / sums[k]
+            }
+        })
+    });
+    (&mut axial, &mut shear, &mut rotational, &bonds.ends)
+        .into_par_iter()
+        .for_each(|(axial, shear, rotational, ends)| {
+            let [a, b] = ends.map(|end| factors[end as usize]);
+            *axial *= 0.5 * (a[0] + b[0]);
+            *shear *= 0.5 * (a[1] + b[1]);
+            *rotational *= 0.5 * (a[1] + b[1]);
+        });
+    BondStiffness {
+        axial,
+        shear,
+        rotational,
+    }
+}

@@ -1,0 +1,81 @@
+//! The orthotropic micropolar law (OMPPD section 2.1: Diana and Casolo 2019): stiffnesses that depend on the direction of the
+//! bond in the axes of the material.
+
+use std::f64::consts::PI;
+
+use super::rotational::RotationalStiffness;
+use super::{BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities};
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::material::{Elasticity, Plane};
+
+/// Stiffness densities of every bond, OMPPD eqs 58 and 59 with the constants of eqs 50 to 53: with psi measured from the axis 1
+/// of the material,
+///
+/// k_n = k_n1 cos^4 psi + k_n2 sin^4 psi + (2 k_v + 4 k_t1) sin^2 psi cos^2 psi,
+/// k_t = (k_n1 + k_n2 - 2 k_v) sin^2 psi cos^2 psi + k_t1 (cos^2 psi - sin^2 psi)^2,
+///
+/// and a chosen k_theta. Plane strain takes the reduced constants C of [`crate::material::Orthotropic::principal_stiffness`]. An
+/// isotropic material gives the densities of [`super::mppd`].
+pub fn stiffness(
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    materials: &[Elasticity],
+    plane: Plane,
+    rotational: RotationalStiffness,
+) -> BondStiffness {
+    let constants: Vec<[f64; 8]> = materials
+        .iter()
+        .map(|material| harmonics(material, plane, cloud.thickness))
+        .collect();
+    BondStiffness::from_constants(bonds, cloud, &constants, |constants, bond| {
+        let [a, b] = bond.direction;
+        let [cos_2, sin_2] = [a * a - b * b, 2.0 * a * b];
+        let [cos_4, sin_4] = [cos_2 * cos_2 - sin_2 * sin_2, 2.0 * cos_2 * sin_2];
+        let [n_0, n_2c, n_2s, n_4c, n_4s, t_0, t_4c, t_4s] = constants;
+        let volume = bond.horizon.powi(3);
+        let shear = (t_0 + t_4c * cos_4 + t_4s * sin_4) / volume;
+        Densities {
+            axial: (n_0 + n_2c * cos_2 + n_2s * sin_2 + n_4c * cos_4 + n_4s * sin_4) / volume,
+            shear,
+            rotational: rotational.density(shear, bond.length, bond.horizon),
+        }
+    })
+}
+
+/// k_n H^3 and k_t H^3 (N/m^3) as series in the angle psi to the x axis: the constant term, and the factors of cos and sin of
+/// 2 psi and 4 psi (k_t has none of 2 psi). Unlike k_n1 to k_t1 they have a mean over materials with different axes.
+fn harmonics(material: &Elasticity, plane: Plane, thickness: f64) -> [f64; 8] {
+    let (c, angle) = match material {
+        Elasticity::Isotropic(material) => (material.plane_stiffness(plane), 0.0),
+        Elasticity::Orthotropic(material) => (material.principal_stiffness(plane), material.angle),
+    };
+    let [c11, c12, c22, c66] = [c[(0, 0)], c[(0, 1)], c[(1, 1)], c[(2, 2)]];
+    let unit = 3.0 / (PI * thickness);
+    let n_1 = 4.0 * unit * (c11 - c66);
+    let n_2 = 4.0 * unit * (c22 - c66);
+    let v = 4.0 * unit * (3.0 * c12 - c66);
+    let t_1 = unit * (8.0 * c66 - c11 - c22 - 2.0 * c12);
+    let ([s2, c2], [s4, c4]) = (
+        <[f64; 2]>::from((2.0 * angle).sin_cos()),
+        <[f64; 2]>::from((4.0 * angle).sin_cos()),
+    );
+    let axial_2 = 0.5 * (n_1 - n_2);
+    let axial_4 = 0.125 * (n_1 + n_2 - 2.0 * v - 4.0 * t_1);
+    let axial_0 = 0.125 * (3.0 * (n_1 + n_2) + 2.0 * v + 4.0 * t_1);
+    let mut shear_0 = 0.125 * (n_1 + n_2 - 2.0 * v + 4.0 * t_1);
+    let mut shear_4 = 0.125 * (4.0 * t_1 - n_1 - n_2 + 2.0 * v);
+    if shear_0.abs() + shear_4.abs() < CENTRAL_FORCE_TOLERANCE * axial_0 {
+        (shear_0, shear_4) = (0.0, 0.0);
+    }
+    [
+        axial_0,
+        axial_2 * c2,
+        axial_2 * s2,
+        axial_4 * c4,
+        axial_4 * s4,
+        shear_0,
+        shear_4 * c4,
+        shear_4 * s4,
+    ]
+}

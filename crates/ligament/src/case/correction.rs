@@ -1,0 +1,186 @@
+//! `[correction]`: the factors alpha and Omega of the bonds.
+
+use serde::{Deserialize, Serialize};
+
+use super::fault::{Fault, KeyFault};
+use super::key_path::KeyPath;
+use super::model::{Calibration, Law, ModelSection};
+use super::values::{require, require_at_least_one, require_positive};
+
+/// The corrections of the bonds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Correction {
+    /// The factor alpha.
+    pub alpha: Alpha,
+    /// What surfaces take from the families, given back by a factor Omega.
+    pub surface: Surface,
+    /// How the domain correction is iterated, if it is the one.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub iteration: Option<Iteration>,
+    /// The body that the correction sees.
+    pub domain: CorrectionDomain,
+}
+
+/// The factor alpha of a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Alpha {
+    /// 1.
+    None,
+    /// The share of the cell inside the horizon.
+    PartialVolume,
+    /// NHPD's factor by length.
+    Length,
+}
+
+/// The correction of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// None.
+    None,
+    /// By the volumes of the families.
+    Volume,
+    /// NHPD's iterative domain correction.
+    Domain,
+}
+
+/// How the domain correction is iterated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Iteration {
+    /// How the change of a sweep is measured.
+    pub rule: CorrectionRule,
+    /// Change of a sweep below which the correction has converged; none where `auto` chooses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Sweeps allowed.
+    pub max_sweeps: u32,
+}
+
+/// How the change of a correction sweep is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CorrectionRule {
+    /// `sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.
+    #[default]
+    Auto,
+    /// Summed over all bonds (the paper's): grows with the size of the model.
+    Sum,
+    /// Mean per bond: independent of the size of the model.
+    Mean,
+}
+
+impl CorrectionRule {
+    /// Tolerance where none is given: the paper's for the sum; the mean's makes the energies of a large model as right
+    /// as the sum does those of a small one. `auto` has that of the rule it chooses.
+    pub fn default_tolerance(self) -> Option<f64> {
+        match self {
+            Self::Auto => None,
+            Self::Sum => Some(1e-3),
+            Self::Mean => Some(1e-7),
+        }
+    }
+}
+
+/// The body that the correction sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CorrectionDomain {
+    /// Before the pre-cracks cut bonds.
+    #[default]
+    Whole,
+    /// After the pre-cracks cut bonds.
+    Cracked,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawCorrection {
+    alpha: Option<Alpha>,
+    surface: Option<Surface>,
+    rule: Option<CorrectionRule>,
+    tolerance: Option<f64>,
+    max_sweeps: Option<u32>,
+    domain: Option<CorrectionDomain>,
+}
+
+impl RawCorrection {
+    /// Checks the section; what it leaves open follows from the bond model.
+    pub(super) fn check(self, key: &KeyPath, model: &ModelSection) -> Result<Correction, KeyFault> {
+        let (alpha, surface) = corrections_of(model);
+        let surface = self.surface.unwrap_or(surface);
+        let is_calibrated = model.calibration == Some(Calibration::Discrete);
+        if is_calibrated && surface == Surface::Volume {
+            return Err(KeyFault::new(
+                key.child("surface"),
+                "the discrete calibration has the surfaces in its sums: take \"none\", or model.calibration = \"integral\"",
+            ));
+        }
+        let iteration = match surface {
+            Surface::Domain => Some(self.iteration(key)?),
+            Surface::None | Surface::Volume => {
+                self.require_no_iteration(key, surface)?;
+                None
+            }
+        };
+        Ok(Correction {
+            alpha: self.alpha.unwrap_or(alpha),
+            surface,
+            iteration,
+            domain: self.domain.unwrap_or_default(),
+        })
+    }
+
+    fn iteration(&self, key: &KeyPath) -> Result<Iteration, KeyFault> {
+        // A tolerance alone is the paper's, which is one for the sum.
+        let with_tolerance = self.tolerance.map(|_| CorrectionRule::Sum);
+        let rule = self.rule.or(with_tolerance).unwrap_or_default();
+        if let Some(tolerance) = self.tolerance {
+            require_positive(key, "tolerance", tolerance)?;
+            require(
+                rule != CorrectionRule::Auto,
+                || key.child("rule"),
+                "\"sum\" or \"mean\" where a tolerance is given",
+                "\"auto\"",
+            )?;
+        }
+        let max_sweeps = self.max_sweeps.unwrap_or(500);
+        require_at_least_one(key, "max_sweeps", max_sweeps)?;
+        Ok(Iteration {
+            rule,
+            tolerance: self.tolerance.or(rule.default_tolerance()),
+            max_sweeps,
+        })
+    }
+
+    fn require_no_iteration(&self, key: &KeyPath, surface: Surface) -> Result<(), KeyFault> {
+        let given = [
+            ("rule", self.rule.is_some()),
+            ("tolerance", self.tolerance.is_some()),
+            ("max_sweeps", self.max_sweeps.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            None => Ok(()),
+            Some((name, _)) => Err(KeyFault::new(
+                key.child(name),
+                Fault::NotWith {
+                    key: name,
+                    setting: match surface {
+                        Surface::Volume => "surface = \"volume\"".to_owned(),
+                        Surface::None | Surface::Domain => "surface = \"none\"".to_owned(),
+                    },
+                    reason: "only the domain correction is iterated",
+                },
+            )),
+        }
+    }
+}
+
+/// The corrections that the papers take with a law.
+fn corrections_of(model: &ModelSection) -> (Alpha, Surface) {
+    match (model.law, model.calibration) {
+        (Law::Nhpd, _) => (Alpha::Length, Surface::Domain),
+        (_, Some(Calibration::Discrete)) => (Alpha::PartialVolume, Surface::None),
+        _ => (Alpha::PartialVolume, Surface::Volume),
+    }
+}
