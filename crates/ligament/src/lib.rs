@@ -7,6 +7,7 @@
 pub mod case;
 pub mod check;
 pub mod cli;
+pub mod gauges;
 pub mod inspect;
 pub mod mesh_command;
 pub mod progress;
