@@ -167,7 +167,7 @@ fn a_body_held_by_halves_is_held_and_reported() {
     let run = bench.solve();
     let points = bench.points();
     assert!(
-        matches!(run.notices[..], [Notice::CameLoose { step: 0, motions: 1, points: all, .. }] if all == points),
+        matches!(&run.notices[..], [Notice::FreeBody(body)] if body.is_whole && body.points == points),
         "{:?}",
         run.notices
     );

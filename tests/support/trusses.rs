@@ -80,7 +80,7 @@ impl Truss {
         let control = Control {
             kind,
             points: vec![controlled],
-            direction: [1.0, 0.0, 0.0],
+            shape: vec![[1.0, 0.0, 0.0]],
             magnitude: 1.0,
         };
         Self {

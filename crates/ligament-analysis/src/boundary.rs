@@ -29,15 +29,25 @@ pub struct BoundaryGroup {
 }
 
 /// The load whose displacement and force are the axes of the force-displacement curve.
+///
+/// They are work-conjugate: force times the increment of displacement is the work of this load, whatever its distribution.
+/// With the load's `shape` w_i (n_points, components x, y and rotation) and `magnitude` m at load factor lambda
+///
+/// - prescribed motions are u_i = lambda m w_i: the displacement is lambda m, the force the sum of w_i . R_i over the
+///   reactions R_i;
+/// - given forces are F_i = lambda m w_i: the force is lambda m, the displacement the sum of w_i . u_i.
+///
+/// So a load that is the same everywhere has the sum of its forces and the mean of its displacements along it, a bending
+/// load the moments of both about its zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Control {
     /// Whether the motion or the force is given.
     pub kind: ControlKind,
-    /// Points of the load, ascending.
+    /// Points of the load.
     pub points: Vec<u32>,
-    /// Unit direction among (x, y, rotation).
-    pub direction: [f64; COMPONENTS],
-    /// Size of the displacement (m, rad) or of the total force (N) at load factor 1.
+    /// What each of them takes of a load of size one, in (x, y, rotation).
+    pub shape: Vec<[f64; COMPONENTS]>,
+    /// Size at load factor 1 of the displacement (m, rad) or of the force or couple in total (N, N m), before a profile.
     pub magnitude: f64,
 }
 
@@ -103,7 +113,7 @@ impl Boundary {
         Ok(())
     }
 
-    /// Adds a force on a component of one point, N at load factor 1.
+    /// Adds a force or couple on a component of one point, N or N m at load factor 1.
     pub fn add_force(&mut self, point: u32, component: Component, force: f64) {
         self.force[COMPONENTS * point as usize + component.index()] += force;
     }
@@ -151,17 +161,12 @@ impl Boundary {
         if control.kind == ControlKind::Force {
             return control.magnitude * load_factor;
         }
-        let of_point = |&point: &u32| {
-            let along = |(component, cosine): (usize, f64)| {
-                let dof = COMPONENTS * point as usize + component;
-                self.prescribed[dof].map_or(0.0, |_| {
-                    (internal_forces[dof] - load_factor * self.force[dof]) * cosine
-                })
-            };
-            let direction = control.direction.into_iter().enumerate();
-            direction.map(along).sum::<f64>()
+        let reaction = |dof: usize| {
+            self.prescribed[dof].map_or(0.0, |_| {
+                internal_forces[dof] - load_factor * self.force[dof]
+            })
         };
-        control.points.iter().map(of_point).sum()
+        control.along(reaction)
     }
 
     /// Degrees of freedom (of 3 n_points) that something moves or loads, ascending: no other one does work.
@@ -175,34 +180,32 @@ impl Boundary {
 }
 
 impl Control {
-    /// Displacement along the direction at some load factor: the prescribed one, or the mean over the points, m.
+    /// Displacement along the load at some load factor, m or rad: the prescribed one, or the mean that does the work of the
+    /// given forces.
     pub fn displacement(&self, load_factor: f64, displacement: &[f64]) -> f64 {
         match self.kind {
             ControlKind::Displacement => self.magnitude * load_factor,
-            ControlKind::Force => self.along(displacement) / self.points.len() as f64,
+            ControlKind::Force => self.along(|dof| displacement[dof]),
         }
     }
 
-    /// Force that the load exerts along the direction: the sum of the reactions (3 n_points) at its points, or the given
-    /// one, N.
+    /// Force along the load, N or N m: that of the reactions (3 n_points) which does their work, or the given one.
     pub fn force(&self, load_factor: f64, reactions: &[f64]) -> f64 {
         match self.kind {
-            ControlKind::Displacement => self.along(reactions),
+            ControlKind::Displacement => self.along(|dof| reactions[dof]),
             ControlKind::Force => self.magnitude * load_factor,
         }
     }
 
-    fn along(&self, values: &[f64]) -> f64 {
-        self.points
-            .iter()
-            .map(|&point| {
-                let values = &values[COMPONENTS * point as usize..][..COMPONENTS];
-                values
-                    .iter()
-                    .zip(self.direction)
-                    .map(|(value, cosine)| value * cosine)
-                    .sum::<f64>()
-            })
-            .sum()
+    /// Sum over the points of shape . value.
+    fn along(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let of_point = |(&point, shape): (&u32, &[f64; COMPONENTS])| {
+            let first = COMPONENTS * point as usize;
+            let components = shape.iter().enumerate();
+            components
+                .map(|(component, share)| value(first + component) * share)
+                .sum::<f64>()
+        };
+        self.points.iter().zip(&self.shape).map(of_point).sum()
     }
 }

@@ -2,16 +2,16 @@
 //!
 //! Rounding hides a body that came loose: a factorisation of its singular matrix may well succeed. So the question is
 //! settled combinatorially. Connectivity alone is not enough (half a disk may be held along y only): for every fragment
-//! the rank of its held degrees of freedom on the three rigid motions decides, and just the missing motions are held.
+//! the rank of its held degrees of freedom on the rigid motions that cost no energy decides, and just the missing motions
+//! are held.
 
 pub mod decremental;
+pub(crate) mod rigid_motions;
 
-use ligament_model::BondSystem;
+use ligament_model::{BondSystem, ElementKind};
 
-use crate::unknowns::{COMPONENTS, Component};
-
-/// Below this sine of the angle to what is held already, a degree of freedom holds no further rigid motion.
-const RANK_TOLERANCE: f64 = 1e-6;
+use crate::unknowns::COMPONENTS;
+use rigid_motions::RigidMotions;
 
 /// The connected parts of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,36 +72,20 @@ impl Fragments {
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
     ) -> Vec<Hold> {
-        let mut holds = Vec::new();
-        for fragment in fragments {
+        let of_fragment = |fragment: u32| {
             let points = &self.points[fragment as usize];
-            let motions = RigidMotions::of(system, points);
-            let mut spanned = Vec::new();
-            let degrees_of_freedom = || {
-                points.iter().flat_map(|&point| {
-                    (0..COMPONENTS).map(move |c| COMPONENTS * point as usize + c)
-                })
-            };
-            for dof in degrees_of_freedom().filter(|&dof| is_fixed(dof)) {
-                motions.extend(&mut spanned, dof);
-                if spanned.len() == COMPONENTS {
-                    break;
-                }
-            }
-            while spanned.len() < COMPONENTS {
-                let candidates =
-                    degrees_of_freedom().filter(|&dof| can_hold(dof) && !is_fixed(dof));
-                let Some(best) = motions.most_independent(&spanned, candidates) else {
-                    break;
-                };
-                motions.extend(&mut spanned, best);
-                holds.push(Hold {
-                    degree_of_freedom: best,
-                    fragment,
-                });
-            }
-        }
-        holds
+            let motions = RigidMotions::of(
+                &system.cloud.positions,
+                points,
+                rotation_is_free(system, points),
+            );
+            let found = holds(points, &motions, &is_fixed, &can_hold);
+            found.into_iter().map(move |degree_of_freedom| Hold {
+                degree_of_freedom,
+                fragment,
+            })
+        };
+        fragments.into_iter().flat_map(of_fragment).collect()
     }
 
     /// Makes a fragment of a part of one; both keep the order of their first points among the others.
@@ -125,84 +109,85 @@ impl Fragments {
     }
 }
 
-/// The three rigid motions of a fragment, about its middle and scaled by its size.
-struct RigidMotions<'a> {
-    system: &'a BondSystem,
-    centre: [f64; 2],
-    radius: f64,
-}
-
-impl<'a> RigidMotions<'a> {
-    fn of(system: &'a BondSystem, points: &[u32]) -> Self {
-        let positions = || {
-            points
-                .iter()
-                .map(|&point| system.cloud.positions[point as usize])
-        };
-        let centre =
-            [0, 1].map(|axis| positions().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
-        let radius = positions()
-            .map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1]))
-            .fold(0.0, f64::max);
-        Self {
-            system,
-            centre,
-            radius: if radius > 0.0 { radius } else { 1.0 },
-        }
-    }
-
-    /// How the motions (x, y, rotation) move a degree of freedom, as a unit vector.
-    fn participation(&self, degree_of_freedom: usize) -> [f64; COMPONENTS] {
-        let position = self.system.cloud.positions[degree_of_freedom / COMPONENTS];
-        let [x, y] = [0, 1].map(|axis| (position[axis] - self.centre[axis]) / self.radius);
-        let row = match Component::of(degree_of_freedom) {
-            Component::X => [1.0, 0.0, -y],
-            Component::Y => [0.0, 1.0, x],
-            Component::Rotation => [0.0, 0.0, 1.0],
-        };
-        let norm = dot(row, row).sqrt();
-        row.map(|value| value / norm)
-    }
-
-    /// What of the participation the spanned directions do not hold (the directions are orthonormal).
-    fn remainder(
-        &self,
-        spanned: &[[f64; COMPONENTS]],
-        degree_of_freedom: usize,
-    ) -> [f64; COMPONENTS] {
-        let mut rest = self.participation(degree_of_freedom);
-        for direction in spanned {
-            let share = dot(rest, *direction);
-            rest = [0, 1, 2].map(|i| rest[i] - share * direction[i]);
-        }
-        rest
-    }
-
-    fn extend(&self, spanned: &mut Vec<[f64; COMPONENTS]>, degree_of_freedom: usize) {
-        let rest = self.remainder(spanned, degree_of_freedom);
-        let norm = dot(rest, rest).sqrt();
-        if norm > RANK_TOLERANCE {
-            spanned.push(rest.map(|value| value / norm));
-        }
-    }
-
-    fn most_independent(
-        &self,
-        spanned: &[[f64; COMPONENTS]],
-        candidates: impl Iterator<Item = usize>,
-    ) -> Option<usize> {
-        let mut best = None;
-        let mut largest = RANK_TOLERANCE * RANK_TOLERANCE;
-        for dof in candidates {
-            let rest = self.remainder(spanned, dof);
-            if dot(rest, rest) > largest {
-                (best, largest) = (Some(dof), dot(rest, rest));
-            }
-        }
-        best
+/// Whether a fragment can turn as a whole without energy, and not only move along x and y.
+///
+/// The points of beam bonds turn with the fragment, so that its rotation costs nothing. Without rotations of the points a
+/// shear stiffness resists it.
+pub(crate) fn rotation_is_free(system: &BondSystem, points: &[u32]) -> bool {
+    let mut bonds = points
+        .iter()
+        .flat_map(|&point| system.bonds.incidence.of(point));
+    match system.element {
+        ElementKind::Beam => true,
+        ElementKind::Spring => bonds.all(|&bond| system.shear_rigidity[bond as usize] == 0.0),
     }
 }
 
-fn dot(one: [f64; COMPONENTS], other: [f64; COMPONENTS]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| a * b).sum()
+/// The degrees of freedom that hold what the fixed ones leave free of the rigid motions of some points, in the order in which
+/// they are found; those that hold most first.
+fn holds(
+    points: &[u32],
+    motions: &RigidMotions<'_>,
+    is_fixed: impl Fn(usize) -> bool,
+    can_hold: impl Fn(usize) -> bool,
+) -> Vec<usize> {
+    let mut spanned = motions.spanned_by(points, &is_fixed);
+    let mut holds = Vec::new();
+    while spanned.len() < motions.count() {
+        let candidates = degrees_of_freedom(points).filter(|&dof| can_hold(dof) && !is_fixed(dof));
+        let Some(best) = motions.most_independent(&spanned, candidates) else {
+            break;
+        };
+        motions.extend(&mut spanned, best);
+        holds.push(best);
+    }
+    holds
+}
+
+/// Degrees of freedom of some points, in their order.
+pub(crate) fn degrees_of_freedom(points: &[u32]) -> impl Iterator<Item = usize> {
+    let of_point = |&point: &u32| (0..COMPONENTS).map(move |c| COMPONENTS * point as usize + c);
+    points.iter().flat_map(of_point)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of four points; supports given by their degrees of freedom (point, component). No rotation can be held where
+    /// the points have none.
+    fn holds_of_square(rotation_is_free: bool, fixed: &[usize]) -> Vec<usize> {
+        let positions = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        let points = [0, 1, 2, 3];
+        let motions = RigidMotions::of(&positions, &points, rotation_is_free);
+        let can_hold = |dof: usize| rotation_is_free || dof % COMPONENTS < 2;
+        holds(&points, &motions, |dof| fixed.contains(&dof), can_hold)
+    }
+
+    /// Three gauges where the rotation is free, two where it costs energy: a third would be a support that nobody asked for.
+    #[test]
+    fn a_free_body_needs_as_many_gauges_as_it_has_free_motions() {
+        assert_eq!(holds_of_square(true, &[]).len(), 3);
+        let two = holds_of_square(false, &[]);
+        assert_eq!(two, [0, 1], "x and y of the first point");
+    }
+
+    /// Supports count for the motions that they hold: x at one point leaves y, and the rotation where that is free; x at two
+    /// heights holds the rotation as well, which is one support too many where it needs none.
+    #[test]
+    fn supports_take_the_place_of_gauges() {
+        assert_eq!(holds_of_square(false, &[0]), [1]);
+        assert_eq!(holds_of_square(false, &[0, 9]), [1]);
+        assert_eq!(holds_of_square(false, &[0, 4]), [0; 0]);
+        assert_eq!(holds_of_square(true, &[0]).len(), 2);
+        assert_eq!(holds_of_square(true, &[0, 9]).len(), 1);
+        assert_eq!(holds_of_square(true, &[0, 4, 9]), [0; 0]);
+    }
+
+    /// A held rotation of a point holds no translation, and nothing at all where the body does not turn freely.
+    #[test]
+    fn a_held_rotation_of_a_point_is_no_translation() {
+        assert_eq!(holds_of_square(true, &[2]).len(), 2);
+        assert_eq!(holds_of_square(false, &[2]), [0, 1]);
+    }
 }

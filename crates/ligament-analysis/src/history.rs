@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::boundary::Boundary;
 use crate::connectivity::Fragments;
 use crate::equilibrium::{Balanced, Unbalanced};
+use crate::gauges::FreeBody;
 use crate::state::State;
 use crate::stiffness::Costs;
 use crate::unknowns::COMPONENTS;
@@ -86,12 +87,15 @@ pub struct BreakRecord {
 /// Something that a user should know.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Notice {
+    /// Supports and loads do not hold the intact body, or a part of it: gauges do.
+    #[error("{} points are not held by supports and loads: {} rigid motions of theirs are free (first at point {})", .0.points, .0.motions.len(), .0.first)]
+    FreeBody(FreeBody),
     /// Points came loose, and rigid motions of theirs are held.
     #[error(
         "step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})"
     )]
     CameLoose {
-        /// Load step; 0 before loading.
+        /// Load step.
         step: usize,
         /// Points of the loose parts.
         points: usize,

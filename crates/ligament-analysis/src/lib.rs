@@ -13,6 +13,7 @@ pub mod dissection;
 pub mod driver;
 pub mod equilibrium;
 pub mod fields;
+pub mod gauges;
 pub mod history;
 pub mod internal;
 pub mod probe;

@@ -12,6 +12,7 @@ mod fault;
 mod file;
 mod fracture;
 mod key_path;
+mod load;
 mod material;
 mod mesh_section;
 mod model;
@@ -27,11 +28,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-pub use conditions::{Action, Displacement, Load, Support, Vector};
+pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop};
+pub use load::{Action, Load, Profile};
 pub use material::{Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
@@ -100,7 +102,7 @@ struct RawCase {
     #[serde(default)]
     support: Vec<conditions::RawSupport>,
     #[serde(default)]
-    load: Vec<conditions::RawLoad>,
+    load: Vec<load::RawLoad>,
     #[serde(default)]
     no_fail: Vec<region::RawRegion>,
     #[serde(default)]

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::driver::Problem;
+use ligament_analysis::gauges;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::{Boundary, Equilibrium};
 use ligament_mesh::Mesh;
@@ -14,6 +15,7 @@ use ligament_model::Elasticity;
 use ligament_output::results::{MeshCells, point_grid};
 
 use crate::case::{CaseFile, Control, Steps};
+use crate::gauges::words;
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
@@ -77,6 +79,10 @@ fn check_here(
     write_bonds(out, case, &model)?;
     write_energy_ratios(out, &model)?;
     write_boundary(out, &model.mesh, &boundary, &probes)?;
+    let cells = MeshCells::from(&model.mesh);
+    for body in gauges::of_intact_body(&model.system, &boundary) {
+        writeln!(out, "  not held: {}", words(&body, &cells))?;
+    }
     write_loading(out, case)?;
     if let Some(equilibrium) = &equilibrium {
         equations::write(out, case, &model, equilibrium)?;
@@ -97,7 +103,7 @@ fn check_here(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join("points.vtu");
-        let (cells, cloud) = (MeshCells::from(&model.mesh), &model.system.cloud);
+        let cloud = &model.system.cloud;
         point_grid(&path, &cells, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;
     }

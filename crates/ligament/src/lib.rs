@@ -8,6 +8,7 @@ pub mod case;
 pub mod check;
 pub mod cli;
 pub mod formulation;
+pub mod gauges;
 pub mod inspect;
 pub mod mesh_command;
 pub mod progress;

@@ -204,12 +204,7 @@ fn run_here(
     };
     let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
     let writer = ResultWriter::new(&folder, &cells, ends, fixed, rule, &boundary, &probes)?;
-    let mut watch = Watch::new(
-        writer,
-        &mut progress,
-        &cells.node_tags,
-        case.case.fracture.as_ref(),
-    );
+    let mut watch = Watch::new(writer, &mut progress, &cells, case.case.fracture.as_ref());
     let outcome: Outcome = stages.time("solution", || match &case.case.fracture {
         None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut watch),
         Some(fracture) => break_bonds(&problem, &model.critical_stretch, fracture, &mut watch),

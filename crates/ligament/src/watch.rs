@@ -2,9 +2,10 @@
 
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
-use ligament_output::results::ResultWriter;
+use ligament_output::results::{MeshCells, ResultWriter};
 
 use crate::case::{Control, Fracture, Steps};
+use crate::gauges;
 use crate::progress::{Progress, StepLine};
 
 /// Notices that are shown while the run goes on, and nodes that a notice lists; all are in `summary.json`.
@@ -16,7 +17,7 @@ pub struct Watch<'a> {
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    node_tags: &'a [i64],
+    cells: &'a MeshCells,
 }
 
 impl<'a> Watch<'a> {
@@ -24,7 +25,7 @@ impl<'a> Watch<'a> {
     pub fn new(
         writer: ResultWriter<'a>,
         progress: &'a mut Progress,
-        node_tags: &'a [i64],
+        cells: &'a MeshCells,
         fracture: Option<&Fracture>,
     ) -> Self {
         let total = match fracture.map(|fracture| &fracture.control) {
@@ -48,7 +49,7 @@ impl<'a> Watch<'a> {
             progress,
             notices: Vec::new(),
             last,
-            node_tags,
+            cells,
         }
     }
 
@@ -59,18 +60,9 @@ impl<'a> Watch<'a> {
 
     /// A notice with points given by their node tags.
     fn words(&self, notice: &Notice) -> String {
-        let tag = |point: usize| self.node_tags.get(point).copied().unwrap_or_default();
+        let tag = |point: usize| self.cells.node_tags.get(point).copied().unwrap_or_default();
         match notice {
-            Notice::CameLoose {
-                step: 0,
-                points,
-                motions,
-                first,
-            } => format!(
-                "{points} points are not held by supports and loads: {motions} rigid motions of theirs are held at \
-                 zero (first at node {})",
-                tag(*first as usize)
-            ),
+            Notice::FreeBody(body) => gauges::words(body, self.cells),
             Notice::CameLoose {
                 step,
                 points,

@@ -5,6 +5,7 @@ use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
 use crate::connectivity::{Fragments, Hold};
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Stability};
+use crate::gauges;
 use crate::history::{Notice, Observer, ObserverError, StepRecord, View};
 use crate::state::State;
 
@@ -34,7 +35,15 @@ pub(super) fn begin(
 ) -> Result<Start, SetupError> {
     let mut unloaded = State::fresh(problem.system);
     let holds = equilibrium.break_bonds(&mut unloaded, &[]);
-    report_loose(0, equilibrium.fragments(), &holds, observer)?;
+    let free = gauges::free_bodies(
+        problem.system,
+        problem.boundary,
+        equilibrium.fragments(),
+        &holds,
+    );
+    for body in free {
+        observer.notice(&Notice::FreeBody(body))?;
+    }
     let mut at_one = State {
         load_factor: 1.0,
         ..unloaded.clone()

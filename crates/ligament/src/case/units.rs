@@ -21,6 +21,9 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
         [.., "force", "x" | "y"] => Some("N"),
         [.., "force_per_length", "x" | "y"] => Some("N/m"),
         [.., "body_force", "x" | "y"] => Some("N/m^3"),
+        [.., "moment"] => Some("N m"),
+        [.., "body_couple"] => Some("N m/m^3"),
+        [.., "profile", "zero" | "one"] => Some("m"),
         [.., "displacement", "x" | "y"] | [.., "stop", "displacement"] => Some("m"),
         [
             ..,

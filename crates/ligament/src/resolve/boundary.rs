@@ -7,7 +7,7 @@ use ligament_mesh::Mesh;
 use ligament_model::PointCloud;
 
 use super::places::Places;
-use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Vector};
+use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
 
 /// Supports and loads on the points.
 pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boundary, CaseError> {
@@ -16,7 +16,13 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
     for (index, support) in case.case.supports.iter().enumerate() {
         let key = format!("support.{index}");
         let points = places.points(&key, Some(&support.place))?;
-        places.prescribe(&mut boundary, &key, &points, &support.displacement)?;
+        places.prescribe(
+            &mut boundary,
+            &key,
+            &points,
+            &vec![1.0; points.len()],
+            &support.displacement,
+        )?;
         boundary.report_group(
             &place_name(&support.place, index),
             points,
@@ -26,14 +32,17 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
     for (index, load) in case.case.loads.iter().enumerate() {
         let key = format!("load.{index}");
         let points = places.points(&key, load.place.as_ref())?;
+        let factors = places.factors(&key, load.profile.as_ref(), &points)?;
         if let Action::Displacement(displacement) = &load.action {
-            places.prescribe(&mut boundary, &key, &points, displacement)?;
+            places.prescribe(&mut boundary, &key, &points, &factors, displacement)?;
         }
         let mut total = [0.0; COMPONENTS];
-        for (point, [x, y]) in places.forces(&key, load, &points)? {
-            boundary.add_force(point, Component::X, x);
-            boundary.add_force(point, Component::Y, y);
-            total = [total[0] + x, total[1] + y, 0.0];
+        for (point, force) in places.forces(&key, load, &points)?.at_points {
+            for component in Component::ALL {
+                let value = force[component.index()];
+                boundary.add_force(point, component, value);
+                total[component.index()] += value;
+            }
         }
         boundary.report_group(&load.name, points, total);
     }
@@ -48,12 +57,23 @@ fn place_name(place: &Place, index: usize) -> String {
     }
 }
 
+/// Forces and couples of a load at load factor 1, N and N m.
+#[derive(Default)]
+struct Given {
+    /// What its points take.
+    at_points: Vec<(u32, [f64; COMPONENTS])>,
+    /// Sum over the points before the profile.
+    total: [f64; COMPONENTS],
+}
+
 impl Places<'_> {
+    /// Prescribes a displacement times a factor for each point.
     fn prescribe(
         &self,
         boundary: &mut Boundary,
         key: &str,
         points: &[u32],
+        factors: &[f64],
         displacement: &Displacement,
     ) -> Result<(), CaseError> {
         let components = [
@@ -65,7 +85,10 @@ impl Places<'_> {
             .into_iter()
             .filter_map(|(component, value)| Some((component, value?)))
         {
-            let done = boundary.prescribe(points, component, value);
+            let mut each = points.iter().zip(factors);
+            let done = each.try_for_each(|(&point, factor)| {
+                boundary.prescribe(&[point], component, factor * value)
+            });
             done.map_err(|BoundaryError::Conflict { point, component, first, second }| {
                 let tag = self.mesh.node_tags[point as usize];
                 let reason = format!(
@@ -80,82 +103,112 @@ impl Places<'_> {
 
     /// The first load is the axis of the force-displacement curve.
     fn control(&self) -> Result<Control, CaseError> {
+        let key = "load.0";
         let load = &self.case.case.loads[0];
-        let points = self.points("load.0", load.place.as_ref())?;
+        let points = self.points(key, load.place.as_ref())?;
+        let factors = self.factors(key, load.profile.as_ref(), &points)?;
+        let given = self.forces(key, load, &points)?;
         let (kind, vector) = match &load.action {
-            Action::Displacement(given) => {
-                let [x, y] = [given.x, given.y].map(|value| value.unwrap_or(0.0));
-                let rotation = if x == 0.0 && y == 0.0 {
-                    given.rotation.unwrap_or(0.0)
-                } else {
-                    0.0
-                };
+            Action::Displacement(Displacement { x, y, rotation }) => {
+                let [x, y, rotation] = [x, y, rotation].map(|value| value.unwrap_or(0.0));
+                let rotation = if x == 0.0 && y == 0.0 { rotation } else { 0.0 };
                 (ControlKind::Displacement, [x, y, rotation])
             }
-            Action::Force(_) | Action::ForcePerLength(_) | Action::BodyForce(_) => {
-                let forces = self.forces("load.0", load, &points)?;
-                let [x, y] =
-                    [0, 1].map(|axis| forces.iter().map(|(_, force)| force[axis]).sum::<f64>());
-                (ControlKind::Force, [x, y, 0.0])
-            }
+            _ => (ControlKind::Force, given.total),
         };
         let magnitude = vector.iter().map(|value| value * value).sum::<f64>().sqrt();
         if magnitude == 0.0 {
             let reason = "the first load must be other than zero: it is the axis of the force-displacement curve";
-            return Err(self.case.error("load.0", reason));
+            return Err(self.case.error(key, reason));
         }
+        let (points, shape) = match kind {
+            ControlKind::Displacement => {
+                let direction = vector.map(|value| value / magnitude);
+                let shape = factors
+                    .iter()
+                    .map(|factor| direction.map(|cosine| factor * cosine));
+                (points, shape.collect())
+            }
+            ControlKind::Force => {
+                let at_points = given.at_points.into_iter();
+                at_points
+                    .map(|(point, force)| (point, force.map(|value| value / magnitude)))
+                    .unzip()
+            }
+        };
         Ok(Control {
             kind,
             points,
-            direction: vector.map(|value| value / magnitude),
+            shape,
             magnitude,
         })
     }
 
-    /// Forces of a load on its points at load factor 1, N; none where it prescribes a displacement.
-    ///
-    /// A total is spread over a curve group by the length of its edges, over other places by the points' volumes; a
-    /// force per length goes by the length of the edges, half of each edge to either end; a body force by the volumes.
-    fn forces(
+    /// Factors of a profile at the points; 1 without one.
+    fn factors(
         &self,
         key: &str,
-        load: &Load,
+        profile: Option<&Profile>,
         points: &[u32],
-    ) -> Result<Vec<(u32, [f64; 2])>, CaseError> {
+    ) -> Result<Vec<f64>, CaseError> {
+        let Some(profile) = profile else {
+            return Ok(vec![1.0; points.len()]);
+        };
+        let factor = |&point: &u32| profile.at(self.mesh.positions[point as usize]);
+        let factors: Vec<f64> = points.iter().map(factor).collect();
+        if factors.iter().all(|&factor| factor == 0.0) {
+            let reason =
+                "the load does nothing: its profile is zero at every point that it acts on";
+            return Err(self.case.error(&format!("{key}.profile"), reason));
+        }
+        Ok(factors)
+    }
+
+    /// Forces and couples of a load on its points; none where it prescribes a displacement.
+    ///
+    /// A total force is spread over a curve group by the length of its edges, over other places by the points' volumes; a
+    /// force per length goes by the length of the edges, half of each edge to either end; body forces and all couples go by
+    /// the volumes. Each point's share is then multiplied by the profile.
+    fn forces(&self, key: &str, load: &Load, points: &[u32]) -> Result<Given, CaseError> {
         let curve = match &load.place {
             Some(Place::Group(group)) => tributary_lengths(self.mesh, group),
             _ => Vec::new(),
         };
-        let volumes: Vec<(u32, f64)> = points
-            .iter()
-            .map(|&point| (point, self.cloud.volumes[point as usize]))
-            .collect();
-        match &load.action {
-            Action::Displacement(_) => Ok(Vec::new()),
-            Action::BodyForce(force) => Ok(weighted(&volumes, force, 1.0)),
+        let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
+        let volumes: Vec<(u32, f64)> = points.iter().map(volume).collect();
+        let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+        let (weights, density) = match &load.action {
+            Action::Displacement(_) => return Ok(Given::default()),
+            Action::BodyForce(force) => (volumes, [force.x, force.y, 0.0]),
+            Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
             Action::ForcePerLength(_) if curve.is_empty() => {
                 let reason =
                     "a force per length needs a physical curve, and this group has no edges";
-                Err(self.case.error(&format!("{key}.group"), reason))
+                return Err(self.case.error(&format!("{key}.group"), reason));
             }
-            Action::ForcePerLength(force) => Ok(weighted(&curve, force, 1.0)),
+            Action::ForcePerLength(force) => (curve, [force.x, force.y, 0.0]),
             Action::Force(force) => {
-                let weights = if curve.is_empty() { &volumes } else { &curve };
-                Ok(weighted(
-                    weights,
-                    force,
-                    weights.iter().map(|(_, weight)| weight).sum(),
-                ))
+                let weights = if curve.is_empty() { volumes } else { curve };
+                let total = size(&weights);
+                (weights, [force.x, force.y, 0.0].map(|value| value / total))
             }
-        }
+            Action::Moment(couple) => {
+                let total = size(&volumes);
+                (volumes, [0.0, 0.0, couple / total])
+            }
+        };
+        let total = size(&weights);
+        let loaded: Vec<u32> = weights.iter().map(|(point, _)| *point).collect();
+        let factors = self.factors(key, load.profile.as_ref(), &loaded)?;
+        let at_points = weights.iter().zip(factors);
+        let share = |(&(point, weight), factor): (&(u32, f64), f64)| {
+            (point, density.map(|value| factor * (value * weight)))
+        };
+        Ok(Given {
+            at_points: at_points.map(share).collect(),
+            total: density.map(|value| value * total),
+        })
     }
-}
-
-fn weighted(weights: &[(u32, f64)], force: &Vector, total: f64) -> Vec<(u32, [f64; 2])> {
-    weights
-        .iter()
-        .map(|&(point, weight)| (point, [force.x, force.y].map(|f| f * weight / total)))
-        .collect()
 }
 
 /// Length of curve that each point of a curve group stands for, m: half of its edges.

@@ -1,0 +1,175 @@
+//! `[[load]]`: what acts on the body.
+
+use serde::{Deserialize, Serialize};
+
+use super::conditions::{Displacement, Vector};
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::region::{Place, no_place, place};
+use super::values::{Axis, Point, not_exactly_one, require, require_column_name};
+
+/// A load, given as it is at load factor 1.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Load {
+    /// Name, unique among the loads.
+    pub name: String,
+    /// Where; none only for a body force or a body couple on the whole body.
+    #[serde(flatten)]
+    pub place: Option<Place>,
+    /// What acts.
+    #[serde(flatten)]
+    pub action: Action,
+    /// How it varies from point to point; without it every point takes its whole share.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
+}
+
+/// What a load does.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Action {
+    /// Prescribed displacements, m and rad.
+    Displacement(Displacement),
+    /// A force in total over the points, N.
+    Force(Vector),
+    /// A force along a curve group, N/m.
+    ForcePerLength(Vector),
+    /// A force in the volume, N/m^3.
+    BodyForce(Vector),
+    /// A couple in total over the points, counter-clockwise, N m.
+    Moment(f64),
+    /// A couple in the volume, counter-clockwise, N m/m^3.
+    BodyCouple(f64),
+}
+
+/// A load that varies linearly: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
+/// point's coordinate c.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// The coordinate.
+    pub along: Axis,
+    /// Coordinate in the mesh file at which the load is zero, m.
+    pub zero: f64,
+    /// Coordinate in the mesh file at which it is as given, m.
+    pub one: f64,
+}
+
+impl Profile {
+    /// The factor at a position of the mesh file.
+    pub fn at(&self, [x, y]: Point) -> f64 {
+        let coordinate = match self.along {
+            Axis::X => x,
+            Axis::Y => y,
+        };
+        (coordinate - self.zero) / (self.one - self.zero)
+    }
+
+    fn check(self, key: &KeyPath) -> Result<Self, KeyFault> {
+        let expected = "another coordinate than `zero`: the load is as given there";
+        require(
+            self.one != self.zero,
+            || key.child("one"),
+            expected,
+            self.one,
+        )?;
+        Ok(self)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawLoad {
+    name: Option<String>,
+    group: Option<String>,
+    r#box: Option<[Point; 2]>,
+    at: Option<Point>,
+    displacement: Option<Displacement>,
+    force: Option<Vector>,
+    force_per_length: Option<Vector>,
+    body_force: Option<Vector>,
+    moment: Option<f64>,
+    body_couple: Option<f64>,
+    profile: Option<Profile>,
+}
+
+impl RawLoad {
+    /// Checks the load; `number` counts from 1 and names a load that has neither name nor group.
+    pub(super) fn check(self, key: &KeyPath, number: usize) -> Result<Load, KeyFault> {
+        let action = self.action(key)?;
+        let profile = self.profile.map(|it| it.check(&key.child("profile")));
+        let profile = profile.transpose()?;
+        let name = self.name.clone().or_else(|| self.group.clone());
+        let name = name.unwrap_or_else(|| format!("load-{number}"));
+        let named_by = if self.name.is_some() { "name" } else { "group" };
+        require_column_name(|| key.child(named_by), &name)?;
+        let place = place(key, self.group, self.r#box, self.at)?;
+        check_place(key, place.as_ref(), &action)?;
+        Ok(Load {
+            name,
+            place,
+            action,
+            profile,
+        })
+    }
+
+    fn action(&self, key: &KeyPath) -> Result<Action, KeyFault> {
+        let given = [
+            ("displacement", self.displacement.map(Action::Displacement)),
+            ("force", self.force.map(Action::Force)),
+            (
+                "force_per_length",
+                self.force_per_length.map(Action::ForcePerLength),
+            ),
+            ("body_force", self.body_force.map(Action::BodyForce)),
+            ("moment", self.moment.map(Action::Moment)),
+            ("body_couple", self.body_couple.map(Action::BodyCouple)),
+        ];
+        let mut actions = given
+            .iter()
+            .filter_map(|(name, action)| Some((*name, (*action)?)));
+        let (Some((name, action)), None) = (actions.next(), actions.next()) else {
+            return Err(not_exactly_one(
+                key,
+                &given.map(|(name, action)| (name, action.is_some())),
+            ));
+        };
+        action.check(&key.child(name))?;
+        Ok(action)
+    }
+}
+
+impl Action {
+    fn check(self, key: &KeyPath) -> Result<(), KeyFault> {
+        match self {
+            Self::Displacement(displacement) => displacement.check(key).map(drop),
+            Self::Force(vector) | Self::ForcePerLength(vector) | Self::BodyForce(vector) => {
+                vector.check(key).map(drop)
+            }
+            Self::Moment(couple) | Self::BodyCouple(couple) => require(
+                couple != 0.0,
+                || key.clone(),
+                "other than 0, or the load does nothing",
+                couple,
+            ),
+        }
+    }
+}
+
+/// A force per length needs the length of a group; only what acts on a volume may act on everything.
+fn check_place(key: &KeyPath, place: Option<&Place>, action: &Action) -> Result<(), KeyFault> {
+    match (action, place) {
+        (Action::BodyForce(_) | Action::BodyCouple(_), Some(Place::At(_))) => {
+            let reason = "a body force or couple acts on a volume: give `group`, `box`, or neither for the whole body";
+            Err(KeyFault::new(key.child("at"), reason))
+        }
+        (Action::BodyForce(_) | Action::BodyCouple(_), _)
+        | (Action::ForcePerLength(_), Some(Place::Group(_))) => Ok(()),
+        (Action::ForcePerLength(_), _) => {
+            let reason = "acts along the curve of a `group`, so the load needs one";
+            Err(KeyFault::new(key.child("force_per_length"), reason))
+        }
+        (_, None) => Err(no_place(key, [false; 3])),
+        (_, Some(_)) => Ok(()),
+    }
+}

@@ -1,0 +1,57 @@
+//! What the user is told of a body that supports and loads do not hold.
+
+use ligament_analysis::gauges::{FreeBody, FreeMotion};
+use ligament_analysis::{COMPONENTS, Component};
+use ligament_output::results::MeshCells;
+
+/// Which rigid motions are free, what is held instead, and whether the loads are in equilibrium without it.
+pub fn words(body: &FreeBody, cells: &MeshCells) -> String {
+    let what = if body.is_whole {
+        "the body".to_owned()
+    } else {
+        let tag = cells.node_tags[body.first as usize];
+        format!("{} points, the first of them node {tag},", body.points)
+    };
+    let motions: Vec<&str> = body.motions.iter().map(|it| motion(it.component)).collect();
+    let gauges: Vec<String> = body.gauges.iter().map(|&dof| gauge(dof, cells)).collect();
+    let loads = if body.is_balanced() {
+        "the loads on it are in equilibrium, so that these gauges carry no force".to_owned()
+    } else {
+        let loads: Vec<String> = body.motions.iter().map(load).collect();
+        format!(
+            "the loads on it are NOT in equilibrium ({}), and these gauges carry what is missing",
+            loads.join(", ")
+        )
+    };
+    format!(
+        "supports and loads do not hold {what} against {}; held at zero instead: {}; {loads}",
+        motions.join(", "),
+        gauges.join(", ")
+    )
+}
+
+fn motion(component: Component) -> &'static str {
+    match component {
+        Component::X => "translation along x",
+        Component::Y => "translation along y",
+        Component::Rotation => "rotation",
+    }
+}
+
+fn load(motion: &FreeMotion) -> String {
+    match motion.component {
+        Component::X => format!("along x {:.3e} N", motion.load),
+        Component::Y => format!("along y {:.3e} N", motion.load),
+        Component::Rotation => format!("moment {:.3e} N m", motion.load),
+    }
+}
+
+fn gauge(degree_of_freedom: usize, cells: &MeshCells) -> String {
+    let point = degree_of_freedom / COMPONENTS;
+    let [x, y] = cells.positions[point];
+    let component = Component::of(degree_of_freedom).name();
+    format!(
+        "{component} of node {} at ({x:.6}, {y:.6})",
+        cells.node_tags[point]
+    )
+}
