@@ -32,7 +32,7 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// What rounding makes of the internal forces of a body that moves freely, relative to the stiffness of a point times the
 /// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
-const ROUNDING: f64 = 1e-14;
+pub(crate) const ROUNDING: f64 = 1e-14;
 
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
@@ -168,7 +168,11 @@ impl<'a> Equilibrium<'a> {
         Ok(Self {
             system,
             boundary,
-            stiffness: Stiffness::new(system, boundary, problem.solver)?,
+            stiffness: Stiffness::new(
+                system,
+                Unknowns::of_problem(system, boundary),
+                problem.solver,
+            )?,
             energy_tolerance,
             point_stiffness: largest_point_stiffness(system),
             connectivity: Connectivity::new(system),
@@ -178,6 +182,11 @@ impl<'a> Equilibrium<'a> {
     /// The unknowns.
     pub fn unknowns(&self) -> &Unknowns {
         self.stiffness.unknowns()
+    }
+
+    /// The stiffness of the intact bonds.
+    pub fn stiffness(&self) -> &Stiffness<'a> {
+        &self.stiffness
     }
 
     /// What was chosen to solve the equations.
@@ -445,7 +454,7 @@ fn largest_displacement(state: &State) -> f64 {
 }
 
 /// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
-fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
+pub(crate) fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
     let mut largest = [0.0_f64; 2];
     for point in 0..system.cloud.len() as u32 {
         let mut sum = [0.0; 2];

@@ -132,6 +132,12 @@ impl PointCloud {
             .sum()
     }
 
+    /// Squared radius of gyration r_i of a point about its own middle, m^2: (dx^2 + dy^2)/12 (MPPD before eq. 63, which calls
+    /// it the radius) of the square that has the point's volume, so (V_i/t)/6.
+    pub fn gyration(&self, point: usize) -> f64 {
+        self.volumes[point] / self.thickness / 6.0
+    }
+
     /// The point nearest to a position of the mesh file (the one with the smallest number where several are).
     ///
     /// # Panics
