@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
+use ligament_linalg::{FactorError, FactorKind, PatternError};
 use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
@@ -15,7 +15,7 @@ use crate::driver::Problem;
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::State;
-use crate::stiffness::{Costs, Ordering, SolverChoice, Stiffness};
+use crate::stiffness::{Costs, SolverChoice, Stiffness};
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
@@ -192,16 +192,6 @@ impl<'a> Equilibrium<'a> {
     /// What was chosen to solve the equations.
     pub fn choice(&self) -> &SolverChoice {
         self.stiffness.choice()
-    }
-
-    /// The structure of the factor in another order of elimination.
-    pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
-        self.stiffness.analysed_with(ordering)
-    }
-
-    /// Structure of the factor.
-    pub fn symbolic(&self) -> &Symbolic {
-        self.stiffness.symbolic()
     }
 
     /// The connected parts of the body.

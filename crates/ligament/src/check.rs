@@ -1,6 +1,7 @@
 //! `ligament check`: everything up to the first solve, or the model alone, and what it takes.
 
 mod equations;
+mod modal;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -50,42 +51,9 @@ fn check_here(
 ) -> anyhow::Result<()> {
     let mut stages = Stages::default();
     let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
-    let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
-    let probes = resolve::probes(case, &model.system);
-    let problem = Problem {
-        system: &model.system,
-        boundary: &boundary,
-        solver: resolve::solver(case),
-        probes: &probes,
-    };
-    let equilibrium = match extent {
-        Extent::Model => None,
-        Extent::Matrix => Some(stages.time("analysis", || {
-            Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
-        })?),
-    };
-
-    writeln!(
-        out,
-        "{}",
-        if case.case.title.is_empty() {
-            "untitled case"
-        } else {
-            &case.case.title
-        }
-    )?;
-    write_mesh(out, &model)?;
-    write_materials(out, case, &model)?;
-    write_bonds(out, case, &model)?;
-    write_energy_ratios(out, &model)?;
-    write_boundary(out, &model.mesh, &boundary, &probes)?;
-    let cells = MeshCells::from(&model.mesh);
-    for body in gauges::of_intact_body(&model.system, &boundary) {
-        writeln!(out, "  not held: {}", words(&body, &cells))?;
-    }
-    write_loading(out, case)?;
-    if let Some(equilibrium) = &equilibrium {
-        equations::write(out, case, &model, equilibrium)?;
+    match &case.case.modal {
+        Some(modal) => modal::check(case, modal, extent, &model, &mut stages, out)?,
+        None => check_loading(case, extent, &model, &mut stages, out)?,
     }
     write_stages(out, stages.done())?;
     let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
@@ -103,11 +71,64 @@ fn check_here(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join("points.vtu");
-        let cloud = &model.system.cloud;
+        let (cells, cloud) = (MeshCells::from(&model.mesh), &model.system.cloud);
         point_grid(&path, &cells, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())
+}
+
+/// Checks supports, loads and equations of a case with loads.
+fn check_loading(
+    case: &CaseFile,
+    extent: Extent,
+    model: &Model,
+    stages: &mut Stages,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    let probes = resolve::probes(case, &model.system);
+    let problem = Problem {
+        system: &model.system,
+        boundary: &boundary,
+        solver: resolve::solver(case),
+        probes: &probes,
+    };
+    let equilibrium = match extent {
+        Extent::Model => None,
+        Extent::Matrix => Some(stages.time("analysis", || {
+            Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
+        })?),
+    };
+
+    write_model(out, case, model)?;
+    write_boundary(out, &model.mesh, &boundary, &probes)?;
+    let cells = MeshCells::from(&model.mesh);
+    for body in gauges::of_intact_body(&model.system, &boundary) {
+        writeln!(out, "  not held: {}", words(&body, &cells))?;
+    }
+    write_loading(out, case)?;
+    if let Some(equilibrium) = &equilibrium {
+        equations::write(out, case, model, equilibrium.stiffness())?;
+    }
+    Ok(())
+}
+
+/// Writes what is known before supports and loads.
+fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+    writeln!(
+        out,
+        "{}",
+        if case.case.title.is_empty() {
+            "untitled case"
+        } else {
+            &case.case.title
+        }
+    )?;
+    write_mesh(out, model)?;
+    write_materials(out, case, model)?;
+    write_bonds(out, case, model)?;
+    write_energy_ratios(out, model)
 }
 
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
@@ -247,11 +268,7 @@ fn write_boundary(
 ) -> io::Result<()> {
     writeln!(out, "supports and loads")?;
     for group in &boundary.groups {
-        let where_at = match group.points.as_slice() {
-            [only] => place(mesh, *only),
-            points => format!("{} points", points.len()),
-        };
-        writeln!(out, "  {:<21} {where_at}", group.name)?;
+        write_group(out, mesh, &group.name, &group.points)?;
     }
     let control = &boundary.control;
     let (count, size) = (control.points.len(), control.magnitude);
@@ -270,6 +287,14 @@ fn write_boundary(
         writeln!(out, "  probe {:<15} {reads}", probe.name)?;
     }
     Ok(())
+}
+
+fn write_group(out: &mut dyn Write, mesh: &Mesh, name: &str, points: &[u32]) -> io::Result<()> {
+    let where_at = match points {
+        [only] => place(mesh, *only),
+        points => format!("{} points", points.len()),
+    };
+    writeln!(out, "  {name:<21} {where_at}")
 }
 
 fn write_loading(out: &mut dyn Write, case: &CaseFile) -> io::Result<()> {

@@ -84,6 +84,16 @@ pub enum ModeKind {
     Elastic,
 }
 
+impl ModeKind {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Elastic => "elastic",
+        }
+    }
+}
+
 impl Mode {
     /// omega, rad/s: 0 for a rigid motion, NaN where omega^2 is negative.
     pub fn angular_frequency(&self) -> f64 {

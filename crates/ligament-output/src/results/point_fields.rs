@@ -49,7 +49,7 @@ pub struct FixedFields {
 }
 
 impl FixedFields {
-    fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
+    pub(super) fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
         let [uniaxial_x, uniaxial_y, biaxial, shear] = &self.energy_ratios;
         vec![
             Field::scalar("volume", volumes),
@@ -129,14 +129,18 @@ pub(super) fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
 }
 
 /// The x and y components with a third of zero, as readers expect vectors, shape (n_points).
-fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
+pub(super) fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
     values
         .chunks(COMPONENTS)
         .map(|components| [components[0], components[1], 0.0])
         .collect()
 }
 
-fn write_grid(path: &Path, cells: &MeshCells, point_fields: &[Field<'_>]) -> Result<(), Error> {
+pub(super) fn write_grid(
+    path: &Path,
+    cells: &MeshCells,
+    point_fields: &[Field<'_>],
+) -> Result<(), Error> {
     let grid = UnstructuredGrid {
         points: &cells.positions,
         cells: &cells.cells,

@@ -50,7 +50,7 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
 }
 
 /// Name of a support in the history.
-fn place_name(place: &Place, index: usize) -> String {
+pub(super) fn place_name(place: &Place, index: usize) -> String {
     match place {
         Place::Group(group) => group.clone(),
         Place::Box(_) | Place::At(_) => format!("support-{}", index + 1),
