@@ -20,9 +20,6 @@ const ROOM: usize = 20;
 /// A vector whose part outside of the basis is smaller than this lies in it, but for rounding.
 const DEPENDENT: f64 = 1e-13;
 
-/// A residual smaller than this times the largest eigenvalue is rounding.
-const ROUNDING: f64 = 1e-14;
-
 /// Eigenpairs of an operator of dimension n.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Eigenpairs {
@@ -80,12 +77,9 @@ pub fn largest_eigenpairs(
             };
         };
         let found = count.min(ritz.values.len());
-        let largest = ritz.values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let converged = found == count
-            && (0..found).all(|pair| {
-                let bound = search.tolerance * ritz.values[pair].abs();
-                ritz.residuals[pair] <= bound.max(ROUNDING * largest)
-            });
+            && (0..found)
+                .all(|pair| ritz.residuals[pair] <= search.tolerance * ritz.values[pair].abs());
         if converged || products >= search.limit || basis.n_next == 0 {
             let vectors = basis.combine(&ritz.vectors, found);
             return Eigenpairs {
