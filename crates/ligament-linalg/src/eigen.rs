@@ -7,9 +7,11 @@
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Mat, Par, Spec};
 
 /// Vectors that go through the operator together.
 const BLOCK: usize = 2;
@@ -261,7 +263,9 @@ impl Basis {
         }
         let mut values = Diag::<f64>::zeros(m);
         let mut vectors = Mat::<f64>::zeros(m, m);
-        let parameters = Default::default();
+        // By divide and conquer, faer's choice from 128 on, small last entries of the vectors come out wrong: the residuals.
+        let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
+        parameters.recursion_threshold = usize::MAX;
         let request =
             self_adjoint_evd_scratch::<f64>(m, ComputeEigenvectors::Yes, Par::Seq, parameters);
         let mut memory = MemBuffer::new(request);
