@@ -13,7 +13,7 @@ use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{FixedFields, MeshCells, ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, Control, CorrectionDomain, Fracture};
+use crate::case::{CaseFile, Control, CorrectionDomain, Fracture, StressField};
 use crate::formulation;
 use crate::inspect::read_mesh;
 use crate::progress::{Progress, ProgressMode};
@@ -182,6 +182,7 @@ fn run_here(
     let mut progress = Progress::new(mode);
     let model = build_model(case, &mut stages, &progress)?;
     let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
     let problem = Problem {
         system: &model.system,
@@ -197,6 +198,8 @@ fn run_here(
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
+        virial: case.case.output.stress.contains(&StressField::Virial),
+        traction: case.case.output.stress.contains(&StressField::Traction),
         time: match case.case.fracture.as_ref().map(|it| &it.control) {
             Some(Control::Event) => Time::Step,
             Some(Control::Stepped(_)) | None => Time::Load,

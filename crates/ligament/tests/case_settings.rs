@@ -197,7 +197,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         (
             "model.horizont_factor=4",
             "model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
-             `horizon_factor`? valid keys: `law`, `horizon_factor`",
+             `horizon_factor`? valid keys: `law`, `horizon_factor`, `calibration`, `rotational_stiffness`",
         ),
         (
             "mesh.plane=strian",
@@ -242,7 +242,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         (
             "load.0.force.y=1",
             "load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-             `body_force`; found `displacement`, `force`",
+             `body_force`, `moment`, `body_couple`; found `displacement`, `force`",
         ),
     ] {
         assert_eq!(
