@@ -51,6 +51,7 @@ fn check_here(
     let mut stages = Stages::default();
     let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
     let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
     let problem = Problem {
         system: &model.system,

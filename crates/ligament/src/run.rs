@@ -182,6 +182,7 @@ fn run_here(
     let mut progress = Progress::new(mode);
     let model = build_model(case, &mut stages, &progress)?;
     let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
     let problem = Problem {
         system: &model.system,

@@ -45,7 +45,8 @@ fn unknown_keys_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
-         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`"
+         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, \
+         `moment`, `body_couple`, `profile`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
@@ -342,7 +343,7 @@ fn keys_that_exclude_each_other_are_listed() {
             "force = { y = 1 }\nforce_per_length = { y = 1 }"
         ),
         "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-         `body_force`; found `force`, `force_per_length`"
+         `body_force`, `moment`, `body_couple`; found `force`, `force_per_length`"
     );
 }
 
@@ -364,7 +365,7 @@ fn supports_and_loads_that_make_no_sense_are_refused() {
     );
     assert_eq!(
         error_with(load, "at = [0, 0]\nbody_force = { y = 1 }"),
-        "32:6: load.0.at: a body force acts on a volume: give `group`, `box`, or neither for the \
+        "32:6: load.0.at: a body force or couple acts on a volume: give `group`, `box`, or neither for the \
          whole body"
     );
     assert_eq!(

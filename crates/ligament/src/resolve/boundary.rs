@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use ligament_analysis::{Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind};
+use ligament_analysis::{
+    Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind, Unknowns,
+};
 use ligament_mesh::Mesh;
-use ligament_model::PointCloud;
+use ligament_model::{BondSystem, PointCloud};
 
 use super::places::Places;
 use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
@@ -47,6 +49,40 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
         boundary.report_group(&load.name, points, total);
     }
     Ok(boundary)
+}
+
+/// Refuses couples on points that no bond keeps from turning: they would act on nothing.
+pub fn couples_have_stiffness(
+    case: &CaseFile,
+    boundary: &Boundary,
+    system: &BondSystem,
+) -> Result<(), CaseError> {
+    let loads = case.case.loads.iter().enumerate();
+    let key = |(index, load): (usize, &Load)| match &load.action {
+        Action::Moment(_) => Some(format!("load.{index}.moment")),
+        Action::BodyCouple(_) => Some(format!("load.{index}.body_couple")),
+        _ => None,
+    };
+    let Some(key) = loads.filter_map(key).next() else {
+        return Ok(());
+    };
+    let unknowns = Unknowns::of_problem(system, boundary);
+    let is_idle = |dof: usize| {
+        boundary.force[dof] != 0.0
+            && boundary.prescribed[dof].is_none()
+            && unknowns.number(dof).is_none()
+    };
+    let rotations =
+        (0..boundary.force.len()).filter(|&dof| Component::of(dof) == Component::Rotation);
+    let idle = rotations.filter(|&dof| is_idle(dof)).count();
+    if idle == 0 {
+        return Ok(());
+    }
+    let reason = format!(
+        "the couple acts on {idle} points that no bond keeps from turning (Poisson's ratio makes the shear stiffness of \
+         their bonds zero, or the bonds have no rotations): apply it as a pair of forces"
+    );
+    Err(case.error(&key, reason))
 }
 
 /// Name of a support in the history.

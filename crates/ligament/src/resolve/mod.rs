@@ -19,7 +19,7 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
 
-pub use boundary::boundary;
+pub use boundary::{boundary, couples_have_stiffness};
 pub use places::{material_of_cell, no_fail};
 
 /// State of the plane.
