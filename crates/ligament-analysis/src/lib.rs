@@ -19,6 +19,7 @@ pub mod internal;
 pub mod probe;
 pub mod state;
 pub mod stiffness;
+pub mod stress;
 pub mod unknowns;
 
 pub use boundary::{Boundary, BoundaryError, Control, ControlKind};

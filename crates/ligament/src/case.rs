@@ -32,7 +32,7 @@ pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
-pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop};
+pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
 pub use load::{Action, Load, Profile};
 pub use material::{Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};

@@ -13,7 +13,7 @@ use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{FixedFields, MeshCells, ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, Control, CorrectionDomain, Fracture};
+use crate::case::{CaseFile, Control, CorrectionDomain, Fracture, StressField};
 use crate::formulation;
 use crate::inspect::read_mesh;
 use crate::progress::{Progress, ProgressMode};
@@ -198,6 +198,8 @@ fn run_here(
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
+        virial: case.case.output.stress.contains(&StressField::Virial),
+        traction: case.case.output.stress.contains(&StressField::Traction),
         time: match case.case.fracture.as_ref().map(|it| &it.control) {
             Some(Control::Event) => Time::Step,
             Some(Control::Stepped(_)) | None => Time::Load,

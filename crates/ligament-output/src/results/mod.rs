@@ -32,6 +32,10 @@ pub struct WriteRule {
     pub fields_every: usize,
     /// Whether to write the bonds as well.
     pub bonds: bool,
+    /// Whether the fields have the virial stress.
+    pub virial: bool,
+    /// Whether the fields have the traction on planes through the points.
+    pub traction: bool,
     /// What the collections call time.
     pub time: Time,
 }
@@ -86,7 +90,13 @@ impl<'a> ResultWriter<'a> {
 
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let name = format!("fields_{:04}.vtu", record.step);
-        point_fields::write(&self.folder.file(&name), self.cells, self.fixed, view)?;
+        point_fields::write(
+            &self.folder.file(&name),
+            self.cells,
+            self.fixed,
+            self.rule,
+            view,
+        )?;
         self.fields_collection
             .append(self.rule.time.of(record, view), name)
     }

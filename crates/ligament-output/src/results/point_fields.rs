@@ -5,8 +5,10 @@ use std::path::Path;
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
+use ligament_analysis::stress::{traction, virial};
 use ligament_mesh::{Cell, Mesh};
 
+use super::WriteRule;
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
@@ -82,6 +84,7 @@ pub(super) fn write(
     path: &Path,
     cells: &MeshCells,
     fixed: &FixedFields,
+    rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {
     let (system, state, balanced) = (view.system, view.state, view.balanced);
@@ -118,6 +121,28 @@ pub(super) fn write(
         Field::integer("held", &held),
         Field::integer("node", &cells.node_tags),
     ];
+    let stress_virial = rule
+        .virial
+        .then(|| virial::stress(system, &state.intact, &balanced.deformations));
+    if let Some(stress) = &stress_virial {
+        let values = stress.as_flattened();
+        point_fields.push(Field::components(
+            "stress_virial",
+            &["xx", "yy", "xy"],
+            values,
+        ));
+    }
+    let stress_traction = rule
+        .traction
+        .then(|| traction::stress(system, &state.intact, &balanced.deformations));
+    if let Some(stress) = &stress_traction {
+        let values = stress.as_flattened();
+        point_fields.push(Field::components(
+            "stress_traction",
+            &["xx", "yx", "yy", "xy"],
+            values,
+        ));
+    }
     let cloud = &system.cloud;
     point_fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
     write_grid(path, cells, &point_fields)

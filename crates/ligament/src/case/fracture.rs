@@ -270,12 +270,24 @@ impl RawFracture {
 }
 
 /// What a run writes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Output {
     /// Load steps, or events of the exact path, between two field files; 0: only the first and the last state.
     pub fields_every: u32,
     /// Whether the bonds are written too.
     pub bonds: bool,
+    /// Which stresses the field files have.
+    pub stress: Vec<StressField>,
+}
+
+/// A reading of the stress at the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StressField {
+    /// The mean of the force dyads of a point's bonds.
+    Virial,
+    /// The force through small planes at the point.
+    Traction,
 }
 
 #[derive(Default, Deserialize)]
@@ -283,6 +295,7 @@ pub struct Output {
 pub(super) struct RawOutput {
     fields_every: Option<u32>,
     bonds: bool,
+    stress: Vec<StressField>,
 }
 
 impl RawOutput {
@@ -295,6 +308,7 @@ impl RawOutput {
         Output {
             fields_every: self.fields_every.unwrap_or(default),
             bonds: self.bonds,
+            stress: self.stress,
         }
     }
 }

@@ -10,7 +10,7 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
-use ligament_analysis::probe::{PointField, Probe, Reading};
+use ligament_analysis::probe::{PointField, Probe, Reading, StressComponent};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::{StopRule, Sweeps};
@@ -201,6 +201,9 @@ fn reading(
                 case::Field::DisplacementY => PointField::Motion(Component::Y),
                 case::Field::Rotation => PointField::Motion(Component::Rotation),
                 case::Field::StrainEnergyDensity => PointField::StrainEnergyDensity,
+                case::Field::StressXx => PointField::Stress(StressComponent::Xx),
+                case::Field::StressYy => PointField::Stress(StressComponent::Yy),
+                case::Field::StressXy => PointField::Stress(StressComponent::Xy),
             },
         },
         case::Reading::Section {
