@@ -12,20 +12,22 @@ use super::force_on_first;
 /// Stresses of the planes with normal x (xx, yx) and with normal y (yy, xy), Pa; the first letter is the force's direction.
 pub type Tractions = [f64; 4];
 
-/// An end of a bond nearer to a plane than this part of the bond's length lies in it: rounding of the points of a lattice.
-const IN_PLANE: f64 = 1e-9;
-
-/// Traction at every point on the planes with normal x and with normal y through it, shape (n_points).
+/// Traction at every point on the planes with normal x and with normal y, shape (n_points).
 ///
-/// The plane of a point is a segment of width w_i = sqrt(V_i/t) with the point in its middle, and the thickness. A bond
-/// stands for a band of matter of the mean width of its two points along the straight line between them. What of a band
-/// crosses the segment gives its part of the bond's force: planes side by side share each force, and lose none of it. On a
-/// square lattice this is eq. A.4 with the column's neighbours weighted by how far they reach into it.
+/// The planes of a point are segments of width w_i = sqrt(V_i/t), the point in their middle, and the mean is taken of those
+/// that lie up to w_i/2 before and behind it: together they sweep a square of the point's own area. A bond stands for a band
+/// of matter between its points, as wide as their planes in the mean. With the area a_i that the band and the square of point
+/// i have in common, the extent d of the band along the normal and its force f, the traction of i is the sum over the bonds of
 ///
-/// A plane through points has bonds that end in it. Their forces count half, which is the mean of the planes on either side,
-/// and what lies within the plane does not count. So on the outline of a body, where nothing is on the other side, and
-/// wherever a part of the segment lies outside, the traction is that of a part of the width or of half the bonds: read it a
-/// horizon away from the outline.
+/// t_i = f a_i d / (V_i sum_j a_j),
+///
+/// so that a bond is shared out among the points along its way, and nothing is lost or counted twice: sum_i V_i t_i is the
+/// mean stress of the body, exactly. Where the squares fill the plane the sum of a_j is d times the width of the band, and
+/// t_i = (1/(w_i t)) times the force that crosses the plane of i: on a square lattice eq. A.4, there with the half of the bonds
+/// that end in a plane which lies before it, and the columns beside weighted by how far their bands reach into this one.
+/// Where they do not fill it, on other meshes and at the outline, planes alone would miss or repeat some of the force.
+///
+/// Bonds within a plane do not cross it and do not count.
 pub fn stress(
     system: &BondSystem,
     intact: &[bool],
@@ -33,19 +35,12 @@ pub fn stress(
 ) -> Vec<Tractions> {
     let grid = Grid::of(&system.cloud);
     let on_planes = |normal: usize| through_planes(system, intact, deformations, &grid, normal);
-    let ([with_x, with_y], n_points) = (
-        <[_; 2]>::from(rayon::join(|| on_planes(0), || on_planes(1))),
-        system.cloud.len(),
-    );
-    (0..n_points)
-        .map(|point| {
-            let ([xx, yx], [xy, yy]) = (with_x[point], with_y[point]);
-            [xx, yx, yy, xy]
-        })
-        .collect()
+    let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
+    let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
+    with_x.into_iter().zip(with_y).map(of_point).collect()
 }
 
-/// Traction along x and y on the plane of each point with the given normal (0: x, 1: y), Pa.
+/// Traction along x and y on the planes of each point with the given normal (0: x, 1: y), Pa.
 fn through_planes(
     system: &BondSystem,
     intact: &[bool],
@@ -53,64 +48,56 @@ fn through_planes(
     grid: &Grid,
     normal: usize,
 ) -> Vec<[f64; 2]> {
-    let positions = &system.cloud.positions;
-    let mut sums = vec![[0.0; 2]; positions.len()];
+    let cloud = &system.cloud;
+    let mut sums = vec![[0.0; 2]; cloud.len()];
+    let mut crossed: Vec<(usize, f64)> = Vec::new();
     let is_intact = |bond: &usize| intact[*bond];
     for bond in (0..system.bonds.len()).filter(is_intact) {
         let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
         let band = Band {
-            ends: [positions[a], positions[b]],
+            ends: [cloud.positions[a], cloud.positions[b]],
             width: 0.5 * (grid.width[a] + grid.width[b]),
-            in_plane: IN_PLANE * system.bonds.length[bond],
             normal,
         };
-        if band.lies_in_a_plane() {
-            continue;
-        }
-        let [x, y] = force_on_first(system, bond, &deformations[bond]);
-        // The part before the plane pulls at the part behind it.
-        let sign = if band.points_forward() { 1.0 } else { -1.0 };
         grid.visit(band.reach(grid.largest_width), |point| {
-            let share = sign * band.share(positions[point], grid.width[point]);
-            sums[point][0] += share * x;
-            sums[point][1] += share * y;
+            let area = band.area_within(cloud.positions[point], grid.width[point]);
+            if area > 0.0 {
+                crossed.push((point, area));
+            }
         });
+        let area: f64 = crossed.iter().map(|(_, area)| area).sum();
+        // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
+        let force = force_on_first(system, bond, &deformations[bond]);
+        let force = force.map(|component| component * band.extent());
+        for (point, part) in crossed.drain(..) {
+            for (sum, component) in sums[point].iter_mut().zip(force) {
+                *sum += component * (part / area);
+            }
+        }
     }
-    let area = grid
-        .width
-        .iter()
-        .map(|width| width * system.cloud.thickness);
-    let over_area = |(sum, area): (&[f64; 2], f64)| sum.map(|force| force / area);
-    sums.iter().zip(area).map(over_area).collect()
+    let over_volume = |(sum, volume): (&[f64; 2], &f64)| sum.map(|value| value / volume);
+    sums.iter().zip(&cloud.volumes).map(over_volume).collect()
 }
 
 /// The matter of a bond on its way through planes of one normal.
 struct Band {
     ends: [[f64; 2]; 2],
     width: f64,
-    in_plane: f64,
     normal: usize,
 }
 
 impl Band {
-    fn lies_in_a_plane(&self) -> bool {
+    /// From the first end to the second along the normal, m.
+    fn extent(&self) -> f64 {
         let [a, b] = self.ends.map(|end| end[self.normal]);
-        (b - a).abs() <= self.in_plane
+        b - a
     }
 
-    fn points_forward(&self) -> bool {
-        let [a, b] = self.ends.map(|end| end[self.normal]);
-        b > a
-    }
-
-    /// The box of the points whose planes it may cross, for planes up to a width.
+    /// The box of the points whose squares it may cross, for squares up to a width.
     fn reach(&self, largest_width: f64) -> [[f64; 2]; 2] {
         let margin = |axis: usize| {
-            if axis == self.normal {
-                self.in_plane
-            } else {
-                0.5 * (self.width + largest_width)
-            }
+            let of_band = if axis == self.normal { 0.0 } else { self.width };
+            0.5 * (of_band + largest_width)
         };
         let [a, b] = self.ends;
         [
@@ -119,35 +106,44 @@ impl Band {
         ]
     }
 
-    /// Part of the band that crosses the plane of a point: 0 to 1, half of it for a band that ends in the plane.
-    fn share(&self, point: [f64; 2], width: f64) -> f64 {
+    /// Area that the band has in common with the square of a point, m^2.
+    fn area_within(&self, point: [f64; 2], width: f64) -> f64 {
         let along = 1 - self.normal;
-        let [before_a, before_b] = self.ends.map(|end| {
-            let distance = end[self.normal] - point[self.normal];
-            if distance.abs() <= self.in_plane {
-                0.0
-            } else {
-                distance
-            }
-        });
-        let crossing = if before_a * before_b < 0.0 {
-            1.0
-        } else if (before_a == 0.0) != (before_b == 0.0) {
-            0.5
-        } else {
+        let half = 0.5 * width;
+        let [n_a, n_b] = self.ends.map(|end| end[self.normal] - point[self.normal]);
+        let [c_a, c_b] = self.ends.map(|end| end[along] - point[along]);
+        let (first, last) = (n_a.min(n_b).max(-half), n_a.max(n_b).min(half));
+        if first >= last {
             return 0.0;
+        }
+        let overlap = |place: f64| {
+            let middle = c_a + (c_b - c_a) * ((place - n_a) / (n_b - n_a));
+            let upper = (middle + 0.5 * self.width).min(half);
+            (upper - (middle - 0.5 * self.width).max(-half)).max(0.0)
         };
-        let [a, b] = self.ends.map(|end| end[along]);
-        let middle = a + (b - a) * before_a / (before_a - before_b) - point[along];
-        let overlap = (middle + 0.5 * self.width).min(0.5 * width)
-            - (middle - 0.5 * self.width).max(-0.5 * width);
-        crossing * overlap.max(0.0) / self.width
+        // It is linear between the places where an edge of the band passes an edge of the square.
+        let (sum, difference) = (0.5 * (self.width + width), 0.5 * (self.width - width));
+        let passing = |offset: f64| {
+            let place = n_a + (n_b - n_a) * ((offset - c_a) / (c_b - c_a));
+            if c_a == c_b {
+                first
+            } else {
+                place.clamp(first, last)
+            }
+        };
+        let [a, b, c, d] = [-sum, -difference, difference, sum].map(passing);
+        let mut places = [first, a, b, c, d, last];
+        places.sort_by(f64::total_cmp);
+        let pieces = places.windows(2);
+        pieces
+            .map(|ends| 0.5 * (ends[1] - ends[0]) * (overlap(ends[0]) + overlap(ends[1])))
+            .sum()
     }
 }
 
 /// The points in the cells of a grid, to find those near a bond.
 struct Grid {
-    /// Width sqrt(V/t) of each point's planes, shape (n_points), m.
+    /// Width sqrt(V/t) of each point's square, shape (n_points), m.
     width: Vec<f64>,
     largest_width: f64,
     lower: [f64; 2],
