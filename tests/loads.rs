@@ -84,7 +84,7 @@ fn a_profile_multiplies_every_share() {
     // Prescribed displacements in the same way, also where the factor is negative.
     let moved = "load = [{ group = \"right\", displacement = { x = 1e-5 }, profile = { along = \"y\", zero = 0.05, one = 0.1 } }]\n";
     let moved = bench(moved);
-    for &point in moved.group("right") {
+    for point in moved.group("right") {
         let wanted = 1e-5 * (moved.positions()[point as usize][1] - 0.05) / 0.05;
         let given = moved.boundary.prescribed[3 * point as usize].unwrap();
         assert!((given - wanted).abs() < 1e-20);

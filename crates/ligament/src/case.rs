@@ -1,9 +1,10 @@
 //! Case files: what to compute, in TOML.
 //!
-//! A case names a mesh, materials, the bond model, supports and loads, and optionally pre-cracks,
+//! A case names a body, materials, the bond model, supports and loads, and optionally pre-cracks,
 //! probes and how bonds break. All values are in SI units. [`CaseFile::load`] reads and checks one;
 //! every fault is reported with its line, column and key path.
 
+mod body_section;
 mod conditions;
 mod correction;
 mod decode;
@@ -12,6 +13,7 @@ mod fault;
 mod file;
 mod fracture;
 mod key_path;
+mod lattice_section;
 mod load;
 mod material;
 mod mesh_section;
@@ -28,11 +30,13 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+pub use body_section::BodySection;
 pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
+pub use lattice_section::{CellSet, Circle, Hole, LatticeSection, MOST_CELLS};
 pub use load::{Action, Load, Profile};
 pub use material::{Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
@@ -52,8 +56,9 @@ use values::require_unique;
 pub struct Case {
     /// One line on what the case is.
     pub title: String,
-    /// The meshed body.
-    pub mesh: MeshSection,
+    /// The body: a mesh or a lattice.
+    #[serde(flatten)]
+    pub body: BodySection,
     /// The materials: one without a group for the whole body, or one for each of some groups.
     #[serde(rename = "material", serialize_with = "material::serialize")]
     pub materials: Vec<Material>,
@@ -91,7 +96,8 @@ pub struct Case {
 struct RawCase {
     #[serde(default)]
     title: String,
-    mesh: mesh_section::RawMesh,
+    mesh: Option<mesh_section::RawMesh>,
+    lattice: Option<lattice_section::RawLattice>,
     #[serde(rename = "material")]
     _material: serde::de::IgnoredAny,
     model: model::RawModel,
@@ -120,6 +126,7 @@ impl Case {
         let raw: RawCase =
             decode::decode(document, &KeyPath::default()).map_err(name_missing_section)?;
         let section = |name: &str| KeyPath::default().child(name);
+        let body = BodySection::of(raw.mesh, raw.lattice, folder)?;
         let materials = match document.get("material") {
             Some(node) => material::read(node)?,
             None => return Err(missing_section("material")),
@@ -139,7 +146,7 @@ impl Case {
         let model = raw.model.check(&section("model"))?;
         let case = Self {
             title: raw.title,
-            mesh: raw.mesh.check(&section("mesh"), folder)?,
+            body,
             materials,
             correction: raw.correction.check(&section("correction"), &model)?,
             model,
@@ -157,7 +164,7 @@ impl Case {
     }
 
     fn check_across_sections(&self) -> Result<(), KeyFault> {
-        material::require_suitable(&self.materials, self.model.law, self.mesh.plane)?;
+        material::require_suitable(&self.materials, self.model.law, self.body.plane())?;
         if self.fracture.is_some() {
             material::require_strengths(&self.materials)?;
         }
@@ -201,7 +208,6 @@ fn name_missing_section(fault: KeyFault) -> KeyFault {
 
 fn missing_section(name: &str) -> KeyFault {
     let (section, purpose) = match name {
-        "mesh" => ("[mesh]".to_owned(), "at least `file`, the Gmsh file"),
         "material" => ("[material]".to_owned(), "`young` (in Pa) and `poisson`"),
         "model" => ("[model]".to_owned(), "`law` and `horizon_factor`"),
         _ => (

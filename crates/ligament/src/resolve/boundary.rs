@@ -1,19 +1,21 @@
-//! Supports and loads of a case on the points of its mesh.
-
-use std::collections::BTreeMap;
+//! Supports and loads of a case on the points of its body.
 
 use ligament_analysis::{
     Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind, Unknowns,
 };
-use ligament_mesh::Mesh;
 use ligament_model::{BondSystem, PointCloud};
 
 use super::places::Places;
+use crate::body::Body;
 use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
 
 /// Supports and loads on the points.
-pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boundary, CaseError> {
-    let places = Places { case, mesh, cloud };
+pub fn boundary(
+    case: &CaseFile,
+    body: &dyn Body,
+    cloud: &PointCloud,
+) -> Result<Boundary, CaseError> {
+    let places = Places { case, body, cloud };
     let mut boundary = Boundary::new(cloud.len(), places.control()?);
     for (index, support) in case.case.supports.iter().enumerate() {
         let key = format!("support.{index}");
@@ -126,9 +128,9 @@ impl Places<'_> {
                 boundary.prescribe(&[point], component, factor * value)
             });
             done.map_err(|BoundaryError::Conflict { point, component, first, second }| {
-                let tag = self.mesh.node_tags[point as usize];
+                let place = self.body.label(point);
                 let reason = format!(
-                    "component {component} of node {tag} is prescribed twice: as {first:?} by an earlier support or \
+                    "component {component} of {place} is prescribed twice: as {first:?} by an earlier support or \
                      load, as {second:?} here"
                 );
                 self.case.error(&format!("{key}.displacement"), reason)
@@ -190,7 +192,7 @@ impl Places<'_> {
         let Some(profile) = profile else {
             return Ok(vec![1.0; points.len()]);
         };
-        let factor = |&point: &u32| profile.at(self.mesh.positions[point as usize]);
+        let factor = |&point: &u32| profile.at(self.body.positions()[point as usize]);
         let factors: Vec<f64> = points.iter().map(factor).collect();
         if factors.iter().all(|&factor| factor == 0.0) {
             let reason =
@@ -202,12 +204,11 @@ impl Places<'_> {
 
     /// Forces and couples of a load on its points; none where it prescribes a displacement.
     ///
-    /// A total force is spread over a curve group by the length of its edges, over other places by the points' volumes; a
-    /// force per length goes by the length of the edges, half of each edge to either end; body forces and all couples go by
-    /// the volumes. Each point's share is then multiplied by the profile.
+    /// A total force is spread over a group that has a length by the length that each point stands for, over other places
+    /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each point's share is then multiplied by the profile.
     fn forces(&self, key: &str, load: &Load, points: &[u32]) -> Result<Given, CaseError> {
         let curve = match &load.place {
-            Some(Place::Group(group)) => tributary_lengths(self.mesh, group),
+            Some(Place::Group(group)) => self.body.lengths_of(group),
             _ => Vec::new(),
         };
         let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
@@ -218,8 +219,8 @@ impl Places<'_> {
             Action::BodyForce(force) => (volumes, [force.x, force.y, 0.0]),
             Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
             Action::ForcePerLength(_) if curve.is_empty() => {
-                let reason =
-                    "a force per length needs a physical curve, and this group has no edges";
+                let reason = "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: \
+                              this group has no length";
                 return Err(self.case.error(&format!("{key}.group"), reason));
             }
             Action::ForcePerLength(force) => (curve, [force.x, force.y, 0.0]),
@@ -245,16 +246,4 @@ impl Places<'_> {
             total: density.map(|value| value * total),
         })
     }
-}
-
-/// Length of curve that each point of a curve group stands for, m: half of its edges.
-fn tributary_lengths(mesh: &Mesh, group: &str) -> Vec<(u32, f64)> {
-    let mut lengths = BTreeMap::new();
-    for edge in mesh.groups_named(group).flat_map(|group| &group.edges) {
-        let [p, q] = edge.map(|node| mesh.positions[node as usize]);
-        for &node in edge {
-            *lengths.entry(node).or_insert(0.0) += 0.5 * (q[0] - p[0]).hypot(q[1] - p[1]);
-        }
-    }
-    lengths.into_iter().collect()
 }
