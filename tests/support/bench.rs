@@ -5,7 +5,7 @@ use std::path::Path;
 use ligament::case::CaseFile;
 use ligament::progress::{Progress, ProgressMode};
 use ligament::resolve;
-use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Model};
+use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Model, Report};
 use ligament::stages::Stages;
 use ligament::summary::Summary;
 use ligament_analysis::driver::{self, Outcome, Problem};
@@ -64,7 +64,10 @@ pub fn mesh_setting(mesh: &Mesh, folder: &Path) -> String {
 
 /// Runs the whole program on a case; its files are in `out`.
 pub fn run_program(case: &CaseFile, out: &Path) -> Summary {
-    run::run(case, out, false, ProgressMode::Quiet).unwrap()
+    match run::run(case, out, false, ProgressMode::Quiet).unwrap() {
+        Report::Loading(summary) => *summary,
+        Report::Modes(_) => panic!("this case has no loads"),
+    }
 }
 
 impl Bench {

@@ -88,6 +88,25 @@ impl Fragments {
         fragments.into_iter().flat_map(of_fragment).collect()
     }
 
+    /// The rigid motions of a fragment that cost no energy and that no fixed degree of freedom prevents: displacements and
+    /// rotations of its points in each of them, shape (motions, 3 points of the fragment).
+    pub fn free_motions(
+        &self,
+        fragment: usize,
+        system: &BondSystem,
+        is_fixed: impl Fn(usize) -> bool,
+    ) -> Vec<Vec<f64>> {
+        let points = &self.points[fragment];
+        let rotation_is_free = rotation_is_free(system, points);
+        let motions = RigidMotions::of(&system.cloud.positions, points, rotation_is_free);
+        let free = motions.left_by(&motions.spanned_by(points, is_fixed));
+        let shape = |&motion| {
+            let dofs = degrees_of_freedom(points);
+            dofs.map(|dof| motions.value(dof, motion)).collect()
+        };
+        free.iter().map(shape).collect()
+    }
+
     /// Makes a fragment of a part of one; both keep the order of their first points among the others.
     fn split_off(&mut self, mut part: Vec<u32>) {
         part.sort_unstable();

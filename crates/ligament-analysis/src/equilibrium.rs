@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, FactorKind, PatternError, Symbolic};
+use ligament_linalg::{FactorError, FactorKind, PatternError};
 use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
@@ -15,7 +15,7 @@ use crate::driver::Problem;
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::State;
-use crate::stiffness::{Costs, Ordering, SolverChoice, Stiffness};
+use crate::stiffness::{Costs, SolverChoice, Stiffness};
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
@@ -32,7 +32,7 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// What rounding makes of the internal forces of a body that moves freely, relative to the stiffness of a point times the
 /// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
-const ROUNDING: f64 = 1e-14;
+pub(crate) const ROUNDING: f64 = 1e-14;
 
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
@@ -168,7 +168,11 @@ impl<'a> Equilibrium<'a> {
         Ok(Self {
             system,
             boundary,
-            stiffness: Stiffness::new(system, boundary, problem.solver)?,
+            stiffness: Stiffness::new(
+                system,
+                Unknowns::of_problem(system, boundary),
+                problem.solver,
+            )?,
             energy_tolerance,
             point_stiffness: largest_point_stiffness(system),
             connectivity: Connectivity::new(system),
@@ -180,19 +184,14 @@ impl<'a> Equilibrium<'a> {
         self.stiffness.unknowns()
     }
 
+    /// The stiffness of the intact bonds.
+    pub fn stiffness(&self) -> &Stiffness<'a> {
+        &self.stiffness
+    }
+
     /// What was chosen to solve the equations.
     pub fn choice(&self) -> &SolverChoice {
         self.stiffness.choice()
-    }
-
-    /// The structure of the factor in another order of elimination.
-    pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
-        self.stiffness.analysed_with(ordering)
-    }
-
-    /// Structure of the factor.
-    pub fn symbolic(&self) -> &Symbolic {
-        self.stiffness.symbolic()
     }
 
     /// The connected parts of the body.
@@ -445,7 +444,7 @@ fn largest_displacement(state: &State) -> f64 {
 }
 
 /// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
-fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
+pub(crate) fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
     let mut largest = [0.0_f64; 2];
     for point in 0..system.cloud.len() as u32 {
         let mut sum = [0.0; 2];

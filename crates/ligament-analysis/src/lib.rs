@@ -2,7 +2,7 @@
 //!
 //! A [`Boundary`] on a bond system makes a problem; [`driver::elastic`] solves it once, [`driver::stepped`] follows the
 //! loading while bonds break, one ordered handful after another, and [`driver::event`] the exact equilibrium path from
-//! breakage to breakage. What happens on the way goes to an [`Observer`]; how it ended is a [`Termination`], never an error.
+//! breakage to breakage. [`modal`] finds the natural modes of a body that [`Supports`] hold. What happens on the way goes to an [`Observer`]; how it ended is a [`Termination`], never an error.
 //! No files and no printing here.
 
 pub mod assembly;
@@ -16,10 +16,12 @@ pub mod fields;
 pub mod gauges;
 pub mod history;
 pub mod internal;
+pub mod modal;
 pub mod probe;
 pub mod state;
 pub mod stiffness;
 pub mod stress;
+pub mod supports;
 pub mod unknowns;
 
 pub use boundary::{Boundary, BoundaryError, Control, ControlKind};
@@ -28,4 +30,5 @@ pub use history::{Observer, ObserverError, Termination};
 pub use probe::Probe;
 pub use state::State;
 pub use stiffness::SolverSettings;
+pub use supports::Supports;
 pub use unknowns::{COMPONENTS, Component, Unknowns};

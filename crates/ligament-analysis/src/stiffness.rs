@@ -11,7 +11,6 @@ use ligament_linalg::{
 use ligament_model::BondSystem;
 
 use crate::assembly;
-use crate::boundary::Boundary;
 use crate::dissection;
 use crate::equilibrium::SetupError;
 use crate::state::State;
@@ -105,7 +104,7 @@ pub struct Costs {
 }
 
 /// Numbering, pattern and factor of the stiffness of the intact bonds.
-pub(crate) struct Stiffness<'a> {
+pub struct Stiffness<'a> {
     system: &'a BondSystem,
     unknowns: Unknowns,
     pattern: Arc<Pattern>,
@@ -126,14 +125,13 @@ pub(crate) struct Stiffness<'a> {
 }
 
 impl<'a> Stiffness<'a> {
-    /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
+    /// Analyses the pattern for some unknowns; nothing is factorised yet.
     pub(crate) fn new(
         system: &'a BondSystem,
-        boundary: &Boundary,
+        unknowns: Unknowns,
         settings: SolverSettings,
     ) -> Result<Self, SetupError> {
         let start = Instant::now();
-        let unknowns = Unknowns::of_problem(system, boundary);
         let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
         let ordering = settings
             .ordering
@@ -174,20 +172,23 @@ impl<'a> Stiffness<'a> {
         })
     }
 
-    pub(crate) fn unknowns(&self) -> &Unknowns {
+    /// The unknowns.
+    pub fn unknowns(&self) -> &Unknowns {
         &self.unknowns
     }
 
-    pub(crate) fn symbolic(&self) -> &Symbolic {
+    /// Structure of the factor.
+    pub fn symbolic(&self) -> &Arc<Symbolic> {
         &self.symbolic
     }
 
-    pub(crate) fn choice(&self) -> &SolverChoice {
+    /// What was chosen to solve the equations.
+    pub fn choice(&self) -> &SolverChoice {
         &self.choice
     }
 
     /// The structure of the factor in another order of elimination.
-    pub(crate) fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
+    pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
         let elimination = ordering.elimination(self.system, &self.unknowns);
         Ok(Symbolic::analyse(self.pattern.clone(), elimination)?)
     }
@@ -364,7 +365,8 @@ impl<'a> Stiffness<'a> {
         Ok(vanishing)
     }
 
-    fn assemble(&self, state: &State) -> SymmetricMatrix {
+    /// The matrix of the state's bonds.
+    pub(crate) fn assemble(&self, state: &State) -> SymmetricMatrix {
         assembly::assemble(
             self.system,
             &self.unknowns,

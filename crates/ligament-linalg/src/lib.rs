@@ -1,10 +1,12 @@
-//! Sparse symmetric systems: pattern, values and factorisations. No points, no bonds, no time.
+//! Sparse symmetric systems: pattern, values, factorisations and eigenvalues. No points, no bonds, no time.
 //!
 //! The pattern of a matrix is made once ([`Pattern`]), analysed once for an order of elimination ([`Symbolic`]), and then
 //! factorised as often as its values change ([`FactorKind::factorise`]). Where a change is a sum of few terms of rank one
-//! ([`RankOne`]), the factor is changed in place ([`Factorisation::change`]), for a fraction of the cost. Everything runs on
-//! one thread in a fixed order, so that the same matrix gives the same bits.
+//! ([`RankOne`]), the factor is changed in place ([`Factorisation::change`]), for a fraction of the cost. With the products of
+//! a factor [`largest_eigenpairs`] finds the lowest modes. Everything runs on one thread in a fixed order, so that the same
+//! matrix gives the same bits.
 
+mod eigen;
 mod factorisation;
 mod ldlt;
 mod llt;
@@ -15,6 +17,7 @@ mod substitution;
 mod supernodes;
 mod symbolic;
 
+pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
 pub use factorisation::{FactorError, FactorKind, Factorisation, HalfSolved, Inertia};
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};
 pub use modification::{RankOne, VANISHING_PIVOT};

@@ -95,4 +95,12 @@ impl SymmetricMatrix {
     pub fn diagonal(&self, index: usize) -> f64 {
         self.values[self.pattern.column_starts[index + 1] - 1]
     }
+
+    /// Adds a diagonal matrix (n), `factor` times.
+    pub fn add_diagonal(&mut self, factor: f64, diagonal: &[f64]) {
+        let ends = &self.pattern.column_starts[1..];
+        for (&end, value) in ends.iter().zip(diagonal) {
+            self.values[end - 1] += factor * value;
+        }
+    }
 }

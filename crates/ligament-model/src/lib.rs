@@ -11,6 +11,7 @@
 //! | factors alpha and Omega | [`Correction`] | [`correction`] |
 //! | critical stretches | `Vec<f64>` | [`failure`] |
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
+//! | masses, for modes | [`LumpedMass`] | [`mass`] |
 //!
 //! All quantities are in SI units. No matrices, no files and no printing here.
 
@@ -22,6 +23,7 @@ pub mod element;
 pub mod failure;
 pub mod horizon;
 pub mod law;
+pub mod mass;
 pub mod material;
 pub mod moduli;
 pub mod shape;
@@ -34,6 +36,7 @@ pub use correction::Correction;
 pub use element::ElementKind;
 pub use horizon::Horizons;
 pub use law::BondStiffness;
+pub use mass::LumpedMass;
 pub use material::{Elasticity, Isotropic, Material, Orthotropic, Plane};
 pub use shape::Shape;
 pub use system::BondSystem;

@@ -1,9 +1,10 @@
 //! Case files: what to compute, in TOML.
 //!
-//! A case names a body, materials, the bond model, supports and loads, and optionally pre-cracks,
-//! probes and how bonds break. All values are in SI units. [`CaseFile::load`] reads and checks one;
-//! every fault is reported with its line, column and key path.
+//! A case names a body, materials, the bond model, supports and loads, and optionally pre-cracks, probes,
+//! how bonds break, or that natural modes are wanted. All values are in SI units. [`CaseFile::load`] reads
+//! and checks one; every fault is reported with its line, column and key path.
 
+mod analysis;
 mod body_section;
 mod conditions;
 mod correction;
@@ -30,6 +31,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+pub use analysis::{Analysis, MOST_MODES, Modal, Rotations};
 pub use body_section::BodySection;
 pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
@@ -56,6 +58,8 @@ use values::require_unique;
 pub struct Case {
     /// One line on what the case is.
     pub title: String,
+    /// What is computed.
+    pub analysis: Analysis,
     /// The body: a mesh or a lattice.
     #[serde(flatten)]
     pub body: BodySection,
@@ -72,8 +76,8 @@ pub struct Case {
     /// Supports.
     #[serde(rename = "support", skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
-    /// Loads, one or more.
-    #[serde(rename = "load")]
+    /// Loads: one or more, but none where modes are wanted.
+    #[serde(rename = "load", skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<Load>,
     /// Parts of the body where bonds never break.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -81,12 +85,15 @@ pub struct Case {
     /// Extra columns of the history.
     #[serde(rename = "probe", skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<Probe>,
-    /// How bonds break; without it there is one linear elastic solution at load factor 1.
+    /// How bonds break, in an analysis of fracture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fracture: Option<Fracture>,
+    /// Which modes are wanted, in a modal analysis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modal: Option<Modal>,
     /// How the equations are solved.
     pub solver: Solver,
-    /// What a run writes.
+    /// What a run writes; every mode in any case.
     pub output: Output,
 }
 
@@ -96,6 +103,7 @@ pub struct Case {
 struct RawCase {
     #[serde(default)]
     title: String,
+    analysis: Option<Analysis>,
     mesh: Option<mesh_section::RawMesh>,
     lattice: Option<lattice_section::RawLattice>,
     #[serde(rename = "material")]
@@ -114,10 +122,10 @@ struct RawCase {
     #[serde(default)]
     probe: Vec<probe::RawProbe>,
     fracture: Option<fracture::RawFracture>,
+    modal: Option<analysis::RawModal>,
     #[serde(default)]
     solver: solver::RawSolver,
-    #[serde(default)]
-    output: fracture::RawOutput,
+    output: Option<fracture::RawOutput>,
 }
 
 impl Case {
@@ -131,9 +139,21 @@ impl Case {
             Some(node) => material::read(node)?,
             None => return Err(missing_section("material")),
         };
-        if raw.load.is_empty() {
+        let given = analysis::Given {
+            fracture: raw.fracture.is_some(),
+            modal: raw.modal.is_some(),
+            loads: !raw.load.is_empty(),
+            probes: !raw.probe.is_empty(),
+            output: raw.output.is_some(),
+        };
+        let analysis = Analysis::of(raw.analysis, &given)?;
+        if raw.load.is_empty() && analysis != Analysis::Modal {
             return Err(missing_section("load"));
         }
+        let modal = match analysis {
+            Analysis::Modal => Some(raw.modal.unwrap_or_default().check(&section("modal"))?),
+            Analysis::Static | Analysis::Fracture => None,
+        };
         let mut number = 0;
         let loads = each("load", raw.load, |load, key| {
             number += 1;
@@ -146,6 +166,7 @@ impl Case {
         let model = raw.model.check(&section("model"))?;
         let case = Self {
             title: raw.title,
+            analysis,
             body,
             materials,
             correction: raw.correction.check(&section("correction"), &model)?,
@@ -156,8 +177,9 @@ impl Case {
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
             solver: raw.solver.check(&section("solver"))?,
-            output: raw.output.complete(fracture.as_ref()),
+            output: raw.output.unwrap_or_default().complete(fracture.as_ref()),
             fracture,
+            modal,
         };
         case.check_across_sections()?;
         Ok(case)
@@ -167,6 +189,9 @@ impl Case {
         material::require_suitable(&self.materials, self.model.law, self.body.plane())?;
         if self.fracture.is_some() {
             material::require_strengths(&self.materials)?;
+        }
+        if self.modal.is_some() {
+            material::require_densities(&self.materials)?;
         }
         let path = |list: &str, index: usize| KeyPath::default().child(list).child(index);
         let loads = self.loads.iter().enumerate();
@@ -212,7 +237,7 @@ fn missing_section(name: &str) -> KeyFault {
         "model" => ("[model]".to_owned(), "`law` and `horizon_factor`"),
         _ => (
             format!("[[{name}]]"),
-            "one or more, or nothing would happen",
+            "one or more, or nothing would happen (natural modes need none: analysis = \"modal\")",
         ),
     };
     KeyFault::new(

@@ -1,6 +1,7 @@
 //! `ligament check`: everything up to the first solve, or the model alone, and what it takes.
 
 mod equations;
+mod modal;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -50,43 +51,9 @@ fn check_here(
 ) -> anyhow::Result<()> {
     let mut stages = Stages::default();
     let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
-    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
-    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
-    let probes = resolve::probes(case, &model.system);
-    let problem = Problem {
-        system: &model.system,
-        boundary: &boundary,
-        solver: resolve::solver(case),
-        probes: &probes,
-    };
-    let equilibrium = match extent {
-        Extent::Model => None,
-        Extent::Matrix => Some(stages.time("analysis", || {
-            Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
-        })?),
-    };
-
-    writeln!(
-        out,
-        "{}",
-        if case.case.title.is_empty() {
-            "untitled case"
-        } else {
-            &case.case.title
-        }
-    )?;
-    let volume = model.system.cloud.volumes.iter().sum();
-    model.body.write(out, volume)?;
-    write_materials(out, case, &model)?;
-    write_bonds(out, case, &model)?;
-    write_energy_ratios(out, &model)?;
-    write_boundary(out, &*model.body, &boundary, &probes)?;
-    for free in gauges::of_intact_body(&model.system, &boundary) {
-        writeln!(out, "  not held: {}", words(&free, &*model.body))?;
-    }
-    write_loading(out, case)?;
-    if let Some(equilibrium) = &equilibrium {
-        equations::write(out, case, &model, equilibrium)?;
+    match &case.case.modal {
+        Some(modal) => modal::check(case, modal, extent, &model, &mut stages, out)?,
+        None => check_loading(case, extent, &model, &mut stages, out)?,
     }
     write_stages(out, stages.done())?;
     let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
@@ -115,6 +82,60 @@ fn check_here(
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())
+}
+
+/// Checks supports, loads and equations of a case with loads.
+fn check_loading(
+    case: &CaseFile,
+    extent: Extent,
+    model: &Model,
+    stages: &mut Stages,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
+    let probes = resolve::probes(case, &model.system);
+    let problem = Problem {
+        system: &model.system,
+        boundary: &boundary,
+        solver: resolve::solver(case),
+        probes: &probes,
+    };
+    let equilibrium = match extent {
+        Extent::Model => None,
+        Extent::Matrix => Some(stages.time("analysis", || {
+            Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
+        })?),
+    };
+
+    write_model(out, case, model)?;
+    write_boundary(out, &*model.body, &boundary, &probes)?;
+    for free in gauges::of_intact_body(&model.system, &boundary) {
+        writeln!(out, "  not held: {}", words(&free, &*model.body))?;
+    }
+    write_loading(out, case)?;
+    if let Some(equilibrium) = &equilibrium {
+        equations::write(out, case, model, equilibrium.stiffness())?;
+    }
+    Ok(())
+}
+
+/// Writes what is known before supports and loads.
+fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
+    writeln!(
+        out,
+        "{}",
+        if case.case.title.is_empty() {
+            "untitled case"
+        } else {
+            &case.case.title
+        }
+    )?;
+    let volume = model.system.cloud.volumes.iter().sum();
+    model.body.write(out, volume)?;
+    write_materials(out, case, model)?;
+    write_bonds(out, case, model)?;
+    Ok(write_energy_ratios(out, model)?)
 }
 
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
@@ -228,11 +249,7 @@ fn write_boundary(
 ) -> io::Result<()> {
     writeln!(out, "supports and loads")?;
     for group in &boundary.groups {
-        let where_at = match group.points.as_slice() {
-            [only] => body.place(*only),
-            points => format!("{} points", points.len()),
-        };
-        writeln!(out, "  {:<21} {where_at}", group.name)?;
+        write_group(out, body, &group.name, &group.points)?;
     }
     let control = &boundary.control;
     let (count, size) = (control.points.len(), control.magnitude);
@@ -251,6 +268,14 @@ fn write_boundary(
         writeln!(out, "  probe {:<15} {reads}", probe.name)?;
     }
     Ok(())
+}
+
+fn write_group(out: &mut dyn Write, body: &dyn Body, name: &str, points: &[u32]) -> io::Result<()> {
+    let where_at = match points {
+        [only] => body.place(*only),
+        points => format!("{} points", points.len()),
+    };
+    writeln!(out, "  {name:<21} {where_at}")
 }
 
 fn write_loading(out: &mut dyn Write, case: &CaseFile) -> io::Result<()> {

@@ -12,6 +12,8 @@ pub mod formulation;
 pub mod gauges;
 pub mod inspect;
 pub mod mesh_command;
+pub mod modal_summary;
+mod modes;
 pub mod progress;
 pub mod resolve;
 pub mod run;

@@ -1,5 +1,6 @@
-//! The method, on one page: from a mesh or a lattice to a broken specimen.
+//! The method, on one page: from a mesh or a lattice to a broken specimen, or to its modes.
 
+use std::io::{self, Write};
 use std::path::Path;
 
 use anyhow::Context;
@@ -16,6 +17,8 @@ use ligament_output::results::{FixedFields, ResultWriter, Time, WriteRule};
 use crate::body::{self, Body};
 use crate::case::{CaseError, CaseFile, Control, CorrectionDomain, Fracture, StressField};
 use crate::formulation;
+use crate::modal_summary::ModalSummary;
+use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::stages::Stages;
@@ -199,13 +202,27 @@ fn correct(
     }
 }
 
+/// What a run found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Report {
+    /// The answer to loads.
+    Loading(Box<Summary>),
+    /// Natural modes.
+    Modes(Box<ModalSummary>),
+}
+
+impl Report {
+    /// The lines that a user sees at the end of a run.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Loading(summary) => summary.write(out),
+            Self::Modes(summary) => summary.write(out),
+        }
+    }
+}
+
 /// Runs a case and writes its results into a new folder.
-pub fn run(
-    case: &CaseFile,
-    out: &Path,
-    force: bool,
-    mode: ProgressMode,
-) -> anyhow::Result<Summary> {
+pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
     resolve::on_threads(case, || run_here(case, out, force, mode))?
 }
 
@@ -215,11 +232,32 @@ fn run_here(
     out: &Path,
     force: bool,
     mode: ProgressMode,
-) -> anyhow::Result<Summary> {
+) -> anyhow::Result<Report> {
     ResultFolder::check(out, force)?;
     let mut stages = Stages::default();
-    let mut progress = Progress::new(mode);
+    let progress = Progress::new(mode);
     let model = build_model(case, &mut stages, &progress)?;
+    match &case.case.modal {
+        Some(modal) => {
+            let summary = find_modes(case, modal, &model, out, force, stages, progress)?;
+            Ok(Report::Modes(Box::new(summary)))
+        }
+        None => {
+            let summary = follow_loads(case, &model, out, force, stages, progress)?;
+            Ok(Report::Loading(Box::new(summary)))
+        }
+    }
+}
+
+/// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
+fn follow_loads(
+    case: &CaseFile,
+    model: &Model,
+    out: &Path,
+    force: bool,
+    mut stages: Stages,
+    mut progress: Progress,
+) -> anyhow::Result<Summary> {
     let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
     resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
@@ -258,7 +296,7 @@ fn run_here(
     })?;
 
     let notices = watch.into_notices();
-    let summary = Summary::new(case, &model, &outcome, notices, stages.done());
+    let summary = Summary::new(case, model, &outcome, notices, stages.done());
     let text =
         serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
     folder.write_text("summary.json", &(text + "\n"))?;

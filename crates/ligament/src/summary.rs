@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
-use ligament_analysis::stiffness::{FactorKind, Ordering, Update};
+use ligament_analysis::equilibrium::Stability;
+use ligament_analysis::stiffness::{Costs, FactorKind, Ordering, SolverChoice, Update};
 use ligament_model::ElementKind;
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
@@ -155,6 +156,12 @@ pub struct StabilitySummary {
     pub expected: usize,
 }
 
+impl From<Stability> for StabilitySummary {
+    fn from(Stability { negative, expected }: Stability) -> Self {
+        Self { negative, expected }
+    }
+}
+
 /// The solver and its work.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SolverSummary {
@@ -212,11 +219,7 @@ impl Summary {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
-            formulation: format!(
-                "{}; {}",
-                formulation_line(case),
-                correction_line(case, model.correction.as_ref())
-            ),
+            formulation: formulation_words(case, model),
             points: model.system.cloud.len(),
             bonds: model.system.bonds.len(),
             cut_bonds: model.cut_bonds,
@@ -238,11 +241,8 @@ impl Summary {
                 message: outcome.termination.to_string(),
             },
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
-            stability: outcome.stability.map(|s| StabilitySummary {
-                negative: s.negative,
-                expected: s.expected,
-            }),
-            solver: SolverSummary::new(outcome),
+            stability: outcome.stability.map(StabilitySummary::from),
+            solver: SolverSummary::new(&outcome.costs, &outcome.solver),
             stages: stages.to_vec(),
             warnings,
         }
@@ -315,6 +315,12 @@ impl Spread {
     }
 }
 
+/// Law and corrections of the bonds, in words.
+pub fn formulation_words(case: &CaseFile, model: &Model) -> String {
+    let correction = correction_line(case, model.correction.as_ref());
+    format!("{}; {correction}", formulation_line(case))
+}
+
 /// Numbers of bonds of the points.
 pub fn family(model: &Model) -> Spread {
     let incidence = &model.system.bonds.incidence;
@@ -345,8 +351,8 @@ impl CorrectionSummary {
 }
 
 impl SolverSummary {
-    fn new(outcome: &Outcome) -> Self {
-        let (costs, choice) = (&outcome.costs, &outcome.solver);
+    /// What was chosen, and what it cost.
+    pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
         Self {
             factorisation: match choice.factorisation {
                 FactorKind::Llt => "llt",

@@ -56,6 +56,30 @@ impl<'a> RigidMotions<'a> {
         }
     }
 
+    /// What a motion does to a degree of freedom, m or rad.
+    pub(crate) fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
+        let value = dot(self.row(degree_of_freedom), motion);
+        match Component::of(degree_of_freedom) {
+            Component::Rotation => value / self.radius,
+            Component::X | Component::Y => value,
+        }
+    }
+
+    /// Orthonormal directions of the motions that the spanned ones leave, translations first.
+    pub(crate) fn left_by(&self, spanned: &[Motion]) -> Vec<Motion> {
+        let mut all = spanned.to_vec();
+        for motion in 0..self.count() {
+            let mut unit = [0.0; COMPONENTS];
+            unit[motion] = 1.0;
+            let rest = without(unit, &all);
+            let norm = dot(rest, rest).sqrt();
+            if norm > RANK_TOLERANCE {
+                all.push(rest.map(|value| value / norm));
+            }
+        }
+        all.split_off(spanned.len())
+    }
+
     /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
     pub(crate) fn work(
         &self,

@@ -8,7 +8,10 @@
 //! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
+//!
+//! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+mod modes;
 mod point_fields;
 mod tables;
 
@@ -22,6 +25,7 @@ use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+pub use modes::write_modes;
 pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid};
 use tables::Tables;
 

@@ -48,7 +48,7 @@ pub struct FixedFields {
 }
 
 impl FixedFields {
-    fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
+    pub(super) fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
         let [uniaxial_x, uniaxial_y, biaxial, shear] = &self.energy_ratios;
         vec![
             Field::scalar("volume", volumes),
@@ -150,7 +150,7 @@ pub(super) fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
 }
 
 /// The x and y components with a third of zero, as readers expect vectors, shape (n_points).
-fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
+pub(super) fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
     values
         .chunks(COMPONENTS)
         .map(|components| [components[0], components[1], 0.0])
@@ -159,7 +159,7 @@ fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
 
 impl BodyGrid {
     /// Writes fields of the points, the displacement first so that readers warp by it.
-    fn write(
+    pub(super) fn write(
         &self,
         path: &Path,
         displacement: Option<&[[f64; 3]]>,

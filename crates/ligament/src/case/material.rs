@@ -26,7 +26,7 @@ pub struct Material {
     /// Tensile strength, Pa; always there if the case has a `[fracture]` section.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tensile_strength: Option<f64>,
-    /// Mass density, kg/m^3.
+    /// Mass density, kg/m^3; always there in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
 }
@@ -307,6 +307,20 @@ pub(super) fn require_strengths(materials: &[Material]) -> Result<(), KeyFault> 
         }
     }
     Ok(())
+}
+
+/// The fault of a material without density in a modal analysis.
+pub(super) fn require_densities(materials: &[Material]) -> Result<(), KeyFault> {
+    match materials.iter().find(|material| material.density.is_none()) {
+        None => Ok(()),
+        Some(material) => {
+            let fault = Fault::Required {
+                key: "density",
+                reason: "(in kg/m^3) because a modal analysis needs masses",
+            };
+            Err(KeyFault::new(material.key_path().child("density"), fault))
+        }
+    }
 }
 
 /// The fault of a material with axes under a law for isotropic ones, or without the constants that plane strain needs.

@@ -8,6 +8,10 @@ use super::Case;
 /// The case as TOML: a header for each section, what is nested in it on one line.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     let mut document: DocumentMut = toml_edit::ser::to_document(case)?;
+    // Without meaning in a modal case, and refused there.
+    if case.modal.is_some() {
+        document.remove("output");
+    }
     Exponents.visit_document_mut(&mut document);
     for (key, item) in document.iter_mut() {
         *item = with_header(std::mem::take(item), key.get() == "material");

@@ -3,10 +3,10 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
+use ligament_analysis::SetupError;
 use ligament_analysis::stiffness::{
-    FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Update,
+    FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Stiffness, Update,
 };
-use ligament_analysis::{Equilibrium, SetupError};
 
 use crate::case::{self, CaseFile, Factorisation};
 use crate::run::Model;
@@ -32,9 +32,9 @@ pub(super) fn write(
     out: &mut dyn Write,
     case: &CaseFile,
     model: &Model,
-    equilibrium: &Equilibrium<'_>,
+    stiffness: &Stiffness<'_>,
 ) -> anyhow::Result<()> {
-    let symbolic = equilibrium.symbolic();
+    let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
     // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.
@@ -43,22 +43,22 @@ pub(super) fn write(
     writeln!(
         out,
         "  unknowns              {}",
-        equilibrium.unknowns().len()
+        stiffness.unknowns().len()
     )?;
     writeln!(
         out,
         "  entries               {matrix} in the matrix, {factor} in the factor"
     )?;
     writeln!(out, "  estimated memory      {:.1} MB", bytes as f64 / 1e6)?;
-    write_choice(out, case, equilibrium.choice())?;
-    let chosen = equilibrium.choice().ordering;
+    write_choice(out, case, stiffness.choice())?;
+    let chosen = stiffness.choice().ordering;
     writeln!(
         out,
         "  ordering              {}",
         ordering_reason(case, model)
     )?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
-        write_ordering(out, &analyse(equilibrium, ordering)?, ordering == chosen)?;
+        write_ordering(out, &analyse(stiffness, ordering)?, ordering == chosen)?;
     }
     Ok(())
 }
@@ -98,9 +98,9 @@ fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> 
     )
 }
 
-fn analyse(equilibrium: &Equilibrium<'_>, ordering: Ordering) -> Result<Analysis, SetupError> {
+fn analyse(stiffness: &Stiffness<'_>, ordering: Ordering) -> Result<Analysis, SetupError> {
     let start = Instant::now();
-    let symbolic = equilibrium.analysed_with(ordering)?;
+    let symbolic = stiffness.analysed_with(ordering)?;
     Ok(Analysis {
         ordering,
         values: symbolic.n_factor_values(),

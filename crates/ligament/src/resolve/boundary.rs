@@ -88,7 +88,7 @@ pub fn couples_have_stiffness(
 }
 
 /// Name of a support in the history.
-fn place_name(place: &Place, index: usize) -> String {
+pub(super) fn place_name(place: &Place, index: usize) -> String {
     match place {
         Place::Group(group) => group.clone(),
         Place::Box(_) | Place::At(_) => format!("support-{}", index + 1),

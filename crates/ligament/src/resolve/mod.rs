@@ -3,6 +3,7 @@
 //! Names are looked up in the body here; what is not there is reported at its place in the case file.
 
 mod boundary;
+mod modal;
 mod places;
 
 use ligament_analysis::Component;
@@ -20,6 +21,7 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
 
 pub use boundary::{boundary, couples_have_stiffness};
+pub use modal::{mass, modal, supports};
 pub use places::{material_of_cell, no_fail};
 
 /// State of the plane.

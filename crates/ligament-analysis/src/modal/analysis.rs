@@ -1,0 +1,394 @@
+//! The search for the lowest modes.
+
+use std::time::Instant;
+
+use ligament_linalg::{
+    Eigenpairs, FactorKind, Factorisation, Search, SymmetricMatrix, largest_eigenpairs,
+};
+
+use super::shape::{self, Masses};
+use super::{
+    ModalError, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind, Moving,
+    RESIDUAL_TOLERANCE, Rotations, rigid,
+};
+use crate::equilibrium::Stability;
+use crate::state::State;
+use crate::stiffness::Stiffness;
+use crate::unknowns::Unknowns;
+
+/// The shift over the largest K_ii/M_ii, which is near the largest omega^2.
+///
+/// The shift sigma makes K + sigma M regular whatever moves rigidly. It only shapes the search: omega^2 is taken from the
+/// bonds. Far below the lowest elastic omega^2 (at least (size of the points/size of the body)^2 of the largest, less for
+/// slender bodies), it leaves the spectrum of the inverse as it is; far above rounding (1e-15), the factor exists, and what
+/// the solutions have too much lies along the rigid motions, from where it is removed.
+const SHIFT: f64 = 1e-11;
+
+/// omega^2 over the largest K_ii/M_ii up to which a mode is rigid: above the square of the error of a shape (1e-8), below the
+/// first bending mode of a beam a thousand points long.
+const RIGID: f64 = 1e-14;
+
+/// Eigenvalues closer than this (relative) are not told apart by a count.
+const CLUSTER: f64 = 1e-5;
+
+/// Searches for modes that a count says are missing.
+const ATTEMPTS: u64 = 4;
+
+/// Solutions for each mode, and on top, after which a search is given up. Some tens a mode are usual.
+const SOLUTIONS: [usize; 2] = [200, 1000];
+
+/// The equations of a body whose modes are wanted.
+pub struct ModalAnalysis<'a> {
+    problem: ModalProblem<'a>,
+    settings: ModalSettings,
+    rotations: Rotations,
+    stiffness: Stiffness<'a>,
+    masses: Masses,
+    /// Mass of each unknown, shape (n_unknowns).
+    of_unknown: Vec<f64>,
+    /// Unknowns that have a mass, and its root.
+    massive: Vec<(usize, f64)>,
+}
+
+impl<'a> ModalAnalysis<'a> {
+    /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
+    pub fn of(problem: ModalProblem<'a>, settings: ModalSettings) -> Result<Self, ModalError> {
+        let ModalProblem {
+            system, supports, ..
+        } = problem;
+        let unknowns = Unknowns::all_but(system, |dof| supports.held[dof]);
+        let has_rotations = !unknowns.rotations_only().is_empty();
+        let suitable = if has_rotations && system.shear_rigidity.iter().any(|&k| k < 0.0) {
+            Rotations::Massless
+        } else {
+            Rotations::Inertia
+        };
+        let rotations = settings.rotations.unwrap_or(suitable);
+        let masses = Masses::new(problem.mass, &unknowns, rotations);
+        let dofs = unknowns.degrees_of_freedom().iter();
+        let of_unknown: Vec<f64> = dofs.map(|&dof| masses.of_dof()[dof as usize]).collect();
+        let massive: Vec<(usize, f64)> = (of_unknown.iter().enumerate())
+            .filter(|(_, mass)| **mass > 0.0)
+            .map(|(unknown, mass)| (unknown, mass.sqrt()))
+            .collect();
+        if massive.is_empty() {
+            return Err(ModalError::NothingMoves);
+        }
+        Ok(Self {
+            problem,
+            settings,
+            rotations,
+            stiffness: Stiffness::new(system, unknowns, problem.solver)?,
+            masses,
+            of_unknown,
+            massive,
+        })
+    }
+
+    /// The stiffness of the bonds.
+    pub fn stiffness(&self) -> &Stiffness<'a> {
+        &self.stiffness
+    }
+
+    /// What becomes of the rotations.
+    pub fn rotations(&self) -> Rotations {
+        self.rotations
+    }
+
+    /// Finds the modes.
+    ///
+    /// Rigid motions are known. The others are those of the largest eigenvalues 1/(omega^2 + sigma) of
+    /// M^(1/2) (K + sigma M)^-1 M^(1/2) at right angles to them; rotations without inertia follow from the same solution. In
+    /// the end the eigenvalues below the highest mode are counted by the signs of the pivots of K - tau M (Sylvester's law of
+    /// inertia), and if there are more than were found, those are sought.
+    pub fn find(mut self) -> Result<ModalOutcome, ModalError> {
+        let state = State::fresh(self.problem.system);
+        let start = Instant::now();
+        let mut matrix = self.stiffness.assemble(&state);
+        self.stiffness.costs.assembly += start.elapsed();
+        let largest = self.largest_ratio(&matrix);
+        let (shift, rigid_below) = (SHIFT * largest, RIGID * largest);
+        let wanted = self.settings.modes.min(self.massive.len());
+        let mut notices = self.notices_before(wanted);
+
+        let motions = {
+            let ModalProblem {
+                system, supports, ..
+            } = self.problem;
+            rigid::motions(system, supports, &self.masses, wanted)
+        };
+        let mut shapes: Vec<Vec<f64>> = motions.shapes;
+        shapes.retain(|shape| shape::eigenvalue(self.problem.system, shape) <= rigid_below);
+        let (mut stability, mut complete) = (None, None);
+        if shapes.len() < wanted {
+            matrix.add_diagonal(shift, &self.of_unknown);
+            let mut factor = self.factor(&matrix, self.stiffness.choice().factorisation)?;
+            let negative = factor.inertia().negative;
+            stability = self.stability(&state, negative)?;
+            let (mut at, mut missing) = (shift, wanted - shapes.len());
+            for seed in 1..=ATTEMPTS {
+                let pairs = self.search(factor.as_mut(), &shapes, missing, seed);
+                if !pairs.converged {
+                    let products = pairs.products;
+                    notices.push(ModalNotice::NotConverged { products });
+                }
+                for vector in &pairs.vectors {
+                    let shape = self.shape(factor.as_mut(), vector, &shapes);
+                    shapes.push(shape);
+                }
+                drop(factor);
+                let mut values: Vec<f64> = self.eigenvalues(&shapes);
+                values.sort_by(f64::total_cmp);
+                values.truncate(wanted);
+                let Some(bound) = below_last_cluster(&values, rigid_below) else {
+                    break;
+                };
+                matrix.add_diagonal(-bound - at, &self.of_unknown);
+                at = -bound;
+                let Ok(counting) = self.factor(&matrix, FactorKind::Ldlt) else {
+                    break;
+                };
+                let below = counting.inertia().negative.saturating_sub(negative);
+                let found = values.iter().filter(|value| **value < bound).count();
+                drop(counting);
+                missing = below.saturating_sub(found);
+                complete = Some(missing == 0);
+                if missing == 0 || seed == ATTEMPTS {
+                    break;
+                }
+                matrix.add_diagonal(shift - at, &self.of_unknown);
+                at = shift;
+                factor = self.factor(&matrix, self.stiffness.choice().factorisation)?;
+            }
+            if complete == Some(false) {
+                notices.push(ModalNotice::Missing { missing });
+            }
+        }
+        let ModalProblem {
+            system: &ligament_model::BondSystem { ref cloud, .. },
+            mass,
+            ..
+        } = self.problem;
+        let moving = Moving::new(cloud, mass, &self.masses);
+        let modes = self.modes(shapes, wanted, &moving, rigid_below);
+        notices.extend(notices_after(&modes, motions.count, stability));
+        Ok(ModalOutcome {
+            modes,
+            rotations: self.rotations,
+            rigid_motions: motions.count,
+            moving,
+            complete,
+            stability,
+            notices,
+            costs: self.stiffness.costs,
+            solver: *self.stiffness.choice(),
+        })
+    }
+
+    /// Largest K_ii/M_ii.
+    fn largest_ratio(&self, matrix: &SymmetricMatrix) -> f64 {
+        let ratio =
+            |&(unknown, root): &(usize, f64)| matrix.diagonal(unknown).abs() / (root * root);
+        self.massive.iter().map(ratio).fold(0.0, f64::max)
+    }
+
+    fn factor(
+        &mut self,
+        matrix: &SymmetricMatrix,
+        kind: FactorKind,
+    ) -> Result<Box<dyn Factorisation>, ModalError> {
+        let start = Instant::now();
+        let factor = kind.factorise(self.stiffness.symbolic(), matrix);
+        self.stiffness.costs.factorisation += start.elapsed();
+        self.stiffness.costs.factorisations += 1;
+        Ok(factor?)
+    }
+
+    /// The lowest modes at right angles to known shapes.
+    fn search(
+        &mut self,
+        factor: &mut dyn Factorisation,
+        known: &[Vec<f64>],
+        count: usize,
+        seed: u64,
+    ) -> Eigenpairs {
+        let start = Instant::now();
+        let known: Vec<Vec<f64>> = known.iter().map(|shape| self.weighted(shape)).collect();
+        let n = self.massive.len();
+        let search = Search {
+            count: count.min(n - known.len().min(n)),
+            tolerance: self.settings.tolerance,
+            limit: SOLUTIONS[0] * count + SOLUTIONS[1],
+            seed,
+        };
+        let mut solution = vec![0.0; self.of_unknown.len()];
+        let pairs = largest_eigenpairs(n, search, |input, output| {
+            output.copy_from_slice(input);
+            remove(&known, output);
+            solution.fill(0.0);
+            for (&(unknown, root), value) in self.massive.iter().zip(&*output) {
+                solution[unknown] = root * value;
+            }
+            factor.solve_in_place(&mut solution);
+            for (&(unknown, root), value) in self.massive.iter().zip(&mut *output) {
+                *value = root * solution[unknown];
+            }
+            remove(&known, output);
+        });
+        self.stiffness.costs.solves += pairs.products;
+        self.stiffness.costs.solve += start.elapsed();
+        pairs
+    }
+
+    /// M^(1/2) phi at the unknowns with mass.
+    fn weighted(&self, shape: &[f64]) -> Vec<f64> {
+        let dofs = self.stiffness.unknowns().degrees_of_freedom();
+        let value = |&(unknown, root): &(usize, f64)| root * shape[dofs[unknown] as usize];
+        self.massive.iter().map(value).collect()
+    }
+
+    /// The shape of an eigenvector: (K + sigma M)^-1 M^(1/2) y, with all rotations, normalised.
+    fn shape(
+        &mut self,
+        factor: &mut dyn Factorisation,
+        vector: &[f64],
+        others: &[Vec<f64>],
+    ) -> Vec<f64> {
+        let start = Instant::now();
+        let mut solution = vec![0.0; self.of_unknown.len()];
+        for (&(unknown, root), value) in self.massive.iter().zip(vector) {
+            solution[unknown] = root * value;
+        }
+        factor.solve_in_place(&mut solution);
+        let mut shape = vec![0.0; self.masses.of_dof().len()];
+        let dofs = self.stiffness.unknowns().degrees_of_freedom();
+        for (&dof, value) in dofs.iter().zip(&solution) {
+            shape[dof as usize] = *value;
+        }
+        self.masses.remove(others, &mut shape);
+        self.masses.normalise(&mut shape);
+        self.stiffness.costs.solves += 1;
+        self.stiffness.costs.solve += start.elapsed();
+        shape
+    }
+
+    fn eigenvalues(&mut self, shapes: &[Vec<f64>]) -> Vec<f64> {
+        let start = Instant::now();
+        let system = self.problem.system;
+        let values = shapes.iter();
+        let values = values
+            .map(|shape| shape::eigenvalue(system, shape))
+            .collect();
+        self.stiffness.costs.bonds += start.elapsed();
+        values
+    }
+
+    /// The lowest modes, sorted.
+    fn modes(
+        &mut self,
+        shapes: Vec<Vec<f64>>,
+        wanted: usize,
+        moving: &Moving,
+        rigid_below: f64,
+    ) -> Vec<Mode> {
+        let values = self.eigenvalues(&shapes);
+        let start = Instant::now();
+        let mut numbered: Vec<(f64, Vec<f64>)> = values.into_iter().zip(shapes).collect();
+        // Rigid motions keep their order, whatever rounding makes of their zeros.
+        let rank = |value: f64| {
+            if value.abs() <= rigid_below {
+                0.0
+            } else {
+                value
+            }
+        };
+        numbered.sort_by(|one, other| rank(one.0).total_cmp(&rank(other.0)));
+        numbered.truncate(wanted);
+        let (system, unknowns) = (self.problem.system, self.stiffness.unknowns());
+        let modes = numbered.into_iter().map(|(_, mut shape)| {
+            self.masses.normalise(&mut shape);
+            shape::mode(system, unknowns, &self.masses, moving, shape, rigid_below)
+        });
+        let modes = modes.collect();
+        self.stiffness.costs.bonds += start.elapsed();
+        modes
+    }
+
+    fn stability(&self, state: &State, negative: usize) -> Result<Option<Stability>, ModalError> {
+        if !self.problem.system.has_negative_stiffness() {
+            return Ok(None);
+        }
+        let expected = self.stiffness.negative_rotations(state)?;
+        Ok(Some(Stability { negative, expected }))
+    }
+
+    fn notices_before(&self, wanted: usize) -> Vec<ModalNotice> {
+        let mut notices = Vec::new();
+        if self.settings.rotations.is_none() && self.rotations == Rotations::Massless {
+            notices.push(ModalNotice::MasslessRotations);
+        }
+        if wanted < self.settings.modes {
+            notices.push(ModalNotice::FewerModes {
+                found: wanted,
+                wanted: self.settings.modes,
+            });
+        }
+        notices
+    }
+}
+
+/// What the modes themselves tell.
+fn notices_after(
+    modes: &[Mode],
+    rigid_motions: usize,
+    stability: Option<Stability>,
+) -> Vec<ModalNotice> {
+    let mut notices = Vec::new();
+    if let Some(Stability { negative, expected }) = stability
+        && negative != expected
+    {
+        notices.push(ModalNotice::Unstable { negative, expected });
+    }
+    let rigid = modes.iter().filter(|mode| mode.kind == ModeKind::Rigid);
+    let found = rigid.count();
+    if found == modes.len() {
+        notices.push(ModalNotice::OnlyRigid {
+            modes: found,
+            expected: rigid_motions,
+        });
+    } else if found != rigid_motions {
+        notices.push(ModalNotice::RigidCount {
+            found,
+            expected: rigid_motions,
+        });
+    }
+    let inexact = modes.iter().enumerate();
+    let inexact = inexact.filter(|(_, mode)| !(mode.residual <= RESIDUAL_TOLERANCE));
+    notices.extend(inexact.map(|(index, mode)| ModalNotice::Residual {
+        mode: index + 1,
+        residual: mode.residual,
+    }));
+    notices
+}
+
+/// A bound just below the highest of sorted eigenvalues and those that are as good as equal to it; none where that is rigid.
+fn below_last_cluster(values: &[f64], rigid_below: f64) -> Option<f64> {
+    let mut lowest = *values.last().filter(|value| **value > rigid_below)?;
+    for &value in values.iter().rev() {
+        if value < (1.0 - CLUSTER) * lowest {
+            break;
+        }
+        lowest = value;
+    }
+    Some((1.0 - 0.5 * CLUSTER) * lowest)
+}
+
+/// Takes from a vector what lies along orthonormal others.
+fn remove(others: &[Vec<f64>], vector: &mut [f64]) {
+    for other in others {
+        let along: f64 = other.iter().zip(&*vector).map(|(a, b)| a * b).sum();
+        for (value, other) in vector.iter_mut().zip(other) {
+            *value -= along * other;
+        }
+    }
+}

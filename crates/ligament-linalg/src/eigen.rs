@@ -1,0 +1,360 @@
+//! Largest eigenvalues of a symmetric operator that is known only by its products.
+//!
+//! Block Lanczos with full orthogonalisation and thick restarts (Wu and Simon, SIAM J. Matrix Anal. Appl. 22, 2000, for
+//! blocks of one): the operator is projected on a growing orthonormal basis, and where that is full it is cut down to the
+//! best approximations found so far. A block of two sees an eigenvalue that occurs twice, as the modes of a square plate
+//! do, which a single vector finds only by rounding.
+
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+
+/// Vectors that go through the operator together.
+const BLOCK: usize = 2;
+
+/// Vectors of the basis beyond three times the number of pairs.
+const ROOM: usize = 20;
+
+/// A vector whose part outside of the basis is smaller than this lies in it, but for rounding.
+const DEPENDENT: f64 = 1e-13;
+
+/// A residual smaller than this times the largest eigenvalue is rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// Eigenpairs of an operator of dimension n.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Eigenpairs {
+    /// Eigenvalues, largest first.
+    pub values: Vec<f64>,
+    /// Orthonormal eigenvectors, each of shape (n).
+    pub vectors: Vec<Vec<f64>>,
+    /// Whether all residuals |A v - value v| are below the tolerance times the eigenvalue. An eigenvalue that occurs more
+    /// than twice may still stand for fewer than it should: it takes a count (Sylvester's law of inertia) to know.
+    pub converged: bool,
+    /// Products with the operator.
+    pub products: usize,
+}
+
+/// How to find them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// Number of pairs.
+    pub count: usize,
+    /// Residual over eigenvalue below which a pair is found.
+    pub tolerance: f64,
+    /// Products with the operator after which to give up.
+    pub limit: usize,
+    /// Seed of the vectors to start from.
+    pub seed: u64,
+}
+
+/// Finds the `count` algebraically largest eigenvalues, or all `n` if those are fewer, of the symmetric operator that
+/// `product` applies to a vector (n), with the result in another (n).
+///
+/// Everything runs on one thread in a fixed order.
+pub fn largest_eigenpairs(
+    n: usize,
+    search: Search,
+    mut product: impl FnMut(&[f64], &mut [f64]),
+) -> Eigenpairs {
+    let count = search.count.min(n);
+    let limit_of_basis = (3 * count + ROOM).min(n);
+    let mut random = Random(search.seed);
+    let mut basis = Basis::start(n, limit_of_basis, &mut random);
+    let mut products = 0;
+    loop {
+        products += basis.extend(&mut product, &mut random);
+        let is_full = basis.n_projected + BLOCK > limit_of_basis || basis.n_next == 0;
+        let is_due = basis.n_projected >= count && products % (4 * BLOCK) < BLOCK;
+        if !is_full && !is_due {
+            continue;
+        }
+        let Some(ritz) = basis.ritz() else {
+            return Eigenpairs {
+                values: Vec::new(),
+                vectors: Vec::new(),
+                converged: false,
+                products,
+            };
+        };
+        let found = count.min(ritz.values.len());
+        let largest = ritz.values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        let converged = found == count
+            && (0..found).all(|pair| {
+                let bound = search.tolerance * ritz.values[pair].abs();
+                ritz.residuals[pair] <= bound.max(ROUNDING * largest)
+            });
+        if converged || products >= search.limit || basis.n_next == 0 {
+            let vectors = basis.combine(&ritz.vectors, found);
+            return Eigenpairs {
+                values: ritz.values[..found].to_vec(),
+                vectors: (0..found)
+                    .map(|pair| vectors.col_as_slice(pair).to_vec())
+                    .collect(),
+                converged,
+                products,
+            };
+        }
+        if is_full {
+            // Half of the room beyond the wanted pairs keeps what converges next.
+            basis.restart(&ritz, (count + limit_of_basis) / 2 - BLOCK / 2);
+        }
+    }
+}
+
+/// An orthonormal basis, the operator projected on it, and the block that comes next.
+struct Basis {
+    n: usize,
+    /// Basis vectors, then the next block, shape (n, limit + BLOCK).
+    vectors: Mat<f64>,
+    /// Upper triangle of V^T A V, shape (limit + BLOCK, limit + BLOCK).
+    projected: Mat<f64>,
+    /// Columns that are projected.
+    n_projected: usize,
+    /// Columns of the next block.
+    n_next: usize,
+    /// What of A times the last block lies along the next one, row-major.
+    coupling: [[f64; BLOCK]; BLOCK],
+    /// Columns of the last block.
+    n_last: usize,
+}
+
+/// Approximations from the basis, largest first.
+struct Ritz {
+    values: Vec<f64>,
+    /// Coefficients, shape (n_projected, n_projected).
+    vectors: Mat<f64>,
+    /// |A v - value v|.
+    residuals: Vec<f64>,
+}
+
+impl Basis {
+    /// A first block of random vectors.
+    fn start(n: usize, limit: usize, random: &mut Random) -> Self {
+        let mut basis = Self {
+            n,
+            vectors: Mat::zeros(n, limit + BLOCK),
+            projected: Mat::zeros(limit + BLOCK, limit + BLOCK),
+            n_projected: 0,
+            n_next: 0,
+            coupling: [[0.0; BLOCK]; BLOCK],
+            n_last: 0,
+        };
+        for _ in 0..BLOCK.min(n) {
+            basis.append_random(random);
+        }
+        basis
+    }
+
+    /// Projects the operator on the next block, and makes the one after it; gives the number of products.
+    fn extend(
+        &mut self,
+        product: &mut impl FnMut(&[f64], &mut [f64]),
+        random: &mut Random,
+    ) -> usize {
+        let (first, width) = (self.n_projected, self.n_next);
+        let end = first + width;
+        let mut images = Mat::zeros(self.n, width);
+        for k in 0..width {
+            product(
+                self.vectors.col_as_slice(first + k),
+                images.col_as_slice_mut(k),
+            );
+        }
+        // A second pass takes away what rounding left of the basis in the images.
+        for _ in 0..2 {
+            let known = self.vectors.get(.., ..end);
+            let mut along = Mat::<f64>::zeros(end, width);
+            let (transposed, sequential) = (known.transpose(), Par::Seq);
+            matmul(
+                along.as_mut(),
+                Accum::Replace,
+                transposed,
+                images.as_ref(),
+                1.0,
+                sequential,
+            );
+            matmul(
+                images.as_mut(),
+                Accum::Add,
+                known,
+                along.as_ref(),
+                -1.0,
+                sequential,
+            );
+            for column in 0..width {
+                for row in 0..=first + column {
+                    self.projected[(row, first + column)] += along[(row, column)];
+                }
+            }
+        }
+        (self.n_projected, self.n_last, self.n_next) = (end, width, 0);
+        self.coupling = [[0.0; BLOCK]; BLOCK];
+        for k in 0..width {
+            self.append_image(images.col_as_slice_mut(k), k, random);
+        }
+        width
+    }
+
+    /// Makes the rest of an image a vector of the next block; a random one takes its place where nothing is left of it.
+    fn append_image(&mut self, image: &mut [f64], column: usize, random: &mut Random) {
+        let scale = self.projected[(self.n_projected - 1, self.n_projected - 1)].abs();
+        for _ in 0..2 {
+            for k in 0..self.n_next {
+                let other = self.vectors.col_as_slice(self.n_projected + k);
+                let along = dot(other, image);
+                subtract(along, other, image);
+                self.coupling[k][column] += along;
+            }
+        }
+        let norm = dot(image, image).sqrt();
+        if norm > DEPENDENT * scale && norm > f64::MIN_POSITIVE {
+            self.coupling[self.n_next][column] = norm;
+            image.iter_mut().for_each(|value| *value /= norm);
+            self.append(image);
+        } else {
+            self.append_random(random);
+        }
+    }
+
+    /// Appends a random vector at right angles to all others, unless the basis spans the whole space.
+    fn append_random(&mut self, random: &mut Random) {
+        let end = self.n_projected + self.n_next;
+        if end >= self.n {
+            return;
+        }
+        let mut vector: Vec<f64> = (0..self.n).map(|_| random.uniform()).collect();
+        // Near the whole space little is left of a random vector: passes go on until one takes nothing away.
+        loop {
+            let before = dot(&vector, &vector).sqrt();
+            vector.iter_mut().for_each(|value| *value /= before);
+            for k in 0..end {
+                let other = self.vectors.col_as_slice(k);
+                subtract(dot(other, &vector), other, &mut vector);
+            }
+            let left = dot(&vector, &vector).sqrt();
+            if left > 0.9 {
+                vector.iter_mut().for_each(|value| *value /= left);
+                break;
+            }
+            if left < DEPENDENT {
+                vector
+                    .iter_mut()
+                    .for_each(|value| *value = random.uniform());
+            }
+        }
+        self.append(&vector);
+    }
+
+    fn append(&mut self, vector: &[f64]) {
+        let place = self.n_projected + self.n_next;
+        self.vectors.col_as_slice_mut(place).copy_from_slice(vector);
+        self.n_next += 1;
+    }
+
+    /// Eigenpairs of the projection, largest first, with the residuals of the approximations; none where the products were
+    /// not finite.
+    fn ritz(&self) -> Option<Ritz> {
+        let m = self.n_projected;
+        // The decomposition reads the lower triangle, and sorts upwards: of -A, downwards.
+        let lower = Mat::from_fn(m, m, |row, column| {
+            -self.projected[(row.min(column), row.max(column))]
+        });
+        if !lower.is_all_finite() {
+            return None;
+        }
+        let mut values = Diag::<f64>::zeros(m);
+        let mut vectors = Mat::<f64>::zeros(m, m);
+        let parameters = Default::default();
+        let request =
+            self_adjoint_evd_scratch::<f64>(m, ComputeEigenvectors::Yes, Par::Seq, parameters);
+        let mut memory = MemBuffer::new(request);
+        self_adjoint_evd(
+            lower.as_ref(),
+            values.as_mut(),
+            Some(vectors.as_mut()),
+            Par::Seq,
+            MemStack::new(&mut memory),
+            parameters,
+        )
+        .ok()?;
+        let residual = |pair: usize| {
+            let last = m - self.n_last;
+            let along = |row: &[f64; BLOCK]| -> f64 {
+                let of_last = (0..self.n_last).map(|k| row[k] * vectors[(last + k, pair)]);
+                of_last.sum()
+            };
+            let squares = self.coupling.iter().map(|row| along(row).powi(2));
+            squares.sum::<f64>().sqrt()
+        };
+        Some(Ritz {
+            values: values.column_vector().iter().map(|value| -value).collect(),
+            residuals: (0..m).map(residual).collect(),
+            vectors,
+        })
+    }
+
+    /// The first `count` approximations as vectors, shape (n, count).
+    fn combine(&self, coefficients: &Mat<f64>, count: usize) -> Mat<f64> {
+        let mut combined = Mat::zeros(self.n, count);
+        matmul(
+            combined.as_mut(),
+            Accum::Replace,
+            self.vectors.get(.., ..self.n_projected),
+            coefficients.get(.., ..count),
+            1.0,
+            Par::Seq,
+        );
+        combined
+    }
+
+    /// Cuts the basis down to the best `keep` approximations. The next block stays as it is: the projection of the operator
+    /// on it will couple it with all of them.
+    fn restart(&mut self, ritz: &Ritz, keep: usize) {
+        let kept = self.combine(&ritz.vectors, keep);
+        for column in 0..keep {
+            let vector = kept.col_as_slice(column);
+            self.vectors
+                .col_as_slice_mut(column)
+                .copy_from_slice(vector);
+        }
+        for k in 0..self.n_next {
+            let next = self.vectors.col_as_slice(self.n_projected + k).to_vec();
+            self.vectors
+                .col_as_slice_mut(keep + k)
+                .copy_from_slice(&next);
+        }
+        self.projected.fill(0.0);
+        for (place, &value) in ritz.values[..keep].iter().enumerate() {
+            self.projected[(place, place)] = value;
+        }
+        self.n_projected = keep;
+    }
+}
+
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+/// vector -= factor * other.
+fn subtract(factor: f64, other: &[f64], vector: &mut [f64]) {
+    for (value, other) in vector.iter_mut().zip(other) {
+        *value -= factor * other;
+    }
+}
+
+/// Pseudo-random numbers in [-1, 1), the same on every machine (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}

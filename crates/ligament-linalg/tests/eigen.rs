@@ -1,0 +1,147 @@
+//! Largest eigenvalues against spectra that are known.
+#![allow(clippy::unwrap_used)]
+
+use ligament_linalg::{Eigenpairs, Search, largest_eigenpairs};
+use nalgebra::{DMatrix, DVector};
+
+const SEARCH: Search = Search {
+    count: 6,
+    tolerance: 1e-10,
+    limit: 5000,
+    seed: 1,
+};
+
+/// The operator Q diag(values) Q^T with the reflection Q = 1 - 2 w w^T/(w^T w), w_i = 1 + sin i: the spectrum is known, and
+/// no eigenvector lies along an axis.
+fn reflected(values: &[f64]) -> impl FnMut(&[f64], &mut [f64]) + '_ {
+    let w: Vec<f64> = (0..values.len()).map(|i| 1.0 + (i as f64).sin()).collect();
+    let square: f64 = w.iter().map(|x| x * x).sum();
+    let reflect = move |vector: &mut [f64]| {
+        let along: f64 = vector.iter().zip(&w).map(|(a, b)| a * b).sum();
+        for (value, w) in vector.iter_mut().zip(&w) {
+            *value -= 2.0 * along / square * w;
+        }
+    };
+    move |input, output| {
+        output.copy_from_slice(input);
+        reflect(output);
+        for (value, factor) in output.iter_mut().zip(values) {
+            *value *= factor;
+        }
+        reflect(output);
+    }
+}
+
+/// Values against the largest of the known ones, vectors against the definition, orthonormality to rounding. An eigenvalue
+/// is known to the square of its residual or to rounding (1e-15 of the largest); a residual is the tolerance asked for.
+fn check(values: &[f64], found: &Eigenpairs, count: usize) {
+    let n = values.len();
+    let mut sorted = values.to_vec();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    assert!(found.converged, "{} products", found.products);
+    assert_eq!(found.values.len(), count);
+    let mut apply = reflected(values);
+    for (pair, (value, vector)) in found.values.iter().zip(&found.vectors).enumerate() {
+        let error = (value - sorted[pair]).abs();
+        assert!(
+            error < 1e-13 * sorted[0],
+            "pair {pair}: {value} for {}",
+            sorted[pair]
+        );
+        let mut image = vec![0.0; n];
+        apply(vector, &mut image);
+        let residual: f64 = (image.iter().zip(vector))
+            .map(|(a, b)| (a - value * b).powi(2))
+            .sum();
+        assert!(
+            residual.sqrt() < 1e-9 * value.abs(),
+            "pair {pair}: {residual:e}"
+        );
+        for (other, second) in found.vectors.iter().enumerate() {
+            let product: f64 = vector.iter().zip(second).map(|(a, b)| a * b).sum();
+            let expected = f64::from(u8::from(other == pair));
+            assert!(
+                (product - expected).abs() < 1e-12,
+                "{pair} {other}: {product}"
+            );
+        }
+    }
+}
+
+/// 1/k^2, as the inverse eigenvalues of a string, over 2000 unknowns; then each of them twice.
+#[test]
+fn simple_and_double_eigenvalues() {
+    let simple: Vec<f64> = (1..=2000).map(|k| 1.0 / f64::from(k * k)).collect();
+    let found = largest_eigenpairs(2000, SEARCH, reflected(&simple));
+    check(&simple, &found, 6);
+    let double: Vec<f64> = (1..=2000)
+        .map(|k: i32| 1.0 / f64::from(((k + 1) / 2).pow(2)))
+        .collect();
+    let search = Search { count: 7, ..SEARCH };
+    check(
+        &double,
+        &largest_eigenpairs(2000, search, reflected(&double)),
+        7,
+    );
+}
+
+/// Largest means largest with its sign: large negative eigenvalues are passed over.
+#[test]
+fn negative_eigenvalues_come_last() {
+    let values: Vec<f64> = (1..=300)
+        .map(|k| if k % 3 == 0 { -5.0 } else { 1.0 / f64::from(k) })
+        .collect();
+    check(
+        &values,
+        &largest_eigenpairs(300, SEARCH, reflected(&values)),
+        6,
+    );
+}
+
+/// All eigenvalues of a small operator, different ones or all alike (where the blocks run dry): n = 1 to 9.
+#[test]
+fn small_operators() {
+    for n in 1..=9_usize {
+        let distinct: Vec<f64> = (1..=n).map(|k| k as f64).collect();
+        for values in [distinct, vec![3.0; n]] {
+            let search = Search {
+                count: 20,
+                ..SEARCH
+            };
+            check(
+                &values,
+                &largest_eigenpairs(n, search, reflected(&values)),
+                n,
+            );
+        }
+    }
+}
+
+/// A dense matrix against nalgebra's decomposition, which shares nothing with this one.
+#[test]
+fn agrees_with_a_dense_decomposition() {
+    let n = 120;
+    let entry = |i: usize, j: usize| ((i * j + i + j) as f64 * 0.37).sin();
+    let matrix = DMatrix::from_fn(n, n, |i, j| entry(i.min(j), i.max(j)));
+    let mut expected: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+    expected.sort_by(|a, b| b.total_cmp(a));
+    let found = largest_eigenpairs(n, SEARCH, |input, output| {
+        let image = &matrix * DVector::from_column_slice(input);
+        output.copy_from_slice(image.as_slice());
+    });
+    assert!(found.converged);
+    for (value, expected) in found.values.iter().zip(&expected) {
+        assert!((value - expected).abs() < 1e-12 * n as f64);
+    }
+}
+
+/// An operator that gives no numbers ends the search instead of hanging it.
+#[test]
+fn an_operator_without_numbers_does_not_converge() {
+    let search = Search {
+        limit: 200,
+        ..SEARCH
+    };
+    let found = largest_eigenpairs(100, search, |_, output| output.fill(f64::NAN));
+    assert!(!found.converged);
+}

@@ -1,0 +1,75 @@
+//! The modes of a body: a table, and a file of fields for each.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `modes.csv` | a row a mode |
+//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode |
+
+use ligament_analysis::COMPONENTS;
+use ligament_analysis::modal::ModalOutcome;
+
+use super::point_fields::{BodyGrid, FixedFields, in_plane};
+use crate::Error;
+use crate::csv::Table;
+use crate::folder::ResultFolder;
+use crate::pvd::Collection;
+use crate::vtu::Field;
+
+const COLUMNS: [&str; 12] = [
+    "mode",
+    "kind",
+    "frequency_hz",
+    "angular_frequency",
+    "eigenvalue",
+    "residual",
+    "effective_mass_x",
+    "effective_mass_y",
+    "effective_inertia",
+    "share_x",
+    "share_y",
+    "share_inertia",
+];
+
+/// Writes all modes of a body with points of given volumes (n_points) and nearest distances (n_points).
+pub fn write_modes(
+    folder: &ResultFolder,
+    grid: &BodyGrid,
+    volumes: &[f64],
+    spacing: &[f64],
+    fixed: &FixedFields,
+    outcome: &ModalOutcome,
+) -> Result<(), Error> {
+    let mut table = Table::create(folder.file("modes.csv"), &COLUMNS)?;
+    let mut collection = Collection::new(folder.file("modes.pvd"));
+    for (number, mode) in (1_u32..).zip(&outcome.modes) {
+        let [x, y, turn] = mode.participation.map(|factor| factor * factor);
+        let [share_x, share_y, share_turn] = outcome.moving.shares(mode.participation);
+        table.append(&[
+            number.into(),
+            mode.kind.name().into(),
+            mode.frequency().into(),
+            mode.angular_frequency().into(),
+            mode.eigenvalue.into(),
+            mode.residual.into(),
+            x.into(),
+            y.into(),
+            turn.into(),
+            share_x.into(),
+            share_y.into(),
+            share_turn.into(),
+        ])?;
+        let name = format!("mode_{number:04}.vtu");
+        let displacement = in_plane(&mode.shape);
+        let motions = mode.shape.chunks(COMPONENTS);
+        let rotation: Vec<f64> = motions.map(|motion| motion[2]).collect();
+        let mut fields = vec![
+            Field::scalar("rotation", &rotation),
+            Field::scalar("strain_energy_density", &mode.strain_energy_density),
+            Field::integer(grid.tagged, &grid.tags),
+        ];
+        fields.extend(fixed.fields(volumes, spacing));
+        grid.write(&folder.file(&name), Some(&displacement), &fields)?;
+        collection.append(f64::from(number), name)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,62 @@
+//! What `ligament check` tells of a modal case.
+
+use std::io::Write;
+
+use ligament_analysis::modal::{ModalAnalysis, ModalProblem, Rotations};
+
+use super::{Extent, equations, write_group, write_model};
+use crate::case::{self, CaseFile, Modal};
+use crate::resolve;
+use crate::run::Model;
+use crate::stages::Stages;
+
+/// Checks supports, masses and equations.
+pub(super) fn check(
+    case: &CaseFile,
+    modal: &Modal,
+    extent: Extent,
+    model: &Model,
+    stages: &mut Stages,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
+    let mass = resolve::mass(case, &model.system.cloud);
+    let problem = ModalProblem {
+        system: &model.system,
+        mass: &mass,
+        supports: &supports,
+        solver: resolve::solver(case),
+    };
+    let analysis = match extent {
+        Extent::Model => None,
+        Extent::Matrix => Some(stages.time("analysis", || {
+            ModalAnalysis::of(problem, resolve::modal(modal))
+        })?),
+    };
+    write_model(out, case, model)?;
+    writeln!(out, "supports")?;
+    for group in &supports.groups {
+        write_group(out, &*model.body, &group.name, &group.points)?;
+    }
+    if supports.groups.is_empty() {
+        writeln!(out, "  none: the body is free")?;
+    }
+    writeln!(out, "modes")?;
+    writeln!(out, "  wanted                {}", modal.modes)?;
+    if let Some(analysis) = &analysis {
+        let why = match modal.rotations {
+            case::Rotations::Inertia | case::Rotations::Massless => "as the case says",
+            case::Rotations::Auto if analysis.rotations() == Rotations::Massless => {
+                "because bonds have a negative shear stiffness"
+            }
+            case::Rotations::Auto => "because no bond has a negative shear stiffness",
+        };
+        let what = match analysis.rotations() {
+            Rotations::Inertia => "with inertia",
+            Rotations::Massless => "without inertia",
+        };
+        writeln!(out, "  rotations             {what}, {why}")?;
+        equations::write(out, case, model, analysis.stiffness())?;
+    }
+    Ok(())
+}

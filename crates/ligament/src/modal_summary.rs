@@ -1,0 +1,167 @@
+//! `summary.json` of a modal analysis, and the table that a user sees at its end.
+
+use std::io::{self, Write};
+
+use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
+use serde::Serialize;
+
+use crate::case::CaseFile;
+use crate::run::Model;
+use crate::stages::Stage;
+use crate::summary::{
+    CorrectionSummary, SolverSummary, Spread, StabilitySummary, family, formulation_words,
+};
+
+/// All numbers of a modal analysis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModalSummary {
+    /// Title of the case.
+    pub title: String,
+    /// Version of the program.
+    pub version: &'static str,
+    /// Law and corrections of the bonds, in words.
+    pub formulation: String,
+    /// Number of points.
+    pub points: usize,
+    /// Number of bonds, without those that pre-cracks cut.
+    pub bonds: usize,
+    /// Number of bonds that pre-cracks cut.
+    pub cut_bonds: usize,
+    /// Sum of the points' volumes, m^3.
+    pub volume: f64,
+    /// Smallest, mean and largest horizon, m.
+    pub horizon: Spread,
+    /// Smallest, mean and largest number of bonds of a point.
+    pub family: Spread,
+    /// The corrections of the bonds.
+    pub correction: CorrectionSummary,
+    /// Mass of the body, kg.
+    pub mass: f64,
+    /// Its centre, m.
+    pub centre_of_mass: [f64; 2],
+    /// Mass that can move along x and along y, kg, and inertia about the centre, kg m^2.
+    pub moving: [f64; 3],
+    /// What becomes of the rotations of the points: `inertia` or `massless`.
+    pub rotations: &'static str,
+    /// Rigid motions that supports and connectivity leave.
+    pub rigid_motions: usize,
+    /// Whether a count of the eigenvalues confirmed that no mode below the highest is missing.
+    pub complete: Option<bool>,
+    /// The modes, lowest first.
+    pub modes: Vec<ModeSummary>,
+    /// Share of the modes together in the mass that can move along x and along y, and in its inertia.
+    pub effective_shares: [f64; 3],
+    /// Negative eigenvalues of the stiffness, and how many its rotations explain, where Poisson's ratio is large.
+    pub stability: Option<StabilitySummary>,
+    /// The solver and its work.
+    pub solver: SolverSummary,
+    /// Wall time and peak memory of the stages.
+    pub stages: Vec<Stage>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// A mode in numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ModeSummary {
+    /// Number, from 1.
+    pub mode: usize,
+    /// `rigid` or `elastic`.
+    pub kind: &'static str,
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// Largest |K phi - omega^2 M phi| over the forces that meet at a point.
+    pub residual: f64,
+    /// Shares of its effective masses along x and y and of its inertia in what can move.
+    pub effective_shares: [f64; 3],
+}
+
+impl ModalSummary {
+    /// Collects the numbers.
+    pub fn new(case: &CaseFile, model: &Model, outcome: &ModalOutcome, stages: &[Stage]) -> Self {
+        let moving = &outcome.moving;
+        let summary = |(index, mode): (usize, &Mode)| ModeSummary {
+            mode: index + 1,
+            kind: mode.kind.name(),
+            frequency: mode.frequency(),
+            residual: mode.residual,
+            effective_shares: moving.shares(mode.participation),
+        };
+        let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
+        let mut warnings = model.warnings.clone();
+        warnings.extend(outcome.notices.iter().map(ToString::to_string));
+        Self {
+            title: case.case.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            formulation: formulation_words(case, model),
+            points: model.system.cloud.len(),
+            bonds: model.system.bonds.len(),
+            cut_bonds: model.cut_bonds,
+            volume: model.system.cloud.volumes.iter().sum(),
+            horizon: Spread::of(model.fixed.horizon.iter().copied()),
+            family: family(model),
+            correction: CorrectionSummary::new(case, model),
+            mass: moving.total,
+            centre_of_mass: moving.centre,
+            moving: moving.free,
+            rotations: match outcome.rotations {
+                Rotations::Inertia => "inertia",
+                Rotations::Massless => "massless",
+            },
+            rigid_motions: outcome.rigid_motions,
+            complete: outcome.complete,
+            effective_shares: [0, 1, 2]
+                .map(|k| modes.iter().map(|mode| mode.effective_shares[k]).sum()),
+            modes,
+            stability: outcome.stability.map(StabilitySummary::from),
+            solver: SolverSummary::new(&outcome.costs, &outcome.solver),
+            stages: stages.to_vec(),
+            warnings,
+        }
+    }
+
+    /// The lines that a user sees at the end of a run.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Self {
+            title,
+            points,
+            bonds,
+            mass,
+            ..
+        } = self;
+        writeln!(out, "{title}")?;
+        writeln!(out, "  {}", self.formulation)?;
+        writeln!(
+            out,
+            "  points {points}, bonds {bonds}, mass {mass:.6e} kg, rotations: {}",
+            self.rotations
+        )?;
+        writeln!(
+            out,
+            "  mode  kind     frequency, Hz   effective mass x, y, inertia, %   residual"
+        )?;
+        for mode in &self.modes {
+            let [x, y, turn] = mode.effective_shares.map(|share| 100.0 * share);
+            writeln!(
+                out,
+                "  {:>4}  {:<8} {:>13.6e}   {x:>12.3} {y:>7.3} {turn:>11.3}     {:>6.1e}",
+                mode.mode, mode.kind, mode.frequency, mode.residual
+            )?;
+        }
+        let [x, y, turn] = self.effective_shares.map(|share| 100.0 * share);
+        writeln!(
+            out,
+            "  together                        {x:>12.3} {y:>7.3} {turn:>11.3}"
+        )?;
+        if self.complete == Some(true) {
+            writeln!(
+                out,
+                "  counted            no mode below the highest is missing"
+            )?;
+        }
+        for warning in &self.warnings {
+            writeln!(out, "  warning: {warning}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,61 @@
+//! The route of a modal analysis: from the model to modes on disk.
+
+use std::path::Path;
+
+use anyhow::Context;
+use ligament_analysis::modal::{ModalAnalysis, ModalProblem};
+use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
+use ligament_output::results::write_modes;
+
+use crate::case::{CaseFile, Modal};
+use crate::modal_summary::ModalSummary;
+use crate::progress::Progress;
+use crate::resolve;
+use crate::run::Model;
+use crate::stages::Stages;
+
+/// Finds the modes of a model and writes them into a new folder.
+pub(crate) fn find_modes(
+    case: &CaseFile,
+    modal: &Modal,
+    model: &Model,
+    out: &Path,
+    force: bool,
+    mut stages: Stages,
+    mut progress: Progress,
+) -> anyhow::Result<ModalSummary> {
+    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
+    let mass = resolve::mass(case, &model.system.cloud);
+    let problem = ModalProblem {
+        system: &model.system,
+        mass: &mass,
+        supports: &supports,
+        solver: resolve::solver(case),
+    };
+    let analysis = stages.time("analysis", || {
+        ModalAnalysis::of(problem, resolve::modal(modal))
+    })?;
+
+    // Nothing is written, and nothing replaced, before all input was found good.
+    let folder = ResultFolder::create(out, force)?;
+    folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
+    let outcome = stages.time("modes", || analysis.find())?;
+    stages.time("output", || {
+        let (cloud, fixed) = (&model.system.cloud, &model.fixed);
+        write_modes(
+            &folder,
+            &model.body.grid(),
+            &cloud.volumes,
+            &cloud.spacing,
+            fixed,
+            &outcome,
+        )
+    })?;
+
+    let summary = ModalSummary::new(case, model, &outcome, stages.done());
+    let text =
+        serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
+    folder.write_text("summary.json", &(text + "\n"))?;
+    progress.finish(&format!("{} modes found", outcome.modes.len()));
+    Ok(summary)
+}
