@@ -8,8 +8,7 @@
 use ligament_model::BondSystem;
 
 use crate::boundary::Boundary;
-use crate::connectivity::rigid_motions::RigidMotions;
-use crate::connectivity::{Fragments, Hold, degrees_of_freedom, rotation_is_free};
+use crate::connectivity::{Fragments, Hold, degrees_of_freedom, rigid_motions};
 use crate::unknowns::{Component, Unknowns};
 
 /// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
@@ -83,11 +82,7 @@ fn free_body(
     holds: &[Hold],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
-    let motions = RigidMotions::of(
-        &system.cloud.positions,
-        points,
-        rotation_is_free(system, points),
-    );
+    let motions = rigid_motions(system, points);
     let spanned = motions.spanned_by(points, |dof| boundary.prescribed[dof].is_some());
     let loads = || degrees_of_freedom(points).map(|dof| (dof, boundary.force[dof]));
     let mut free = Vec::new();
