@@ -216,7 +216,7 @@ def check_collection(report, path, history):
     unknown = [file for step, (_, file) in zip(steps, listed) if step not in history]
     if not report.check(f"{path.name} lists steps of history.csv", not unknown, ", ".join(unknown)):
         return
-    columns = [name for name in ("displacement", "reaction") if all(name in history[step] for step in steps)]
+    columns = [name for name in ("displacement", "reaction", "step") if all(name in history[step] for step in steps)]
     matching = [name for name in columns if all(float(history[step][name]) == time for step, time in zip(steps, times))]
     detail = f"column {matching[0]}" if matching else f"compared with {columns or 'no column'}"
     report.check(f"{path.name} has the times of history.csv", matching, detail)

@@ -79,7 +79,7 @@ def draw(axes, mesh, values, scale, limits):
         # The squares of a lattice stand apart where the body opens; each has its own value.
         squares = np.concatenate([block.data for block in mesh.cells])
         picture = PolyCollection(
-            points[squares, :2], array=values, cmap=colours["cmap"], clim=limits, antialiased=False
+            points[squares, :2], array=values, cmap=colours["cmap"], clim=limits, edgecolors="face", linewidths=1.0
         )
         axes.add_collection(picture)
         axes.autoscale_view()
