@@ -197,3 +197,50 @@ impl BodyGrid {
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vtkio::model::{Attribute, DataSet, Piece, Vtk};
+
+    fn names(attributes: &[Attribute]) -> Vec<&str> {
+        attributes.iter().map(Attribute::name).collect()
+    }
+
+    /// Two cells of a lattice: each has four corners of its own, which move with it; all else is cell data.
+    #[test]
+    fn cells_around_points_have_their_own_corners() {
+        let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
+        let grid = BodyGrid {
+            positions: vec![[0.5, 0.5], [1.5, 0.5]],
+            tags: vec![1, 2],
+            tagged: "cell",
+            canvas: Canvas::Around(vec![square(0.0), square(1.0)]),
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.vtu");
+        let (moved, damage) = ([[0.0, 0.0, 0.0], [0.25, -0.5, 0.0]], [0.0, 0.75]);
+        let fields = [
+            Field::scalar("damage", &damage),
+            Field::integer(grid.tagged, &grid.tags),
+        ];
+        grid.write(&path, Some(&moved), &fields).unwrap();
+        let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
+            panic!("not an unstructured grid");
+        };
+        let Piece::Inline(piece) = pieces.into_iter().next().unwrap() else {
+            panic!("not inline");
+        };
+        assert_eq!((piece.num_points(), piece.cells.num_cells()), (8, 2));
+        let (_, vertices) = piece.cells.cell_verts.clone().into_legacy();
+        assert_eq!(vertices, [4, 0, 1, 2, 3, 4, 4, 5, 6, 7]);
+        assert_eq!(names(&piece.data.point), ["displacement"]);
+        assert_eq!(names(&piece.data.cell), ["displacement", "damage", "cell"]);
+        let Attribute::DataArray(array) = &piece.data.point[0] else {
+            panic!("no array");
+        };
+        let expected: Vec<f64> = (moved.iter()).flat_map(|it| [*it; 4].concat()).collect();
+        assert_eq!(array.data.clone().into_vec::<f64>().unwrap(), expected);
+    }
+}
