@@ -368,8 +368,7 @@ fn check_and_summary_tell_of_gauges() {
         warning.starts_with("supports and loads do not hold the body against translation along x, translation along y, rotation; held at zero instead: "),
         "{warning}"
     );
-    let told =
-        "; the loads on it are NOT in equilibrium (along x 2.000e3 N, along y 0.000e0 N, moment ";
+    let told = "; the loads on it are NOT in equilibrium (along x 2.000e3 N, moment ";
     assert!(
         warning.contains(told) && warning.contains("of node 1 at (0.000000, 0.000000)"),
         "{warning}"
@@ -420,8 +419,7 @@ fn bodies_of_springs_have_the_free_motions_that_cost_no_energy() {
             format!("model.law={law}"),
             format!("material.poisson={poisson}"),
         ];
-        let text =
-            format!("{PLATE}{load}").replace("horizon_factor = 3.0", "horizon_factor = 3.015");
+        let text = format!("{PLATE}{load}");
         let bench = Bench::new(&text, &[&settings[0], &settings[1]]);
         let run = bench.solve();
         let body = free_body(&run);
