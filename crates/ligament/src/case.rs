@@ -177,7 +177,10 @@ impl Case {
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
             solver: raw.solver.check(&section("solver"))?,
-            output: raw.output.unwrap_or_default().complete(fracture.as_ref()),
+            output: raw
+                .output
+                .unwrap_or_default()
+                .complete(&section("output"), fracture.as_ref())?,
             fracture,
             modal,
         };

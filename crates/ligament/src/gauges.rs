@@ -18,7 +18,10 @@ pub fn words(free: &FreeBody, body: &dyn Body) -> String {
     let loads = if free.is_balanced() {
         "the loads on it are in equilibrium, so that these gauges carry no force".to_owned()
     } else {
-        let loads: Vec<String> = free.motions.iter().map(load).collect();
+        let loads: Vec<String> = (free.motions.iter())
+            .filter(|it| !it.is_balanced())
+            .map(load)
+            .collect();
         format!(
             "the loads on it are NOT in equilibrium ({}), and these gauges carry what is missing",
             loads.join(", ")

@@ -1,10 +1,10 @@
-//! Profiles and couples: as they are read, written back, and refused.
+//! Profiles, couples and stresses: as they are read, written back, and refused.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::path::Path;
 
-use ligament::case::{Action, Axis, CaseFile, Profile};
+use ligament::case::{Action, Axis, CaseFile, Field, Profile, Reading, StressField};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -78,4 +78,45 @@ fn profiles_and_couples_are_checked() {
     ] {
         assert_eq!(error_of(&with_load(load)), message, "{load}");
     }
+}
+
+#[test]
+fn stresses_are_asked_for_by_name() {
+    let with = |key: &str, value: &str| {
+        let settings = [format!("{key}={value}")];
+        CaseFile::parse(Path::new("case.toml"), TEXT.to_owned(), &settings)
+    };
+    assert_eq!(with("output.bonds", "true").unwrap().case.output.stress, []);
+    let case = with("output.stress", "[\"traction\", \"virial\"]").unwrap();
+    assert_eq!(
+        case.case.output.stress,
+        [StressField::Traction, StressField::Virial]
+    );
+    let written = case.resolved_toml().unwrap();
+    assert!(
+        written.contains("stress = [\"traction\", \"virial\"]"),
+        "{written}"
+    );
+    let message = |value: &str| with("output.stress", value).unwrap_err().to_string();
+    assert_eq!(
+        message("[\"tractions\"]"),
+        "--set output.stress=[\"tractions\"]: output.stress.0: unknown value \"tractions\"; did you mean \"traction\"? \
+         valid values: \"virial\", \"traction\""
+    );
+    assert_eq!(
+        message("[\"virial\", \"virial\"]"),
+        "--set output.stress=[\"virial\", \"virial\"]: output.stress: must be each stress once, found [Virial, Virial]"
+    );
+    assert_eq!(
+        message("true"),
+        "--set output.stress=true: output.stress: expected a list, found true"
+    );
+    let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
+    let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
+    let at = [0.0, 0.0];
+    let field = Field::StressXy;
+    assert_eq!(
+        case.case.probes.last().unwrap().reading,
+        Reading::At { at, field }
+    );
 }

@@ -299,16 +299,29 @@ pub(super) struct RawOutput {
 }
 
 impl RawOutput {
-    pub(super) fn complete(self, fracture: Option<&Fracture>) -> Output {
+    pub(super) fn complete(
+        self,
+        key: &KeyPath,
+        fracture: Option<&Fracture>,
+    ) -> Result<Output, KeyFault> {
+        let is_repeated =
+            |(place, field): (usize, &StressField)| self.stress[..place].contains(field);
+        let once = !self.stress.iter().enumerate().any(is_repeated);
+        require(
+            once,
+            || key.child("stress"),
+            "each stress once",
+            &self.stress,
+        )?;
         // An event breaks a bond or two, a load step at the peak hundreds.
         let default = match fracture.map(|fracture| &fracture.control) {
             Some(Control::Event) => 100,
             Some(Control::Stepped(_)) | None => 10,
         };
-        Output {
+        Ok(Output {
             fields_every: self.fields_every.unwrap_or(default),
             bonds: self.bonds,
             stress: self.stress,
-        }
+        })
     }
 }
