@@ -78,7 +78,7 @@ fn bonds_of_the_square() {
             .map(|(weight, omega)| weight / omega)
             .collect();
         for bond in 0..bonds.len() {
-            let tags = bonds.ends[bond].map(|end| model.mesh.node_tags[end as usize]);
+            let tags = bonds.ends[bond].map(|end| model.body.tag(end));
             let wanted = ["a", "b"].map(|end| expected.count(bond, end) as u64);
             assert_eq!(tags, wanted, "{set}: ends of bond {bond}");
         }
@@ -114,7 +114,8 @@ fn solutions_of_the_square() {
         let run = bench.solve();
         let expected = Table::reference(&format!("square-displacement-{set}.csv"));
         assert_eq!(bench.points(), expected.len());
-        for (point, &tag) in bench.model.mesh.node_tags.iter().enumerate() {
+        for point in 0..bench.points() {
+            let tag = bench.model.body.tag(point as u32);
             assert_eq!(tag, expected.count(point, "node") as u64);
         }
         let mut errors = Vec::new();

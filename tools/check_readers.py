@@ -21,7 +21,7 @@ import pyvista
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-# Point fields of every fields_NNNN.vtu and their numbers of components.
+# Fields of every fields_NNNN.vtu and their numbers of components.
 REQUIRED_FIELDS = {"displacement": 3, "rotation": 1, "damage": 1, "volume": 1, "horizon": 1}
 # VTK's numbers for meshio's names of the cells that Ligament writes.
 VTK_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9}
@@ -159,15 +159,30 @@ def check_fields(report, path, volume):
     grid = check_grid(report, path)
     if grid is None:
         return
+    # The fields of a mesh are on its points; those of a lattice on its cells, and the displacement on their corners too.
+    on_cells = "damage" in grid.cell_fields
+    fields, size = (grid.cell_fields, len(grid.cell_types)) if on_cells else (grid.point_fields, len(grid.points))
+    if on_cells:
+        check_corners(report, path, grid)
     for name, n_components in REQUIRED_FIELDS.items():
-        shape = (len(grid.points),) if n_components == 1 else (len(grid.points), n_components)
-        found = grid.point_fields.get(name)
+        shape = (size,) if n_components == 1 else (size, n_components)
+        found = fields.get(name)
         detail = "missing" if found is None else f"shape {found.shape}"
         report.check(f"{path.name} has {name}", found is not None and found.shape == shape, detail)
-    if volume is not None and "volume" in grid.point_fields:
-        total = math.fsum(grid.point_fields["volume"])
+    if volume is not None and "volume" in fields:
+        total = math.fsum(fields["volume"])
         agrees = math.isclose(total, volume, rel_tol=1e-12)
         report.check(f"{path.name} volume sums to that of summary.json", agrees, f"{total!r} and {volume!r}")
+
+
+def check_corners(report, path, grid):
+    """Each cell of a lattice has four corners of its own, which move as it does."""
+    n_cells = len(grid.cell_types)
+    own = np.array_equal(grid.connectivity, np.arange(4 * n_cells))
+    report.check(f"{path.name} has four corners a cell", own and set(grid.cell_types) == {VTK_TYPES["quad"]})
+    report.check(f"{path.name} has only the displacement on corners", set(grid.point_fields) == {"displacement"})
+    moved = np.repeat(grid.cell_fields["displacement"], 4, axis=0)
+    report.check(f"{path.name} moves corners with cells", np.array_equal(grid.point_fields["displacement"], moved))
 
 
 def step_of(file):
@@ -201,7 +216,7 @@ def check_collection(report, path, history):
     unknown = [file for step, (_, file) in zip(steps, listed) if step not in history]
     if not report.check(f"{path.name} lists steps of history.csv", not unknown, ", ".join(unknown)):
         return
-    columns = [name for name in ("displacement", "reaction") if all(name in history[step] for step in steps)]
+    columns = [name for name in ("displacement", "reaction", "step") if all(name in history[step] for step in steps)]
     matching = [name for name in columns if all(float(history[step][name]) == time for step, time in zip(steps, times))]
     detail = f"column {matching[0]}" if matching else f"compared with {columns or 'no column'}"
     report.check(f"{path.name} has the times of history.csv", matching, detail)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a point field on the deformed mesh of a result folder."""
+"""Draws a field on the deformed mesh or lattice of a result folder."""
 
 import argparse
 import csv
@@ -13,6 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import meshio
 import numpy as np
+from matplotlib.collections import PolyCollection
 
 
 def find_outputs(folder):
@@ -57,19 +58,31 @@ def triangles_of(mesh):
     return np.concatenate(triangles)
 
 
-def point_values(mesh, name):
-    if name not in mesh.point_data:
-        raise SystemExit(f"no point field {name}; there are {', '.join(mesh.point_data)}")
-    values = mesh.point_data[name]
+def values_of(mesh, name):
+    """A field at the points of a mesh, or at the cells of a lattice; of a vector the norm."""
+    cell_data = {field: np.concatenate(blocks) for field, blocks in mesh.cell_data.items()}
+    fields = {**mesh.point_data, **cell_data}
+    if name not in fields:
+        raise SystemExit(f"no field {name}; there are {', '.join(fields)}")
+    values = fields[name]
     return values if values.ndim == 1 else np.linalg.norm(values, axis=1)
 
 
 def draw(axes, mesh, values, scale, limits):
     points = mesh.points + scale * mesh.point_data["displacement"]
-    picture = axes.tripcolor(
-        points[:, 0], points[:, 1], triangles_of(mesh), values, cmap="cividis", shading="gouraud",
-        vmin=limits[0], vmax=limits[1],
-    )  # fmt: skip
+    colours = {"cmap": "cividis", "vmin": limits[0], "vmax": limits[1]}
+    if len(values) == len(points):
+        picture = axes.tripcolor(
+            points[:, 0], points[:, 1], triangles_of(mesh), values, shading="gouraud", **colours
+        )
+    else:
+        # The squares of a lattice stand apart where the body opens; each has its own value.
+        squares = np.concatenate([block.data for block in mesh.cells])
+        picture = PolyCollection(
+            points[squares, :2], array=values, cmap=colours["cmap"], clim=limits, edgecolors="face", linewidths=1.0
+        )
+        axes.add_collection(picture)
+        axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_axis_off()
     return picture
@@ -81,7 +94,7 @@ def main():
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--step", type=int, nargs="+", metavar="N", help="steps to draw (default: the last output)")
     which.add_argument("--strip", type=int, metavar="COUNT", help="draw so many outputs, evenly spread, side by side")
-    parser.add_argument("--field", default="damage", help="point field; of a vector the norm (default: %(default)s)")
+    parser.add_argument("--field", default="damage", help="field; of a vector the norm (default: %(default)s)")
     parser.add_argument("--scale", type=float, default=1.0, help="factor on the displacement (default: %(default)s)")
     parser.add_argument("--out", type=Path, metavar="PNG", help="picture (default: RESULT_FOLDER/FIELD.png)")
     arguments = parser.parse_args()
@@ -92,7 +105,7 @@ def main():
     steps = choose_steps(outputs, arguments)
     displacements = read_displacements(arguments.folder)
     meshes = [meshio.read(outputs[step]) for step in steps]
-    fields = [point_values(mesh, arguments.field) for mesh in meshes]
+    fields = [values_of(mesh, arguments.field) for mesh in meshes]
     lowest, highest = min(np.nanmin(values) for values in fields), max(np.nanmax(values) for values in fields)
     limits = lowest, highest if highest > lowest else lowest + 1.0
     figure, all_axes = plt.subplots(1, len(steps), figsize=(1 + 5 * len(steps), 5), layout="constrained", squeeze=False)

@@ -87,7 +87,7 @@ impl Bench {
     fn from_case(case: CaseFile, folder: Option<TempDir>) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let boundary = resolve::boundary(&case, &model.mesh, &model.system.cloud).unwrap();
+        let boundary = resolve::boundary(&case, &*model.body, &model.system.cloud).unwrap();
         let probes = resolve::probes(&case, &model.system);
         Self {
             case,
@@ -142,20 +142,19 @@ impl Bench {
         self.model.system.cloud.len()
     }
 
-    /// Positions as in the mesh file.
+    /// Positions as in the mesh file, or of the centres of the cells.
     pub fn positions(&self) -> &[[f64; 2]] {
-        &self.model.mesh.positions
+        self.model.body.positions()
     }
 
-    /// Nodes of a group.
-    pub fn group(&self, name: &str) -> &[u32] {
-        &self.model.mesh.group(name).unwrap().nodes
+    /// Points of a group.
+    pub fn group(&self, name: &str) -> Vec<u32> {
+        self.model.body.points_of(name).unwrap()
     }
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] =
-            self.model.system.bonds.ends[bond].map(|end| self.model.mesh.node_tags[end as usize]);
+        let [a, b] = self.model.system.bonds.ends[bond].map(|end| self.model.body.tag(end));
         [a.min(b), a.max(b)]
     }
 }

@@ -1,9 +1,9 @@
 //! Fixtures of the verification tests: meshes, benches and small mathematics.
 //!
 //! The tests lie beside this folder, one file for each question: do the numbers agree with an independent calculation
-//! (`reference_values`), does the method keep what it must keep (`discretisation`, `symmetry`, `equilibrium`, `breaking`,
-//! `connectivity`, `exact_path`), does it meet closed forms (`physics`, `exact_path`), are the crates arranged as they should
-//! be (`architecture`) and are the cases in order (`cases`).
+//! (`reference_values`), does the method keep what it must keep (`discretisation`, `lattice`, `symmetry`, `equilibrium`,
+//! `breaking`, `connectivity`, `exact_path`), does it meet closed forms (`physics`, `loads`, `exact_path`), are the crates
+//! arranged as they should be (`architecture`) and are the cases in order (`cases`).
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 pub mod bench;

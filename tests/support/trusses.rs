@@ -52,6 +52,7 @@ impl Truss {
             thickness: 1.0,
             volumes: vec![1.0; n],
             spacing: vec![1.0; n],
+            lattice_cell: None,
             n_materials: 1,
             material_shares: vec![1.0; n],
             curve: (0..n as u32).collect(),

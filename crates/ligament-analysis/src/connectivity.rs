@@ -11,7 +11,7 @@ pub(crate) mod rigid_motions;
 use ligament_model::{BondSystem, ElementKind};
 
 use crate::unknowns::COMPONENTS;
-use rigid_motions::RigidMotions;
+use rigid_motions::{RigidMotions, Turn};
 
 /// The connected parts of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,11 +74,7 @@ impl Fragments {
     ) -> Vec<Hold> {
         let of_fragment = |fragment: u32| {
             let points = &self.points[fragment as usize];
-            let motions = RigidMotions::of(
-                &system.cloud.positions,
-                points,
-                rotation_is_free(system, points),
-            );
+            let motions = rigid_motions(system, points);
             let found = holds(points, &motions, &is_fixed, &can_hold);
             found.into_iter().map(move |degree_of_freedom| Hold {
                 degree_of_freedom,
@@ -97,8 +93,7 @@ impl Fragments {
         is_fixed: impl Fn(usize) -> bool,
     ) -> Vec<Vec<f64>> {
         let points = &self.points[fragment];
-        let rotation_is_free = rotation_is_free(system, points);
-        let motions = RigidMotions::of(&system.cloud.positions, points, rotation_is_free);
+        let motions = rigid_motions(system, points);
         let free = motions.left_by(&motions.spanned_by(points, is_fixed));
         let shape = |&motion| {
             let dofs = degrees_of_freedom(points);
@@ -128,18 +123,21 @@ impl Fragments {
     }
 }
 
-/// Whether a fragment can turn as a whole without energy, and not only move along x and y.
-///
-/// The points of beam bonds turn with the fragment, so that its rotation costs nothing. Without rotations of the points a
-/// shear stiffness resists it.
-pub(crate) fn rotation_is_free(system: &BondSystem, points: &[u32]) -> bool {
+/// The rigid motions of some points that their bonds let be free.
+pub(crate) fn rigid_motions<'a>(system: &'a BondSystem, points: &[u32]) -> RigidMotions<'a> {
     let mut bonds = points
         .iter()
         .flat_map(|&point| system.bonds.incidence.of(point));
-    match system.element {
-        ElementKind::Beam => true,
-        ElementKind::Spring => bonds.all(|&bond| system.shear_rigidity[bond as usize] == 0.0),
-    }
+    let resists = |&bond: &u32| {
+        let bond = bond as usize;
+        system.shear_rigidity[bond] != 0.0 || system.rotational_rigidity[bond] != 0.0
+    };
+    let turn = match (bonds.any(resists), system.element) {
+        (false, _) => Turn::OfPositions,
+        (true, ElementKind::Beam) => Turn::OfPointsAlong,
+        (true, ElementKind::Spring) => Turn::Costly,
+    };
+    RigidMotions::of(&system.cloud.positions, points, turn)
 }
 
 /// The degrees of freedom that hold what the fixed ones leave free of the rigid motions of some points, in the order in which
@@ -175,19 +173,19 @@ mod tests {
 
     /// A square of four points; supports given by their degrees of freedom (point, component). No rotation can be held where
     /// the points have none.
-    fn holds_of_square(rotation_is_free: bool, fixed: &[usize]) -> Vec<usize> {
+    fn holds_of_square(turn: Turn, fixed: &[usize]) -> Vec<usize> {
         let positions = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
         let points = [0, 1, 2, 3];
-        let motions = RigidMotions::of(&positions, &points, rotation_is_free);
-        let can_hold = |dof: usize| rotation_is_free || dof % COMPONENTS < 2;
+        let motions = RigidMotions::of(&positions, &points, turn);
+        let can_hold = |dof: usize| turn == Turn::OfPointsAlong || dof % COMPONENTS < 2;
         holds(&points, &motions, |dof| fixed.contains(&dof), can_hold)
     }
 
     /// Three gauges where the rotation is free, two where it costs energy: a third would be a support that nobody asked for.
     #[test]
     fn a_free_body_needs_as_many_gauges_as_it_has_free_motions() {
-        assert_eq!(holds_of_square(true, &[]).len(), 3);
-        let two = holds_of_square(false, &[]);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[]).len(), 3);
+        let two = holds_of_square(Turn::Costly, &[]);
         assert_eq!(two, [0, 1], "x and y of the first point");
     }
 
@@ -195,18 +193,25 @@ mod tests {
     /// heights holds the rotation as well, which is one support too many where it needs none.
     #[test]
     fn supports_take_the_place_of_gauges() {
-        assert_eq!(holds_of_square(false, &[0]), [1]);
-        assert_eq!(holds_of_square(false, &[0, 9]), [1]);
-        assert_eq!(holds_of_square(false, &[0, 4]), [0; 0]);
-        assert_eq!(holds_of_square(true, &[0]).len(), 2);
-        assert_eq!(holds_of_square(true, &[0, 9]).len(), 1);
-        assert_eq!(holds_of_square(true, &[0, 4, 9]), [0; 0]);
+        assert_eq!(holds_of_square(Turn::Costly, &[0]), [1]);
+        assert_eq!(holds_of_square(Turn::Costly, &[0, 9]), [1]);
+        assert_eq!(holds_of_square(Turn::Costly, &[0, 4]), [0; 0]);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0]).len(), 2);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 9]).len(), 1);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 4, 9]), [0; 0]);
     }
 
     /// A held rotation of a point holds no translation, and nothing at all where the body does not turn freely.
     #[test]
     fn a_held_rotation_of_a_point_is_no_translation() {
-        assert_eq!(holds_of_square(true, &[2]).len(), 2);
-        assert_eq!(holds_of_square(false, &[2]), [0, 1]);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[2]).len(), 2);
+        assert_eq!(holds_of_square(Turn::Costly, &[2]), [0, 1]);
+    }
+
+    /// Where rotations of points have no stiffness, a clamped point still lets the body turn about it.
+    #[test]
+    fn a_held_rotation_without_stiffness_holds_nothing() {
+        assert_eq!(holds_of_square(Turn::OfPositions, &[0, 1, 2]).len(), 1);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 1, 2]).len(), 0);
     }
 }

@@ -8,8 +8,7 @@
 use ligament_model::BondSystem;
 
 use crate::boundary::Boundary;
-use crate::connectivity::rigid_motions::RigidMotions;
-use crate::connectivity::{Fragments, Hold, degrees_of_freedom, rotation_is_free};
+use crate::connectivity::{Fragments, Hold, degrees_of_freedom, rigid_motions};
 use crate::unknowns::{Component, Unknowns};
 
 /// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
@@ -29,8 +28,6 @@ pub struct FreeBody {
     pub motions: Vec<FreeMotion>,
     /// Degrees of freedom (of 3 n_points) held as gauges, ascending.
     pub gauges: Vec<usize>,
-    /// Largest work of the loads on a free motion relative to the sizes of the loads.
-    pub imbalance: f64,
 }
 
 /// A rigid motion that nothing holds.
@@ -41,12 +38,21 @@ pub struct FreeMotion {
     /// What the given loads at load factor 1 exert along it, N; for the rotation the moment about the place that is held, or
     /// the middle of the points, N m.
     pub load: f64,
+    /// Its work relative to the sizes of the loads on the part, 0 to 1.
+    pub imbalance: f64,
+}
+
+impl FreeMotion {
+    /// Whether the loads are in equilibrium along it.
+    pub fn is_balanced(&self) -> bool {
+        self.imbalance <= BALANCE_TOLERANCE
+    }
 }
 
 impl FreeBody {
     /// Whether the loads are in equilibrium without supports, so that gauges carry nothing.
     pub fn is_balanced(&self) -> bool {
-        self.imbalance <= BALANCE_TOLERANCE
+        self.motions.iter().all(FreeMotion::is_balanced)
     }
 }
 
@@ -83,34 +89,33 @@ fn free_body(
     holds: &[Hold],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
-    let motions = RigidMotions::of(
-        &system.cloud.positions,
-        points,
-        rotation_is_free(system, points),
-    );
+    let motions = rigid_motions(system, points);
     let spanned = motions.spanned_by(points, |dof| boundary.prescribed[dof].is_some());
     let loads = || degrees_of_freedom(points).map(|dof| (dof, boundary.force[dof]));
-    let mut free = Vec::new();
-    let mut imbalance: f64 = 0.0;
-    for (component, motion) in Component::ALL.into_iter().zip(motions.free(&spanned)) {
-        let Some(motion) = motion else { continue };
+    let free = Component::ALL.into_iter().zip(motions.free(&spanned));
+    let free = free.filter_map(|(component, motion)| Some((component, motion?)));
+    let told = free.map(|(component, motion)| {
         let [load, size] = motions.work(motion, loads());
-        if load != 0.0 {
-            let length = motion
-                .iter()
-                .fold(0.0, |largest: f64, part| largest.max(part.abs()));
-            imbalance = imbalance.max(load.abs() / (size * length));
+        let length = motion
+            .iter()
+            .fold(0.0, |largest: f64, part| largest.max(part.abs()));
+        FreeMotion {
+            component,
+            load,
+            imbalance: if load == 0.0 {
+                0.0
+            } else {
+                load.abs() / (size * length)
+            },
         }
-        free.push(FreeMotion { component, load });
-    }
+    });
     let mut gauges: Vec<usize> = holds.iter().map(|hold| hold.degree_of_freedom).collect();
     gauges.sort_unstable();
     FreeBody {
         points: points.len(),
         is_whole: points.len() == system.cloud.len(),
         first: points[0],
-        motions: free,
+        motions: told.collect(),
         gauges,
-        imbalance,
     }
 }

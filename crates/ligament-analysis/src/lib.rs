@@ -20,6 +20,7 @@ pub mod modal;
 pub mod probe;
 pub mod state;
 pub mod stiffness;
+pub mod stress;
 pub mod supports;
 pub mod unknowns;
 

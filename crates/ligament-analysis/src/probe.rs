@@ -6,6 +6,7 @@ use ligament_model::bonds::precrack::PreCrack;
 use crate::equilibrium::Balanced;
 use crate::fields;
 use crate::state::State;
+use crate::stress::virial;
 use crate::unknowns::{COMPONENTS, Component};
 
 /// A column of the history.
@@ -52,6 +53,19 @@ pub enum PointField {
     Motion(Component),
     /// Strain energy density, J/m^3.
     StrainEnergyDensity,
+    /// A component of the virial stress, Pa.
+    Stress(StressComponent),
+}
+
+/// A component of a symmetric stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StressComponent {
+    /// sigma_xx.
+    Xx,
+    /// sigma_yy.
+    Yy,
+    /// sigma_xy.
+    Xy,
 }
 
 impl Reading {
@@ -95,6 +109,11 @@ impl Reading {
                 PointField::Damage => fields::point_damage(system, &state.intact, *point),
                 PointField::Motion(component) => {
                     state.displacement[COMPONENTS * *point as usize + component.index()]
+                }
+                PointField::Stress(component) => {
+                    let deformations = &balanced.deformations;
+                    let stress = virial::point_stress(system, &state.intact, deformations, *point);
+                    stress[*component as usize]
                 }
                 PointField::StrainEnergyDensity => fields::point_energy_density(
                     system,

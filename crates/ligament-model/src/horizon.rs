@@ -21,6 +21,13 @@ impl Horizons {
         }
     }
 
+    /// The same radius (m) for each of `n_points` points.
+    pub fn unified(radius: f64, n_points: usize) -> Self {
+        Self {
+            radius: vec![radius; n_points],
+        }
+    }
+
     /// Whether something at this distance from the point lies in the point's horizon.
     pub fn contains(&self, point: u32, distance: f64) -> bool {
         distance <= self.radius[point as usize] * (1.0 + INCLUSION_TOLERANCE)

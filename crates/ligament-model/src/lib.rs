@@ -1,10 +1,10 @@
 //! The discrete peridynamic model.
 //!
-//! A mesh becomes a bond system in stages; each stage is a function from immutable values to one new value:
+//! A mesh or a lattice becomes a bond system in stages; each stage is a function from immutable values to one new value:
 //!
 //! | stage | value | module |
 //! |---|---|---|
-//! | lumping of cell volumes | [`PointCloud`] | [`cloud`] |
+//! | points with their volumes | [`PointCloud`] | [`cloud`] |
 //! | horizon of each point | [`Horizons`] | [`horizon`] |
 //! | dual-horizon bonds | [`BondSet`] | [`bonds`] |
 //! | micromoduli | [`BondStiffness`] | [`law`] |
@@ -26,14 +26,17 @@ pub mod law;
 pub mod mass;
 pub mod material;
 pub mod moduli;
+pub mod shape;
 pub mod system;
 
 pub use bonds::{BondSet, Incidence};
 pub use cloud::PointCloud;
+pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use element::ElementKind;
 pub use horizon::Horizons;
 pub use law::BondStiffness;
 pub use mass::LumpedMass;
 pub use material::{Elasticity, Isotropic, Material, Orthotropic, Plane};
+pub use shape::Shape;
 pub use system::BondSystem;

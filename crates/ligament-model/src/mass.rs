@@ -18,7 +18,7 @@ impl LumpedMass {
             .map(|point| cloud.mean_property(point, densities) * cloud.volumes[point])
             .collect();
         let inertia = (mass.iter().enumerate())
-            .map(|(point, mass)| mass * cloud.gyration(point))
+            .map(|(point, mass)| mass * cloud.squared_gyration(point as u32))
             .collect();
         Self { mass, inertia }
     }

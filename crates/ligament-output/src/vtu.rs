@@ -60,6 +60,13 @@ pub enum FieldValues<'a> {
     Vector(&'a [[f64; 3]]),
     /// Integers, such as numbers of bonds or flags.
     Integer(&'a [i64]),
+    /// Named components, such as those of a stress, one point or cell after the other.
+    Components {
+        /// Their names, which readers show.
+        names: &'a [&'a str],
+        /// The values, shape (n, number of names).
+        values: &'a [f64],
+    },
 }
 
 impl FieldValues<'_> {
@@ -68,6 +75,7 @@ impl FieldValues<'_> {
             Self::Scalar(values) => values.len(),
             Self::Vector(values) => values.len(),
             Self::Integer(values) => values.len(),
+            Self::Components { names, values } => values.len() / names.len().max(1),
         }
     }
 }
@@ -100,11 +108,20 @@ impl<'a> Field<'a> {
         Self { name, values }
     }
 
+    /// A field of named components, shape (n, number of names).
+    pub fn components(name: &'a str, names: &'a [&'a str], values: &'a [f64]) -> Self {
+        let values = FieldValues::Components { names, values };
+        Self { name, values }
+    }
+
     fn to_xml(self) -> String {
         match self.values {
-            FieldValues::Scalar(values) => float_array(self.name, 1, values),
-            FieldValues::Vector(values) => float_array(self.name, 3, values.as_flattened()),
+            FieldValues::Scalar(values) => float_array(self.name, 1, &[], values),
+            FieldValues::Vector(values) => float_array(self.name, 3, &[], values.as_flattened()),
             FieldValues::Integer(values) => integer_array(self.name, values),
+            FieldValues::Components { names, values } => {
+                float_array(self.name, names.len(), names, values)
+            }
         }
     }
 }
@@ -160,7 +177,7 @@ impl UnstructuredGrid<'_> {
         push_fields(&mut xml, "CellData", self.cell_fields);
         let points: Vec<f64> = self.points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
         xml.push_str("<Points>\n");
-        xml.push_str(&float_array("Points", 3, &points));
+        xml.push_str(&float_array("Points", 3, &[], &points));
         xml.push_str("</Points>\n<Cells>\n");
         xml.extend(cell_arrays(self.cells));
         xml.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
@@ -196,12 +213,24 @@ fn check_fields(
     Ok(())
 }
 
-fn float_array(name: &str, n_components: usize, values: &[f64]) -> String {
-    data_array(name, "Float64", n_components, values, f64::to_le_bytes)
+fn float_array(
+    name: &str,
+    n_components: usize,
+    component_names: &[&str],
+    values: &[f64],
+) -> String {
+    data_array(
+        name,
+        "Float64",
+        n_components,
+        component_names,
+        values,
+        f64::to_le_bytes,
+    )
 }
 
 fn integer_array(name: &str, values: &[i64]) -> String {
-    data_array(name, "Int64", 1, values, i64::to_le_bytes)
+    data_array(name, "Int64", 1, &[], values, i64::to_le_bytes)
 }
 
 fn cell_arrays(cells: &[Cell]) -> [String; 3] {
@@ -215,7 +244,7 @@ fn cell_arrays(cells: &[Cell]) -> [String; 3] {
     [
         integer_array("connectivity", &connectivity),
         integer_array("offsets", &offsets),
-        data_array("types", "UInt8", 1, &types, u8::to_le_bytes),
+        data_array("types", "UInt8", 1, &[], &types, u8::to_le_bytes),
     ]
 }
 

@@ -57,8 +57,10 @@ fn points_cells_and_fields_read_back() {
     let damage = [0.0, -0.0, f64::MIN_POSITIVE / 4.0, f64::INFINITY, 0.1 + 0.2];
     let displacement = [1.0, 2.0, 3.0, 4.0, 5.0].map(|x: f64| [x / 3.0, -x / 7.0, 0.0]);
     let material = [1, -2, i64::MAX, i64::MIN];
+    let stress: Vec<f64> = (0..20).map(|k| f64::from(k) / 3.0).collect();
     let point_fields = [
         Field::scalar("damage <&\"'>", &damage),
+        Field::components("stress", &["xx", "yx", "yy", "xy"], &stress),
         Field::vector("displacement", &displacement),
     ];
     write_vtu(
@@ -90,6 +92,13 @@ fn points_cells_and_fields_read_back() {
     let (values, n_components) = array(&piece.data.point, "displacement");
     assert_eq!(*values, IOBuffer::F64(displacement.as_flattened().to_vec()));
     assert_eq!(n_components, 3);
+    let (values, n_components) = array(&piece.data.point, "stress");
+    assert_eq!((values, n_components), (&IOBuffer::F64(stress), 4));
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(
+        text.contains(" Scalars=\"damage &lt;&amp;&quot;&apos;&gt;\" Vectors=\"displacement\">"),
+        "{text}"
+    );
     let (values, n_components) = array(&piece.data.cell, "material");
     assert_eq!(
         (values, n_components),

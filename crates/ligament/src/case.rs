@@ -1,10 +1,11 @@
 //! Case files: what to compute, in TOML.
 //!
-//! A case names a mesh, materials, the bond model, supports and loads, and optionally pre-cracks,
-//! probes, how bonds break, or that natural modes are wanted. All values are in SI units. [`CaseFile::load`] reads and checks one;
-//! every fault is reported with its line, column and key path.
+//! A case names a body, materials, the bond model, supports and loads, and optionally pre-cracks, probes,
+//! how bonds break, or that natural modes are wanted. All values are in SI units. [`CaseFile::load`] reads
+//! and checks one; every fault is reported with its line, column and key path.
 
 mod analysis;
+mod body_section;
 mod conditions;
 mod correction;
 mod decode;
@@ -13,6 +14,7 @@ mod fault;
 mod file;
 mod fracture;
 mod key_path;
+mod lattice_section;
 mod load;
 mod material;
 mod mesh_section;
@@ -30,11 +32,13 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 pub use analysis::{Analysis, MOST_MODES, Modal, Rotations};
+pub use body_section::BodySection;
 pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
-pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop};
+pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
+pub use lattice_section::{CellSet, Circle, Hole, LatticeSection, MOST_CELLS};
 pub use load::{Action, Load, Profile};
 pub use material::{Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
@@ -56,8 +60,9 @@ pub struct Case {
     pub title: String,
     /// What is computed.
     pub analysis: Analysis,
-    /// The meshed body.
-    pub mesh: MeshSection,
+    /// The body: a mesh or a lattice.
+    #[serde(flatten)]
+    pub body: BodySection,
     /// The materials: one without a group for the whole body, or one for each of some groups.
     #[serde(rename = "material", serialize_with = "material::serialize")]
     pub materials: Vec<Material>,
@@ -99,7 +104,8 @@ struct RawCase {
     #[serde(default)]
     title: String,
     analysis: Option<Analysis>,
-    mesh: mesh_section::RawMesh,
+    mesh: Option<mesh_section::RawMesh>,
+    lattice: Option<lattice_section::RawLattice>,
     #[serde(rename = "material")]
     _material: serde::de::IgnoredAny,
     model: model::RawModel,
@@ -128,6 +134,7 @@ impl Case {
         let raw: RawCase =
             decode::decode(document, &KeyPath::default()).map_err(name_missing_section)?;
         let section = |name: &str| KeyPath::default().child(name);
+        let body = BodySection::of(raw.mesh, raw.lattice, folder)?;
         let materials = match document.get("material") {
             Some(node) => material::read(node)?,
             None => return Err(missing_section("material")),
@@ -160,7 +167,7 @@ impl Case {
         let case = Self {
             title: raw.title,
             analysis,
-            mesh: raw.mesh.check(&section("mesh"), folder)?,
+            body,
             materials,
             correction: raw.correction.check(&section("correction"), &model)?,
             model,
@@ -170,7 +177,10 @@ impl Case {
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
             solver: raw.solver.check(&section("solver"))?,
-            output: raw.output.unwrap_or_default().complete(fracture.as_ref()),
+            output: raw
+                .output
+                .unwrap_or_default()
+                .complete(&section("output"), fracture.as_ref())?,
             fracture,
             modal,
         };
@@ -179,7 +189,7 @@ impl Case {
     }
 
     fn check_across_sections(&self) -> Result<(), KeyFault> {
-        material::require_suitable(&self.materials, self.model.law, self.mesh.plane)?;
+        material::require_suitable(&self.materials, self.model.law, self.body.plane())?;
         if self.fracture.is_some() {
             material::require_strengths(&self.materials)?;
         }
@@ -226,7 +236,6 @@ fn name_missing_section(fault: KeyFault) -> KeyFault {
 
 fn missing_section(name: &str) -> KeyFault {
     let (section, purpose) = match name {
-        "mesh" => ("[mesh]".to_owned(), "at least `file`, the Gmsh file"),
         "material" => ("[material]".to_owned(), "`young` (in Pa) and `poisson`"),
         "model" => ("[model]".to_owned(), "`law` and `horizon_factor`"),
         _ => (

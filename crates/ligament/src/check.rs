@@ -11,10 +11,10 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::gauges;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::{Boundary, Equilibrium};
-use ligament_mesh::Mesh;
 use ligament_model::Elasticity;
-use ligament_output::results::{MeshCells, point_grid};
+use ligament_output::results::point_grid;
 
+use crate::body::Body;
 use crate::case::{CaseFile, Control, Steps};
 use crate::gauges::words;
 use crate::progress::{Progress, ProgressMode};
@@ -71,8 +71,14 @@ fn check_here(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join("points.vtu");
-        let (cells, cloud) = (MeshCells::from(&model.mesh), &model.system.cloud);
-        point_grid(&path, &cells, &cloud.volumes, &cloud.spacing, &model.fixed)?;
+        let cloud = &model.system.cloud;
+        point_grid(
+            &path,
+            &model.body.grid(),
+            &cloud.volumes,
+            &cloud.spacing,
+            &model.fixed,
+        )?;
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())
@@ -86,7 +92,8 @@ fn check_loading(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
     let problem = Problem {
         system: &model.system,
@@ -102,10 +109,9 @@ fn check_loading(
     };
 
     write_model(out, case, model)?;
-    write_boundary(out, &model.mesh, &boundary, &probes)?;
-    let cells = MeshCells::from(&model.mesh);
-    for body in gauges::of_intact_body(&model.system, &boundary) {
-        writeln!(out, "  not held: {}", words(&body, &cells))?;
+    write_boundary(out, &*model.body, &boundary, &probes)?;
+    for free in gauges::of_intact_body(&model.system, &boundary) {
+        writeln!(out, "  not held: {}", words(&free, &*model.body))?;
     }
     write_loading(out, case)?;
     if let Some(equilibrium) = &equilibrium {
@@ -115,7 +121,7 @@ fn check_loading(
 }
 
 /// Writes what is known before supports and loads.
-fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     writeln!(
         out,
         "{}",
@@ -125,10 +131,11 @@ fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
             &case.case.title
         }
     )?;
-    write_mesh(out, model)?;
+    let volume = model.system.cloud.volumes.iter().sum();
+    model.body.write(out, volume)?;
     write_materials(out, case, model)?;
     write_bonds(out, case, model)?;
-    write_energy_ratios(out, model)
+    Ok(write_energy_ratios(out, model)?)
 }
 
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
@@ -140,35 +147,6 @@ fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
     writeln!(out, "  time, all             {total:.3} s")?;
     if let Some(bytes) = stages.last().and_then(|stage| stage.peak_bytes) {
         writeln!(out, "  peak memory           {:.1} MB", bytes as f64 / 1e6)?;
-    }
-    Ok(())
-}
-
-fn write_mesh(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let mesh = &model.mesh;
-    writeln!(out, "mesh")?;
-    writeln!(
-        out,
-        "  nodes, cells          {}, {}",
-        mesh.positions.len(),
-        mesh.cells.len()
-    )?;
-    writeln!(out, "  area                  {:.6e} m^2", mesh.area())?;
-    writeln!(
-        out,
-        "  volume of the points  {:.6e} m^3",
-        model.system.cloud.volumes.iter().sum::<f64>()
-    )?;
-    for group in &mesh.groups {
-        let kind = ["points", "curve", "surface"]
-            .get(usize::from(group.dimension))
-            .unwrap_or(&"group");
-        writeln!(
-            out,
-            "  group {:<15} {kind} of {} nodes",
-            group.name,
-            group.nodes.len()
-        )?;
     }
     Ok(())
 }
@@ -222,6 +200,9 @@ fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
         model.system.bonds.len(),
         model.cut_bonds
     )?;
+    if !model.body.holes().is_empty() {
+        writeln!(out, "  pairs across holes    {}", model.across_holes)?;
+    }
     writeln!(out, "  points with no_fail   {}", model.no_fail_points)?;
     spread(
         out,
@@ -262,13 +243,13 @@ fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 
 fn write_boundary(
     out: &mut dyn Write,
-    mesh: &Mesh,
+    body: &dyn Body,
     boundary: &Boundary,
     probes: &[Probe],
 ) -> io::Result<()> {
     writeln!(out, "supports and loads")?;
     for group in &boundary.groups {
-        write_group(out, mesh, &group.name, &group.points)?;
+        write_group(out, body, &group.name, &group.points)?;
     }
     let control = &boundary.control;
     let (count, size) = (control.points.len(), control.magnitude);
@@ -279,9 +260,9 @@ fn write_boundary(
     for probe in probes {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {
-                points.map(|point| place(mesh, point)).join(" to ")
+                points.map(|point| body.place(point)).join(" to ")
             }
-            Reading::Field { point, .. } => place(mesh, *point),
+            Reading::Field { point, .. } => body.place(*point),
             Reading::SectionForce { bonds, .. } => format!("{} bonds", bonds.len()),
         };
         writeln!(out, "  probe {:<15} {reads}", probe.name)?;
@@ -289,9 +270,9 @@ fn write_boundary(
     Ok(())
 }
 
-fn write_group(out: &mut dyn Write, mesh: &Mesh, name: &str, points: &[u32]) -> io::Result<()> {
+fn write_group(out: &mut dyn Write, body: &dyn Body, name: &str, points: &[u32]) -> io::Result<()> {
     let where_at = match points {
-        [only] => place(mesh, *only),
+        [only] => body.place(*only),
         points => format!("{} points", points.len()),
     };
     writeln!(out, "  {name:<21} {where_at}")
@@ -309,10 +290,4 @@ fn write_loading(out: &mut dyn Write, case: &CaseFile) -> io::Result<()> {
         }
     };
     writeln!(out, "  followed in           {loading}")
-}
-
-fn place(mesh: &Mesh, point: u32) -> String {
-    let [x, y] = mesh.positions[point as usize];
-    let tag = mesh.node_tags[point as usize];
-    format!("node {tag} at ({x:.6}, {y:.6})")
 }

@@ -2,22 +2,26 @@
 
 use ligament_analysis::gauges::{FreeBody, FreeMotion};
 use ligament_analysis::{COMPONENTS, Component};
-use ligament_output::results::MeshCells;
+
+use crate::body::Body;
 
 /// Which rigid motions are free, what is held instead, and whether the loads are in equilibrium without it.
-pub fn words(body: &FreeBody, cells: &MeshCells) -> String {
-    let what = if body.is_whole {
+pub fn words(free: &FreeBody, body: &dyn Body) -> String {
+    let what = if free.is_whole {
         "the body".to_owned()
     } else {
-        let tag = cells.node_tags[body.first as usize];
-        format!("{} points, the first of them node {tag},", body.points)
+        let first = body.label(free.first);
+        format!("{} points, the first of them {first},", free.points)
     };
-    let motions: Vec<&str> = body.motions.iter().map(|it| motion(it.component)).collect();
-    let gauges: Vec<String> = body.gauges.iter().map(|&dof| gauge(dof, cells)).collect();
-    let loads = if body.is_balanced() {
+    let motions: Vec<&str> = free.motions.iter().map(|it| motion(it.component)).collect();
+    let gauges: Vec<String> = free.gauges.iter().map(|&dof| gauge(dof, body)).collect();
+    let loads = if free.is_balanced() {
         "the loads on it are in equilibrium, so that these gauges carry no force".to_owned()
     } else {
-        let loads: Vec<String> = body.motions.iter().map(load).collect();
+        let loads: Vec<String> = (free.motions.iter())
+            .filter(|it| !it.is_balanced())
+            .map(load)
+            .collect();
         format!(
             "the loads on it are NOT in equilibrium ({}), and these gauges carry what is missing",
             loads.join(", ")
@@ -46,12 +50,8 @@ fn load(motion: &FreeMotion) -> String {
     }
 }
 
-fn gauge(degree_of_freedom: usize, cells: &MeshCells) -> String {
-    let point = degree_of_freedom / COMPONENTS;
-    let [x, y] = cells.positions[point];
+fn gauge(degree_of_freedom: usize, body: &dyn Body) -> String {
+    let place = body.place((degree_of_freedom / COMPONENTS) as u32);
     let component = Component::of(degree_of_freedom).name();
-    format!(
-        "{component} of node {} at ({x:.6}, {y:.6})",
-        cells.node_tags[point]
-    )
+    format!("{component} of {place}")
 }

@@ -4,6 +4,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+pub mod body;
 pub mod case;
 pub mod check;
 pub mod cli;

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_analysis::modal::{ModalAnalysis, ModalProblem};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::results::{MeshCells, write_modes};
+use ligament_output::results::write_modes;
 
 use crate::case::{CaseFile, Modal};
 use crate::modal_summary::ModalSummary;
@@ -24,7 +24,7 @@ pub(crate) fn find_modes(
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<ModalSummary> {
-    let supports = resolve::supports(case, &model.mesh, &model.system.cloud)?;
+    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
     let mass = resolve::mass(case, &model.system.cloud);
     let problem = ModalProblem {
         system: &model.system,
@@ -41,12 +41,11 @@ pub(crate) fn find_modes(
     // Nothing is written, and nothing replaced, before the modes are there.
     let folder = ResultFolder::create(out, force)?;
     folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    let cells = MeshCells::from(&model.mesh);
     stages.time("output", || {
         let (cloud, fixed) = (&model.system.cloud, &model.fixed);
         write_modes(
             &folder,
-            &cells,
+            &model.body.grid(),
             &cloud.volumes,
             &cloud.spacing,
             fixed,

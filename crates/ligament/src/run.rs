@@ -1,4 +1,4 @@
-//! The method, on one page: from a mesh to a broken specimen, or to its modes.
+//! The method, on one page: from a mesh or a lattice to a broken specimen, or to its modes.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -6,17 +6,17 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::{Observer, SetupError};
-use ligament_mesh::Mesh;
+use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::strength::critical_stretches;
 use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::results::{FixedFields, MeshCells, ResultWriter, Time, WriteRule};
+use ligament_output::results::{FixedFields, ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, Control, CorrectionDomain, Fracture};
+use crate::body::{self, Body};
+use crate::case::{CaseError, CaseFile, Control, CorrectionDomain, Fracture, StressField};
 use crate::formulation;
-use crate::inspect::read_mesh;
 use crate::modal_summary::ModalSummary;
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
@@ -32,8 +32,8 @@ pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
 /// The discrete model of a case: all that comes before the first equation.
 #[derive(Debug)]
 pub struct Model {
-    /// The mesh.
-    pub mesh: Mesh,
+    /// The body.
+    pub body: Box<dyn Body>,
     /// Points and corrected bonds.
     pub system: BondSystem,
     /// Fields that a run does not change.
@@ -44,6 +44,8 @@ pub struct Model {
     pub correction_range: (f64, f64),
     /// Critical stretch of each bond, shape (n_bonds).
     pub critical_stretch: Vec<f64>,
+    /// Number of pairs of points that would be bonded but for a hole between them.
+    pub across_holes: usize,
     /// Number of bonds that pre-cracks cut.
     pub cut_bonds: usize,
     /// Number of points whose bonds never break.
@@ -52,7 +54,7 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
-/// Mesh in, bond system out.
+/// Mesh or lattice in, bond system out.
 pub fn build_model(
     case: &CaseFile,
     stages: &mut Stages,
@@ -60,14 +62,17 @@ pub fn build_model(
 ) -> anyhow::Result<Model> {
     let plane = resolve::plane(case);
     let materials = resolve::materials(case);
-    let mesh = stages.time("read mesh", || read_mesh(&case.case.mesh.file))?;
-    let material_of_cell = resolve::material_of_cell(case, &mesh)?;
-    let thickness = case.case.mesh.thickness;
+    let body = body::of_case(case, stages)?;
+    let material_of_cell = resolve::material_of_cell(case, &*body)?;
+    let thickness = case.case.body.thickness();
     let cloud = stages.time("points", || {
-        PointCloud::from_mesh(&mesh, thickness, &material_of_cell, materials.len())
+        body.cloud(thickness, &material_of_cell, materials.len())
     });
-    let horizons = Horizons::from_spacing(&cloud.spacing, case.case.model.horizon_factor);
-    let bonds = stages.time("bonds", || BondSet::search(&cloud, &horizons));
+    let horizons = resolve::horizons(case, &cloud);
+    let (bonds, across_holes) = stages.time("bonds", || {
+        around_holes(BondSet::search(&cloud, &horizons), &*body, &cloud)
+    });
+    require_neighbours(case, &*body, &bonds)?;
     progress.stage(&format!("{} points, {} bonds", cloud.len(), bonds.len()));
     let precracks = resolve::precracks(case);
     let (is_cut, touched, precrack_share) = stages.time("pre-cracks", || {
@@ -88,7 +93,7 @@ pub fn build_model(
     let report = correction.report;
     progress.stage(&summary::correction_line(case, report.as_ref()));
 
-    let no_fail = resolve::no_fail(case, &mesh, &cloud)?;
+    let no_fail = resolve::no_fail(case, &*body, &cloud)?;
     let correction_range = correction.domain_factor_range();
     let fixed = FixedFields {
         horizon: horizons.radius,
@@ -104,16 +109,50 @@ pub fn build_model(
         (system, critical_stretch)
     });
     Ok(Model {
-        warnings: warnings::of_model(case, &mesh, report.as_ref(), &fixed, touched),
+        warnings: warnings::of_model(
+            case,
+            &*body,
+            &system.cloud.spacing,
+            report.as_ref(),
+            &fixed,
+            touched,
+        ),
         correction: report,
         correction_range,
+        across_holes,
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
         no_fail_points: no_fail.iter().filter(|marked| **marked).count(),
-        mesh,
+        body,
         system,
         fixed,
         critical_stretch,
     })
+}
+
+/// The bonds without those across holes of the body, and the number of those.
+fn around_holes(bonds: BondSet, body: &dyn Body, cloud: &PointCloud) -> (BondSet, usize) {
+    if body.holes().is_empty() {
+        return (bonds, 0);
+    }
+    let crosses = bonds_across(body.holes(), &bonds, cloud);
+    let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
+    let across = crosses.iter().filter(|crosses| **crosses).count();
+    (bonds.retained(&keep), across)
+}
+
+/// The error of points that have no neighbour at all: no correction gives them a stiffness.
+fn require_neighbours(case: &CaseFile, body: &dyn Body, bonds: &BondSet) -> Result<(), CaseError> {
+    let lone = bonds.lone_points();
+    let Some(&first) = lone.first() else {
+        return Ok(());
+    };
+    let reason = format!(
+        "{} of {} points have no neighbour in their horizon (the first is {}): they need a larger horizon, or must go",
+        lone.len(),
+        bonds.incidence.n_points(),
+        body.place(first)
+    );
+    Err(case.error("model", reason))
 }
 
 /// Bonds that pre-cracks leave, with their stiffness and correction.
@@ -219,7 +258,8 @@ fn follow_loads(
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
-    let boundary = resolve::boundary(case, &model.mesh, &model.system.cloud)?;
+    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
     let problem = Problem {
         system: &model.system,
@@ -231,18 +271,25 @@ fn follow_loads(
     // Nothing is written, and nothing replaced, before all input was found good.
     let folder = ResultFolder::create(out, force)?;
     folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    let cells = MeshCells::from(&model.mesh);
+    let grid = model.body.grid();
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
+        virial: case.case.output.stress.contains(&StressField::Virial),
+        traction: case.case.output.stress.contains(&StressField::Traction),
         time: match case.case.fracture.as_ref().map(|it| &it.control) {
             Some(Control::Event) => Time::Step,
             Some(Control::Stepped(_)) | None => Time::Load,
         },
     };
     let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
-    let writer = ResultWriter::new(&folder, &cells, ends, fixed, rule, &boundary, &probes)?;
-    let mut watch = Watch::new(writer, &mut progress, &cells, case.case.fracture.as_ref());
+    let writer = ResultWriter::new(&folder, &grid, ends, fixed, rule, &boundary, &probes)?;
+    let mut watch = Watch::new(
+        writer,
+        &mut progress,
+        &*model.body,
+        case.case.fracture.as_ref(),
+    );
     let outcome: Outcome = stages.time("solution", || match &case.case.fracture {
         None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut watch),
         Some(fracture) => break_bonds(&problem, &model.critical_stretch, fracture, &mut watch),

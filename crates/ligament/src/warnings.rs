@@ -1,10 +1,10 @@
 //! What a user should know about a model before trusting its results.
 
-use ligament_mesh::Mesh;
 use ligament_model::correction::CorrectionReport;
 use ligament_model::{Isotropic, Plane};
 use ligament_output::results::FixedFields;
 
+use crate::body::Body;
 use crate::case::{CaseFile, Law};
 use crate::resolve;
 
@@ -17,29 +17,22 @@ const ENERGY_TOLERANCE: f64 = 1e-4;
 /// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
 
-/// Warnings about the mesh, the horizon factor, the correction, pre-cracks (`touched`: bonds that only touch an end of
+/// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction, pre-cracks (`touched`: bonds that only touch an end of
 /// one) and the materials.
 pub fn of_model(
     case: &CaseFile,
-    mesh: &Mesh,
+    body: &dyn Body,
+    spacing: &[f64],
     correction: Option<&CorrectionReport>,
     fixed: &FixedFields,
     touched: usize,
 ) -> Vec<String> {
-    let mut warnings: Vec<String> = mesh
-        .remarks
-        .iter()
-        .map(|remark| format!("mesh: {remark}"))
-        .collect();
-    let factor = case.case.model.horizon_factor;
-    if correction.is_some() && factor < SMALLEST_SAFE_FACTOR {
-        warnings.push(format!(
-            "model.horizon_factor = {factor} is less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no \
-             fixed point, and peak loads then depend on the number of sweeps"
-        ));
+    let mut warnings = body.remarks();
+    if correction.is_some() {
+        warnings.extend(horizon_warning(case, spacing, fixed));
     }
     if let Some(correction) = correction.filter(|report| !report.converged) {
-        warnings.push(correction_warning(mesh, correction, fixed));
+        warnings.push(correction_warning(body, correction, fixed));
     }
     if touched > 0 {
         warnings.push(format!(
@@ -54,7 +47,32 @@ pub fn of_model(
     warnings
 }
 
-fn correction_warning(mesh: &Mesh, correction: &CorrectionReport, fixed: &FixedFields) -> String {
+fn horizon_warning(case: &CaseFile, spacing: &[f64], fixed: &FixedFields) -> Option<String> {
+    let smallest = (fixed.horizon.iter().zip(spacing))
+        .map(|(horizon, nearest)| horizon / nearest)
+        .fold(f64::INFINITY, f64::min);
+    let (factor, what) = match case.case.model.horizon_factor {
+        Some(factor) => (factor, format!("model.horizon_factor = {factor} is")),
+        None => (
+            smallest,
+            format!(
+                "the horizon is {smallest:.4} times the distance to the nearest point for some points,"
+            ),
+        ),
+    };
+    (factor < SMALLEST_SAFE_FACTOR).then(|| {
+        format!(
+            "{what} less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no fixed point, and peak loads then \
+             depend on the number of sweeps"
+        )
+    })
+}
+
+fn correction_warning(
+    body: &dyn Body,
+    correction: &CorrectionReport,
+    fixed: &FixedFields,
+) -> String {
     let [x, y, ..] = &fixed.energy_ratios;
     let error = |point: usize| (x[point] - 1.0).abs().max((y[point] - 1.0).abs());
     let off = (0..x.len())
@@ -63,16 +81,16 @@ fn correction_warning(mesh: &Mesh, correction: &CorrectionReport, fixed: &FixedF
     let worst = (0..x.len())
         .max_by(|&i, &j| error(i).total_cmp(&error(j)))
         .unwrap_or_default();
-    let [at_x, at_y] = mesh.positions[worst];
+    let [at_x, at_y] = body.positions()[worst];
     format!(
         "the domain correction did not converge in {} sweeps (last change {:.2e}): {off} of {} points have energies off \
-         by more than {ENERGY_TOLERANCE}, the worst by {:.1e} (node {} at {at_x:.4}, {at_y:.4}); more \
+         by more than {ENERGY_TOLERANCE}, the worst by {:.1e} ({} at {at_x:.4}, {at_y:.4}); more \
          correction.max_sweeps may help",
         correction.sweeps,
         correction.last_change,
         x.len(),
         error(worst),
-        mesh.node_tags[worst],
+        body.label(worst as u32),
     )
 }
 

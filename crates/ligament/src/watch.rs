@@ -2,13 +2,14 @@
 
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
-use ligament_output::results::{MeshCells, ResultWriter};
+use ligament_output::results::ResultWriter;
 
+use crate::body::Body;
 use crate::case::{Control, Fracture, Steps};
 use crate::gauges;
 use crate::progress::{Progress, StepLine};
 
-/// Notices that are shown while the run goes on, and nodes that a notice lists; all are in `summary.json`.
+/// Notices that are shown while the run goes on, and points that a notice lists; all are in `summary.json`.
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
@@ -17,7 +18,7 @@ pub struct Watch<'a> {
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    cells: &'a MeshCells,
+    body: &'a dyn Body,
 }
 
 impl<'a> Watch<'a> {
@@ -25,7 +26,7 @@ impl<'a> Watch<'a> {
     pub fn new(
         writer: ResultWriter<'a>,
         progress: &'a mut Progress,
-        cells: &'a MeshCells,
+        body: &'a dyn Body,
         fracture: Option<&Fracture>,
     ) -> Self {
         let total = match fracture.map(|fracture| &fracture.control) {
@@ -49,7 +50,7 @@ impl<'a> Watch<'a> {
             progress,
             notices: Vec::new(),
             last,
-            cells,
+            body,
         }
     }
 
@@ -58,11 +59,10 @@ impl<'a> Watch<'a> {
         self.notices
     }
 
-    /// A notice with points given by their node tags.
+    /// A notice with points given by their tags.
     fn words(&self, notice: &Notice) -> String {
-        let tag = |point: usize| self.cells.node_tags.get(point).copied().unwrap_or_default();
         match notice {
-            Notice::FreeBody(body) => gauges::words(body, self.cells),
+            Notice::FreeBody(body) => gauges::words(body, self.body),
             Notice::CameLoose {
                 step,
                 points,
@@ -70,22 +70,23 @@ impl<'a> Watch<'a> {
                 first,
             } => format!(
                 "step {step}: {points} points came loose, {motions} rigid motions of theirs are held from now on \
-                 (first at node {})",
-                tag(*first as usize)
+                 (first at {})",
+                self.body.label(*first)
             ),
             Notice::Mechanisms {
                 step,
                 degrees_of_freedom,
             } => {
-                let nodes: Vec<String> = degrees_of_freedom
+                let tags: Vec<String> = degrees_of_freedom
                     .iter()
                     .take(SHOWN)
-                    .map(|dof| tag(dof / COMPONENTS).to_string())
+                    .map(|dof| self.body.tag((dof / COMPONENTS) as u32).to_string())
                     .collect();
                 format!(
-                    "step {step}: {} mechanism(s) without stiffness held, at node(s) {}",
+                    "step {step}: {} mechanism(s) without stiffness held, at {}(s) {}",
                     degrees_of_freedom.len(),
-                    nodes.join(", ")
+                    self.body.tagged(),
+                    tags.join(", ")
                 )
             }
             Notice::Unstable { .. } | Notice::NegativeEnergy { .. } => notice.to_string(),

@@ -40,12 +40,13 @@ fn unknown_keys_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("horizon_factor", "horizont_factor"),
         "14:1: model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
-         `horizon_factor`? valid keys: `law`, `horizon_factor`"
+         `horizon_factor`? valid keys: `law`, `horizon_factor`, `horizon`, `calibration`, `rotational_stiffness`"
     );
     assert_eq!(
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
-         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`"
+         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, \
+         `moment`, `body_couple`, `profile`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
@@ -145,7 +146,7 @@ fn wrong_types_say_what_is_expected_and_in_which_unit() {
     );
     assert_eq!(
         error_with("\"nhpd\"", "3"),
-        "13:7: model.law: expected \"nhpd\", found the number 3"
+        "13:7: model.law: expected one of \"nhpd\", \"bbpd\", \"pds\", \"mppd\", \"mppd-beam\", \"orthotropic\", found the number 3"
     );
     assert_eq!(
         error_with("[[load]]", "[load]"),
@@ -176,7 +177,7 @@ fn lists_must_have_their_length() {
 fn wrong_words_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("\"nhpd\"", "\"nhdp\""),
-        "13:7: model.law: unknown value \"nhdp\"; did you mean \"nhpd\"? valid values: \"nhpd\""
+        "13:7: model.law: unknown value \"nhdp\"; did you mean \"nhpd\"? valid values: \"nhpd\", \"bbpd\", \"pds\", \"mppd\", \"mppd-beam\", \"orthotropic\""
     );
     assert_eq!(
         error_with("thickness = 0.02", "plane = \"strian\""),
@@ -342,7 +343,7 @@ fn keys_that_exclude_each_other_are_listed() {
             "force = { y = 1 }\nforce_per_length = { y = 1 }"
         ),
         "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-         `body_force`; found `force`, `force_per_length`"
+         `body_force`, `moment`, `body_couple`; found `force`, `force_per_length`"
     );
 }
 
@@ -364,7 +365,7 @@ fn supports_and_loads_that_make_no_sense_are_refused() {
     );
     assert_eq!(
         error_with(load, "at = [0, 0]\nbody_force = { y = 1 }"),
-        "32:6: load.0.at: a body force acts on a volume: give `group`, `box`, or neither for the \
+        "32:6: load.0.at: a body force or couple acts on a volume: give `group`, `box`, or neither for the \
          whole body"
     );
     assert_eq!(
@@ -400,6 +401,84 @@ fn probes_take_the_keys_of_their_kind() {
     assert_eq!(
         error_with("field = \"damage\"", "component = \"x\""),
         "46:13: probe.1.component: a probe `at` a point takes `field`, not `component`"
+    );
+}
+
+/// The material of the case with axes.
+const AXES: &str = "young_1 = 15e9\nyoung_2 = 5e9\npoisson_12 = 0.25\nshear_modulus = 4.8e9\n";
+
+#[test]
+fn materials_with_axes_need_their_law_and_all_constants() {
+    let isotropic = "young = 15e9\npoisson = 0.21\n";
+    assert_eq!(
+        error_with(isotropic, AXES),
+        "7:1: material: an orthotropic material needs model.law = \"orthotropic\": \"nhpd\" is a law for isotropic ones"
+    );
+    let with_law = |plane: &str, axes: &str| {
+        let text = TEXT
+            .replace(isotropic, axes)
+            .replace("law = \"nhpd\"", "law = \"orthotropic\"")
+            .replace("rule = \"sum\"", "")
+            .replace("thickness = 0.02", plane);
+        error_of(&text)
+    };
+    assert_eq!(
+        with_law("plane = \"strain\"", AXES),
+        "7:1: material.young_3: missing key `young_3`: it is required because of plane strain"
+    );
+    assert_eq!(
+        with_law("", &format!("{AXES}poisson_13 = 0.2\n")),
+        "7:1: material.young_3: missing key `young_3`: it is required because the other constants across the plane are given"
+    );
+    assert_eq!(
+        with_law("", &AXES.replace("0.25", "1.8")),
+        "10:14: material.poisson_12: must be so small that every strain costs energy (nu_12^2 < E_1/E_2, and the like across \
+         the plane), found 1.8"
+    );
+    assert_eq!(
+        with_law("", &AXES.replace("shear_modulus = 4.8e9\n", "")),
+        "7:1: material.shear_modulus: missing key `shear_modulus` in [material] (in Pa)"
+    );
+    assert_eq!(
+        with_law("", AXES),
+        "7:1: material: the strength criterion of [fracture] is one for isotropic materials"
+    );
+    assert_eq!(
+        error_with("young = 15e9\n", "group = \"rock\"\nyoung = 15e9\n"),
+        "8:9: material.group: the one [material] fills the whole body: for a part write [material.NAME]"
+    );
+}
+
+#[test]
+fn keys_that_a_law_or_a_correction_does_not_leave_open_are_refused() {
+    assert_eq!(
+        error_with(
+            "law = \"nhpd\"",
+            "law = \"nhpd\"\ncalibration = \"discrete\""
+        ),
+        "14:15: model.calibration: `calibration` does not apply with law = \"nhpd\": its constants are those of the paper; \
+         remove it"
+    );
+    assert_eq!(
+        error_with(
+            "law = \"nhpd\"",
+            "law = \"pds\"\nrotational_stiffness = \"beam\""
+        ),
+        "14:24: model.rotational_stiffness: `rotational_stiffness` does not apply with law = \"pds\": the law says what it is; \
+         remove it"
+    );
+    assert_eq!(
+        error_with("[correction]", "[correction]\nsurface = \"volume\""),
+        "18:8: correction.rule: `rule` does not apply with surface = \"volume\": only the domain correction is \
+         iterated; remove it"
+    );
+    let beam = TEXT
+        .replace("law = \"nhpd\"", "law = \"mppd-beam\"")
+        .replace("rule = \"sum\"", "surface = \"volume\"");
+    assert_eq!(
+        error_of(&beam),
+        "17:11: correction.surface: the discrete calibration has the surfaces in its sums: take \"none\", or \
+         model.calibration = \"integral\""
     );
 }
 

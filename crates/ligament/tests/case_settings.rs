@@ -33,7 +33,10 @@ fn set(setting: &str) -> Result<CaseFile, String> {
 #[test]
 fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;
-    assert_eq!((case.mesh.thickness, case.mesh.plane), (1.0, Plane::Stress));
+    assert_eq!(
+        (case.body.thickness(), case.body.plane()),
+        (1.0, Plane::Stress)
+    );
     assert_eq!(
         case.correction.iteration.map(|it| (it.rule, it.max_sweeps)),
         Some((CorrectionRule::Mean, 500))
@@ -172,7 +175,7 @@ fn overrides_change_make_and_replace_settings() {
         ],
     );
     let case = case.unwrap().case;
-    assert_eq!(case.mesh.plane, Plane::Strain);
+    assert_eq!(case.body.plane(), Plane::Strain);
     let pushed = Displacement {
         x: None,
         y: Some(-1e-6),
@@ -197,7 +200,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         (
             "model.horizont_factor=4",
             "model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
-             `horizon_factor`? valid keys: `law`, `horizon_factor`",
+             `horizon_factor`? valid keys: `law`, `horizon_factor`, `horizon`, `calibration`, `rotational_stiffness`",
         ),
         (
             "mesh.plane=strian",
@@ -242,7 +245,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         (
             "load.0.force.y=1",
             "load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-             `body_force`; found `displacement`, `force`",
+             `body_force`, `moment`, `body_couple`; found `displacement`, `force`",
         ),
     ] {
         assert_eq!(

@@ -15,12 +15,23 @@ pub(crate) struct RigidMotions<'a> {
     positions: &'a [[f64; 2]],
     pub(crate) centre: [f64; 2],
     pub(crate) radius: f64,
-    rotation_is_free: bool,
+    turn: Turn,
+}
+
+/// What the rotation of some points as a whole costs and moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// It costs energy: bonds between points without rotations resist it by their shear.
+    Costly,
+    /// It is free and moves the points; their own rotations have no stiffness, so that holding one holds nothing.
+    OfPositions,
+    /// It is free, and the points turn along.
+    OfPointsAlong,
 }
 
 impl<'a> RigidMotions<'a> {
     /// Those of `points` among `positions`.
-    pub(crate) fn of(positions: &'a [[f64; 2]], points: &[u32], rotation_is_free: bool) -> Self {
+    pub(crate) fn of(positions: &'a [[f64; 2]], points: &[u32], turn: Turn) -> Self {
         let chosen = || points.iter().map(|&point| positions[point as usize]);
         let centre =
             [0, 1].map(|axis| chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
@@ -31,23 +42,26 @@ impl<'a> RigidMotions<'a> {
             positions,
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
-            rotation_is_free,
+            turn,
         }
     }
 
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
-        if self.rotation_is_free { 3 } else { 2 }
+        match self.turn {
+            Turn::Costly => 2,
+            Turn::OfPositions | Turn::OfPointsAlong => 3,
+        }
     }
 
     /// How the motions (x, y, rotation) move a degree of freedom, m a m (a rotation: as an angle times the radius).
     fn row(&self, degree_of_freedom: usize) -> Motion {
         let position = self.positions[degree_of_freedom / COMPONENTS];
         let [x, y] = [0, 1].map(|axis| (position[axis] - self.centre[axis]) / self.radius);
-        let [turn_x, turn_y, turn] = if self.rotation_is_free {
-            [-y, x, 1.0]
-        } else {
-            [0.0; 3]
+        let [turn_x, turn_y, turn] = match self.turn {
+            Turn::Costly => [0.0; 3],
+            Turn::OfPositions => [-y, x, 0.0],
+            Turn::OfPointsAlong => [-y, x, 1.0],
         };
         match Component::of(degree_of_freedom) {
             Component::X => [1.0, 0.0, turn_x],

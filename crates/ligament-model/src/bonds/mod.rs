@@ -1,5 +1,6 @@
 //! Dual-horizon bonds: one record for each pair of points of which one lies in the horizon of the other.
 
+pub mod hole;
 pub mod precrack;
 mod search;
 
@@ -42,6 +43,13 @@ impl BondSet {
     pub fn neighbour(&self, bond: u32, point: u32) -> u32 {
         let [a, b] = self.ends[bond as usize];
         if a == point { b } else { a }
+    }
+
+    /// Points without any bond, ascending.
+    pub fn lone_points(&self) -> Vec<u32> {
+        (0..self.incidence.n_points() as u32)
+            .filter(|&point| self.incidence.of(point).is_empty())
+            .collect()
     }
 
     /// The bonds for which `keep` (n_bonds) is true.

@@ -7,15 +7,15 @@
 //!   closed polyline, is cut.
 
 use rayon::prelude::*;
-use robust::{Coord, orient2d};
 
 use super::BondSet;
 use crate::cloud::PointCloud;
+use crate::shape::orientation;
 
 /// A polyline that cuts bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreCrack {
-    /// Vertices in mesh-file coordinates, two or more, m.
+    /// Vertices in coordinates of the case, two or more, m.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -96,18 +96,6 @@ impl PreCrack {
             let touches_inner_q = side_q == 0.0 && (piece + 1 < last || closed);
             side_p * side_q < 0.0 || touches_inner_p || touches_inner_q
         })
-    }
-}
-
-/// Sign of the orientation of c seen from a to b, exact: positive on the left.
-fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
-    let determinant = orient2d(coord(a), coord(b), coord(c));
-    // Only the sign is exact; the product of two small determinants may underflow.
-    if determinant == 0.0 {
-        0.0
-    } else {
-        determinant.signum()
     }
 }
 

@@ -6,7 +6,7 @@
 //! | `iterations.csv` | a row a Newton-Raphson iteration |
 //! | `breaks.csv` | a row a broken bond, in the order of breaking |
 //! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
-//! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh |
+//! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
@@ -26,7 +26,7 @@ use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
 pub use modes::write_modes;
-pub use point_fields::{FixedFields, MeshCells, point_grid};
+pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid};
 use tables::Tables;
 
 /// What to write, and how often.
@@ -36,6 +36,10 @@ pub struct WriteRule {
     pub fields_every: usize,
     /// Whether to write the bonds as well.
     pub bonds: bool,
+    /// Whether the fields have the virial stress.
+    pub virial: bool,
+    /// Whether the fields have the traction on planes through the points.
+    pub traction: bool,
     /// What the collections call time.
     pub time: Time,
 }
@@ -52,7 +56,7 @@ pub enum Time {
 /// Writes the results of a run as its observer.
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
-    cells: &'a MeshCells,
+    grid: &'a BodyGrid,
     /// Ends of each bond, shape (n_bonds).
     ends: &'a [[u32; 2]],
     fixed: &'a FixedFields,
@@ -68,7 +72,7 @@ impl<'a> ResultWriter<'a> {
     /// Creates the tables of a run over bonds with the given ends (n_bonds) in a result folder.
     pub fn new(
         folder: &'a ResultFolder,
-        cells: &'a MeshCells,
+        grid: &'a BodyGrid,
         ends: &'a [[u32; 2]],
         fixed: &'a FixedFields,
         rule: WriteRule,
@@ -77,11 +81,11 @@ impl<'a> ResultWriter<'a> {
     ) -> Result<Self, Error> {
         Ok(Self {
             folder,
-            cells,
+            grid,
             ends,
             fixed,
             rule,
-            tables: Tables::create(folder, boundary, probes)?,
+            tables: Tables::create(folder, boundary, probes, grid.tagged)?,
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
@@ -90,7 +94,13 @@ impl<'a> ResultWriter<'a> {
 
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let name = format!("fields_{:04}.vtu", record.step);
-        point_fields::write(&self.folder.file(&name), self.cells, self.fixed, view)?;
+        point_fields::write(
+            &self.folder.file(&name),
+            self.grid,
+            self.fixed,
+            self.rule,
+            view,
+        )?;
         self.fields_collection
             .append(self.rule.time.of(record, view), name)
     }
@@ -130,7 +140,7 @@ impl<'a> ResultWriter<'a> {
             .map(|&ends| vtu::Cell::Line(ends))
             .collect();
         let grid = UnstructuredGrid {
-            points: &self.cells.positions,
+            points: &self.grid.positions,
             cells: &lines,
             point_fields: &[Field::vector("displacement", &displacement)],
             cell_fields: &[
@@ -184,7 +194,7 @@ impl Observer for ResultWriter<'_> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
         }
-        failed(self.tables.breaks(records, self.cells, self.ends))
+        failed(self.tables.breaks(records, &self.grid.tags, self.ends))
     }
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {

@@ -3,12 +3,12 @@
 //! | file | holds |
 //! |---|---|
 //! | `modes.csv` | a row a mode |
-//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh; the time is the number of the mode |
+//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode |
 
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::modal::ModalOutcome;
 
-use super::point_fields::{FixedFields, MeshCells, in_plane, write_grid};
+use super::point_fields::{BodyGrid, FixedFields, in_plane};
 use crate::Error;
 use crate::csv::Table;
 use crate::folder::ResultFolder;
@@ -33,7 +33,7 @@ const COLUMNS: [&str; 12] = [
 /// Writes all modes of a body with points of given volumes (n_points) and nearest distances (n_points).
 pub fn write_modes(
     folder: &ResultFolder,
-    cells: &MeshCells,
+    grid: &BodyGrid,
     volumes: &[f64],
     spacing: &[f64],
     fixed: &FixedFields,
@@ -62,14 +62,13 @@ pub fn write_modes(
         let displacement = in_plane(&mode.shape);
         let motions = mode.shape.chunks(COMPONENTS);
         let rotation: Vec<f64> = motions.map(|motion| motion[2]).collect();
-        let mut point_fields = vec![
-            Field::vector("displacement", &displacement),
+        let mut fields = vec![
             Field::scalar("rotation", &rotation),
             Field::scalar("strain_energy_density", &mode.strain_energy_density),
-            Field::integer("node", &cells.node_tags),
+            Field::integer(grid.tagged, &grid.tags),
         ];
-        point_fields.extend(fixed.fields(volumes, spacing));
-        write_grid(&folder.file(&name), cells, &point_fields)?;
+        fields.extend(fixed.fields(volumes, spacing));
+        grid.write(&folder.file(&name), Some(&displacement), &fields)?;
         collection.append(f64::from(number), name)?;
     }
     Ok(())

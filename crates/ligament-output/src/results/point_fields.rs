@@ -1,38 +1,37 @@
-//! Fields on the points, over the original cells of the mesh.
+//! Fields on the points, over the cells of the mesh or the lattice.
 
 use std::path::Path;
 
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
-use ligament_mesh::{Cell, Mesh};
+use ligament_analysis::stress::{traction, virial};
 
+use super::WriteRule;
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
-/// The mesh as output files show it.
+/// The body as output files show it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeshCells {
-    /// Positions in the mesh file, shape (n_points), m.
+pub struct BodyGrid {
+    /// Positions of the points, shape (n_points), m.
     pub positions: Vec<[f64; 2]>,
-    /// Tags of the nodes in the mesh file, shape (n_points).
-    pub node_tags: Vec<i64>,
-    /// Cells, shape (n_cells).
-    pub cells: Vec<vtu::Cell>,
+    /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
+    pub tags: Vec<i64>,
+    /// What a tag is one of: `node` or `cell`.
+    pub tagged: &'static str,
+    /// What the fields of the points are drawn on.
+    pub canvas: Canvas,
 }
 
-impl From<&Mesh> for MeshCells {
-    fn from(mesh: &Mesh) -> Self {
-        let cell = |cell: &Cell| match *cell {
-            Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
-            Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
-        };
-        Self {
-            positions: mesh.positions.clone(),
-            node_tags: mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
-            cells: mesh.cells.iter().map(cell).collect(),
-        }
-    }
+/// What the fields of the points are drawn on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Canvas {
+    /// Cells between the points, whose fields are point data.
+    Between(Vec<vtu::Cell>),
+    /// A cell of its own for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to
+    /// no other cell: they move with the point, and cracks open.
+    Around(Vec<[[f64; 2]; 4]>),
 }
 
 /// Fields that do not change during a run, beside those of the bond system.
@@ -67,21 +66,22 @@ impl FixedFields {
 /// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.
 pub fn point_grid(
     path: &Path,
-    cells: &MeshCells,
+    grid: &BodyGrid,
     volumes: &[f64],
     spacing: &[f64],
     fixed: &FixedFields,
 ) -> Result<(), Error> {
-    let mut point_fields = fixed.fields(volumes, spacing);
-    point_fields.push(Field::integer("node", &cells.node_tags));
-    write_grid(path, cells, &point_fields)
+    let mut fields = fixed.fields(volumes, spacing);
+    fields.push(Field::integer(grid.tagged, &grid.tags));
+    grid.write(path, None, &fields)
 }
 
 /// Writes the fields of a state.
 pub(super) fn write(
     path: &Path,
-    cells: &MeshCells,
+    grid: &BodyGrid,
     fixed: &FixedFields,
+    rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {
     let (system, state, balanced) = (view.system, view.state, view.balanced);
@@ -108,19 +108,40 @@ pub(super) fn write(
         .chunks(COMPONENTS)
         .map(|held| i64::from(held.contains(&true)))
         .collect();
-    let mut point_fields = vec![
-        Field::vector("displacement", &displacement),
+    let mut fields = vec![
         Field::scalar("rotation", &rotation),
         Field::scalar("damage", &damage),
         Field::scalar("strain_energy_density", &density),
         Field::vector("reaction", &reaction),
         Field::integer("fragment", &fragment),
         Field::integer("held", &held),
-        Field::integer("node", &cells.node_tags),
+        Field::integer(grid.tagged, &grid.tags),
     ];
+    let stress_virial = rule
+        .virial
+        .then(|| virial::stress(system, &state.intact, &balanced.deformations));
+    if let Some(stress) = &stress_virial {
+        let values = stress.as_flattened();
+        fields.push(Field::components(
+            "stress_virial",
+            &["xx", "yy", "xy"],
+            values,
+        ));
+    }
+    let stress_traction = rule
+        .traction
+        .then(|| traction::stress(system, &state.intact, &balanced.deformations));
+    if let Some(stress) = &stress_traction {
+        let values = stress.as_flattened();
+        fields.push(Field::components(
+            "stress_traction",
+            &["xx", "yx", "yy", "xy"],
+            values,
+        ));
+    }
     let cloud = &system.cloud;
-    point_fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
-    write_grid(path, cells, &point_fields)
+    fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
+    grid.write(path, Some(&displacement), &fields)
 }
 
 /// Displacements of the points.
@@ -136,16 +157,90 @@ pub(super) fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-pub(super) fn write_grid(
-    path: &Path,
-    cells: &MeshCells,
-    point_fields: &[Field<'_>],
-) -> Result<(), Error> {
-    let grid = UnstructuredGrid {
-        points: &cells.positions,
-        cells: &cells.cells,
-        point_fields,
-        cell_fields: &[],
-    };
-    vtu::write_vtu(path, &grid)
+impl BodyGrid {
+    /// Writes fields of the points, the displacement first so that readers warp by it.
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        displacement: Option<&[[f64; 3]]>,
+        fields: &[Field<'_>],
+    ) -> Result<(), Error> {
+        let vector = |values| Field::vector("displacement", values);
+        let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
+        all.extend(fields);
+        match &self.canvas {
+            Canvas::Between(cells) => {
+                let grid = UnstructuredGrid {
+                    points: &self.positions,
+                    cells,
+                    point_fields: &all,
+                    cell_fields: &[],
+                };
+                vtu::write_vtu(path, &grid)
+            }
+            Canvas::Around(corners) => {
+                let cells: Vec<vtu::Cell> = (0..corners.len() as u32)
+                    .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
+                    .collect();
+                let of_corners: Option<Vec<[f64; 3]>> = displacement
+                    .map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
+                let of_corners: Vec<Field<'_>> =
+                    of_corners.as_deref().map(vector).into_iter().collect();
+                let grid = UnstructuredGrid {
+                    points: corners.as_flattened(),
+                    cells: &cells,
+                    point_fields: &of_corners,
+                    cell_fields: &all,
+                };
+                vtu::write_vtu(path, &grid)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vtkio::model::{Attribute, DataSet, Piece, Vtk};
+
+    fn names(attributes: &[Attribute]) -> Vec<&str> {
+        attributes.iter().map(Attribute::name).collect()
+    }
+
+    /// Two cells of a lattice: each has four corners of its own, which move with it; all else is cell data.
+    #[test]
+    fn cells_around_points_have_their_own_corners() {
+        let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
+        let grid = BodyGrid {
+            positions: vec![[0.5, 0.5], [1.5, 0.5]],
+            tags: vec![1, 2],
+            tagged: "cell",
+            canvas: Canvas::Around(vec![square(0.0), square(1.0)]),
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.vtu");
+        let (moved, damage) = ([[0.0, 0.0, 0.0], [0.25, -0.5, 0.0]], [0.0, 0.75]);
+        let fields = [
+            Field::scalar("damage", &damage),
+            Field::integer(grid.tagged, &grid.tags),
+        ];
+        grid.write(&path, Some(&moved), &fields).unwrap();
+        let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
+            panic!("not an unstructured grid");
+        };
+        let Piece::Inline(piece) = pieces.into_iter().next().unwrap() else {
+            panic!("not inline");
+        };
+        assert_eq!((piece.num_points(), piece.cells.num_cells()), (8, 2));
+        let (_, vertices) = piece.cells.cell_verts.clone().into_legacy();
+        assert_eq!(vertices, [4, 0, 1, 2, 3, 4, 4, 5, 6, 7]);
+        assert_eq!(names(&piece.data.point), ["displacement"]);
+        assert_eq!(names(&piece.data.cell), ["displacement", "damage", "cell"]);
+        let Attribute::DataArray(array) = &piece.data.point[0] else {
+            panic!("no array");
+        };
+        let expected: Vec<f64> = (moved.iter()).flat_map(|it| [*it; 4].concat()).collect();
+        assert_eq!(array.data.clone().into_vec::<f64>().unwrap(), expected);
+    }
 }

@@ -5,7 +5,6 @@ use ligament_analysis::history::{BreakRecord, StepRecord, View};
 use ligament_analysis::probe::Probe;
 use ligament_analysis::stiffness::Costs;
 
-use super::point_fields::MeshCells;
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
@@ -37,16 +36,13 @@ const ITERATIONS: [&str; 7] = [
     "stored_energy",
     "broken_bonds",
 ];
-const BREAKS: [&str; 9] = [
+const BREAKS: [&str; 6] = [
     "order",
     "step",
     "round",
     "load_factor",
     "displacement",
     "reaction",
-    "node_a",
-    "node_b",
-    "stretch_ratio",
 ];
 const TIMINGS: [&str; 8] = [
     "step",
@@ -72,10 +68,12 @@ pub(super) struct Tables {
 }
 
 impl Tables {
+    /// Creates the tables; `tagged` is what the tags of bonds' ends are of: nodes or cells.
     pub(super) fn create(
         folder: &ResultFolder,
         boundary: &Boundary,
         probes: &[Probe],
+        tagged: &str,
     ) -> Result<Self, Error> {
         let groups = boundary.groups.iter();
         let group_columns = groups.flat_map(|group| {
@@ -88,10 +86,15 @@ impl Tables {
             .into_iter()
             .chain(extra.iter().map(String::as_str))
             .collect();
+        let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
+        let breaks_columns: Vec<&str> = (BREAKS.into_iter())
+            .chain(ends.iter().map(String::as_str))
+            .chain(["stretch_ratio"])
+            .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
             iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
-            breaks: Table::create(folder.file("breaks.csv"), &BREAKS)?,
+            breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
             timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
             step: 0,
             round: 0,
@@ -131,11 +134,11 @@ impl Tables {
     pub(super) fn breaks(
         &mut self,
         records: &[BreakRecord],
-        cells: &MeshCells,
+        tags: &[i64],
         ends: &[[u32; 2]],
     ) -> Result<(), Error> {
         for record in records {
-            let [a, b] = ends[record.bond as usize].map(|end| cells.node_tags[end as usize]);
+            let [a, b] = ends[record.bond as usize].map(|end| tags[end as usize]);
             self.breaks.append(&[
                 record.order.into(),
                 record.step.into(),

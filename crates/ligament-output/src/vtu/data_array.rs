@@ -16,11 +16,13 @@ const BLOCK_SIZE: usize = 32_768;
 /// At 100,000 points level 6 takes 9 times the time of level 1 and saves 1 % of the size.
 const COMPRESSION_LEVEL: u8 = 1;
 
-/// The element `DataArray` of values with the VTK type `vtk_type` and the little-endian bytes `to_bytes`.
+/// The element `DataArray` of values with the VTK type `vtk_type` and the little-endian bytes `to_bytes`; `component_names` are
+/// all of them or none.
 pub(super) fn data_array<T: Copy + Sync, const SIZE: usize>(
     name: &str,
     vtk_type: &str,
     n_components: usize,
+    component_names: &[&str],
     values: &[T],
     to_bytes: impl Fn(T) -> [u8; SIZE] + Sync,
 ) -> String {
@@ -41,6 +43,12 @@ pub(super) fn data_array<T: Copy + Sync, const SIZE: usize>(
     // meshio gives an array with a number of components, even of 1, a second dimension.
     if n_components > 1 {
         element.push_str(&format!(" NumberOfComponents=\"{n_components}\""));
+    }
+    for (number, name) in component_names.iter().enumerate() {
+        element.push_str(&format!(
+            " ComponentName{number}=\"{}\"",
+            escape_attribute(name)
+        ));
     }
     element.push_str(" format=\"binary\">");
     let header = header(&blocks, values.len() * SIZE);

@@ -270,12 +270,24 @@ impl RawFracture {
 }
 
 /// What a run writes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Output {
     /// Load steps, or events of the exact path, between two field files; 0: only the first and the last state.
     pub fields_every: u32,
     /// Whether the bonds are written too.
     pub bonds: bool,
+    /// Which stresses the field files have.
+    pub stress: Vec<StressField>,
+}
+
+/// A reading of the stress at the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StressField {
+    /// The mean of the force dyads of a point's bonds.
+    Virial,
+    /// The force through small planes at the point.
+    Traction,
 }
 
 #[derive(Default, Deserialize)]
@@ -283,18 +295,33 @@ pub struct Output {
 pub(super) struct RawOutput {
     fields_every: Option<u32>,
     bonds: bool,
+    stress: Vec<StressField>,
 }
 
 impl RawOutput {
-    pub(super) fn complete(self, fracture: Option<&Fracture>) -> Output {
+    pub(super) fn complete(
+        self,
+        key: &KeyPath,
+        fracture: Option<&Fracture>,
+    ) -> Result<Output, KeyFault> {
+        let is_repeated =
+            |(place, field): (usize, &StressField)| self.stress[..place].contains(field);
+        let once = !self.stress.iter().enumerate().any(is_repeated);
+        require(
+            once,
+            || key.child("stress"),
+            "each stress once",
+            &self.stress,
+        )?;
         // An event breaks a bond or two, a load step at the peak hundreds.
         let default = match fracture.map(|fracture| &fracture.control) {
             Some(Control::Event) => 100,
             Some(Control::Stepped(_)) | None => 10,
         };
-        Output {
+        Ok(Output {
             fields_every: self.fields_every.unwrap_or(default),
             bonds: self.bonds,
-        }
+            stress: self.stress,
+        })
     }
 }

@@ -17,7 +17,7 @@ pub struct Material {
     /// Its name, NAME of `[material.NAME]`; none for the one `[material]` of the whole body.
     #[serde(skip)]
     pub name: Option<String>,
-    /// The physical surface it fills; none for the whole body.
+    /// The physical surface of the mesh, or the set of the lattice, that it fills; none for the whole body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
     /// Its elastic constants.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::require;
+use super::values::{not_exactly_one, require, require_positive};
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -12,7 +12,11 @@ pub struct ModelSection {
     /// The bond law.
     pub law: Law,
     /// The factor lambda: a point's horizon over the distance to its nearest neighbour; at least 1.
-    pub horizon_factor: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizon_factor: Option<f64>,
+    /// The horizon of every point, m; exactly one of this and the factor is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizon: Option<f64>,
     /// Where the constants of the law come from, for laws that leave it open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub calibration: Option<Calibration>,
@@ -99,24 +103,38 @@ impl Law {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawModel {
     law: Law,
-    horizon_factor: f64,
+    horizon_factor: Option<f64>,
+    horizon: Option<f64>,
     calibration: Option<Calibration>,
     rotational_stiffness: Option<RotationalStiffness>,
 }
 
 impl RawModel {
     pub(super) fn check(self, key: &KeyPath) -> Result<ModelSection, KeyFault> {
-        let factor = self.horizon_factor;
-        require(
-            factor >= 1.0,
-            || key.child("horizon_factor"),
-            "at least 1",
-            factor,
-        )?;
+        let (factor, horizon) = (self.horizon_factor, self.horizon);
+        if factor.is_some() == horizon.is_some() {
+            let keys = [
+                ("horizon_factor", factor.is_some()),
+                ("horizon", horizon.is_some()),
+            ];
+            return Err(not_exactly_one(key, &keys));
+        }
+        if let Some(factor) = factor {
+            require(
+                factor >= 1.0,
+                || key.child("horizon_factor"),
+                "at least 1",
+                factor,
+            )?;
+        }
+        if let Some(horizon) = horizon {
+            require_positive(key, "horizon", horizon)?;
+        }
         let law = self.law;
         Ok(ModelSection {
             law,
             horizon_factor: factor,
+            horizon,
             calibration: open(
                 key,
                 "calibration",

@@ -69,6 +69,12 @@ pub enum Field {
     Rotation,
     /// Strain energy density, J/m^3.
     StrainEnergyDensity,
+    /// Virial stress xx, Pa.
+    StressXx,
+    /// Virial stress yy, Pa.
+    StressYy,
+    /// Virial stress xy, Pa.
+    StressXy,
 }
 
 #[derive(Deserialize)]

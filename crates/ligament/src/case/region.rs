@@ -10,7 +10,7 @@ use super::values::{Point, not_exactly_one, require};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Place {
-    /// The points of a physical group.
+    /// The points of a physical group of the mesh, or of a set of the lattice.
     Group(String),
     /// The points in a rectangle: its lower left and its upper right corner.
     Box([Point; 2]),
@@ -22,7 +22,7 @@ pub enum Place {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Region {
-    /// The points of a physical group.
+    /// The points of a physical group of the mesh, or of a set of the lattice.
     Group(String),
     /// The points in a rectangle: its lower left and its upper right corner.
     Box([Point; 2]),
@@ -70,7 +70,7 @@ impl RawRegion {
     pub(super) fn check(self, key: &KeyPath) -> Result<Region, KeyFault> {
         match (self.group, self.r#box) {
             (Some(group), None) => Ok(Region::Group(group)),
-            (None, Some(corners)) => Ok(Region::Box(ordered_box(key, corners)?)),
+            (None, Some(corners)) => Ok(Region::Box(ordered_box(&key.child("box"), corners)?)),
             (group, corners) => {
                 let keys = [("group", group.is_some()), ("box", corners.is_some())];
                 Err(not_exactly_one(key, &keys))
@@ -89,7 +89,9 @@ pub(super) fn place(
     match (group, corners, at) {
         (None, None, None) => Ok(None),
         (Some(group), None, None) => Ok(Some(Place::Group(group))),
-        (None, Some(corners), None) => Ok(Some(Place::Box(ordered_box(key, corners)?))),
+        (None, Some(corners), None) => {
+            Ok(Some(Place::Box(ordered_box(&key.child("box"), corners)?)))
+        }
         (None, None, Some(point)) => Ok(Some(Place::At(point))),
         (group, corners, at) => Err(no_place(
             key,
@@ -106,12 +108,12 @@ pub(super) fn no_place(key: &KeyPath, given: [bool; 3]) -> KeyFault {
     )
 }
 
-/// The box with its lower left corner first.
-fn ordered_box(key: &KeyPath, [a, b]: [Point; 2]) -> Result<[Point; 2], KeyFault> {
+/// The box at a key with its lower left corner first.
+pub(super) fn ordered_box(key: &KeyPath, [a, b]: [Point; 2]) -> Result<[Point; 2], KeyFault> {
     let expected = "two opposite corners of a rectangle with a width and a height";
     require(
         a[0] != b[0] && a[1] != b[1],
-        || key.child("box"),
+        || key.clone(),
         expected,
         [a, b],
     )?;

@@ -19,7 +19,7 @@ pub(super) fn check(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let supports = resolve::supports(case, &model.mesh, &model.system.cloud)?;
+    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
     let mass = resolve::mass(case, &model.system.cloud);
     let problem = ModalProblem {
         system: &model.system,
@@ -36,7 +36,7 @@ pub(super) fn check(
     write_model(out, case, model)?;
     writeln!(out, "supports")?;
     for group in &supports.groups {
-        write_group(out, &model.mesh, &group.name, &group.points)?;
+        write_group(out, &*model.body, &group.name, &group.points)?;
     }
     if supports.groups.is_empty() {
         writeln!(out, "  none: the body is free")?;

@@ -1,17 +1,21 @@
-//! Supports and loads of a case on the points of its mesh.
+//! Supports and loads of a case on the points of its body.
 
-use std::collections::BTreeMap;
-
-use ligament_analysis::{Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind};
-use ligament_mesh::Mesh;
-use ligament_model::PointCloud;
+use ligament_analysis::{
+    Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind, Unknowns,
+};
+use ligament_model::{BondSystem, PointCloud};
 
 use super::places::Places;
+use crate::body::Body;
 use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
 
 /// Supports and loads on the points.
-pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boundary, CaseError> {
-    let places = Places { case, mesh, cloud };
+pub fn boundary(
+    case: &CaseFile,
+    body: &dyn Body,
+    cloud: &PointCloud,
+) -> Result<Boundary, CaseError> {
+    let places = Places { case, body, cloud };
     let mut boundary = Boundary::new(cloud.len(), places.control()?);
     for (index, support) in case.case.supports.iter().enumerate() {
         let key = format!("support.{index}");
@@ -47,6 +51,40 @@ pub fn boundary(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Boun
         boundary.report_group(&load.name, points, total);
     }
     Ok(boundary)
+}
+
+/// Refuses couples on points that no bond keeps from turning: they would act on nothing.
+pub fn couples_have_stiffness(
+    case: &CaseFile,
+    boundary: &Boundary,
+    system: &BondSystem,
+) -> Result<(), CaseError> {
+    let loads = case.case.loads.iter().enumerate();
+    let key = |(index, load): (usize, &Load)| match &load.action {
+        Action::Moment(_) => Some(format!("load.{index}.moment")),
+        Action::BodyCouple(_) => Some(format!("load.{index}.body_couple")),
+        _ => None,
+    };
+    let Some(key) = loads.filter_map(key).next() else {
+        return Ok(());
+    };
+    let unknowns = Unknowns::of_problem(system, boundary);
+    let is_idle = |dof: usize| {
+        boundary.force[dof] != 0.0
+            && boundary.prescribed[dof].is_none()
+            && unknowns.number(dof).is_none()
+    };
+    let rotations =
+        (0..boundary.force.len()).filter(|&dof| Component::of(dof) == Component::Rotation);
+    let idle = rotations.filter(|&dof| is_idle(dof)).count();
+    if idle == 0 {
+        return Ok(());
+    }
+    let reason = format!(
+        "the couple acts on {idle} points that no bond keeps from turning (Poisson's ratio makes the shear stiffness of \
+         their bonds zero, or the bonds have no rotations): apply it as a pair of forces"
+    );
+    Err(case.error(&key, reason))
 }
 
 /// Name of a support in the history.
@@ -90,9 +128,9 @@ impl Places<'_> {
                 boundary.prescribe(&[point], component, factor * value)
             });
             done.map_err(|BoundaryError::Conflict { point, component, first, second }| {
-                let tag = self.mesh.node_tags[point as usize];
+                let place = self.body.label(point);
                 let reason = format!(
-                    "component {component} of node {tag} is prescribed twice: as {first:?} by an earlier support or \
+                    "component {component} of {place} is prescribed twice: as {first:?} by an earlier support or \
                      load, as {second:?} here"
                 );
                 self.case.error(&format!("{key}.displacement"), reason)
@@ -154,7 +192,7 @@ impl Places<'_> {
         let Some(profile) = profile else {
             return Ok(vec![1.0; points.len()]);
         };
-        let factor = |&point: &u32| profile.at(self.mesh.positions[point as usize]);
+        let factor = |&point: &u32| profile.at(self.body.positions()[point as usize]);
         let factors: Vec<f64> = points.iter().map(factor).collect();
         if factors.iter().all(|&factor| factor == 0.0) {
             let reason =
@@ -166,12 +204,11 @@ impl Places<'_> {
 
     /// Forces and couples of a load on its points; none where it prescribes a displacement.
     ///
-    /// A total force is spread over a curve group by the length of its edges, over other places by the points' volumes; a
-    /// force per length goes by the length of the edges, half of each edge to either end; body forces and all couples go by
-    /// the volumes. Each point's share is then multiplied by the profile.
+    /// A total force is spread over a group that has a length by the length that each point stands for, over other places
+    /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each point's share is then multiplied by the profile.
     fn forces(&self, key: &str, load: &Load, points: &[u32]) -> Result<Given, CaseError> {
         let curve = match &load.place {
-            Some(Place::Group(group)) => tributary_lengths(self.mesh, group),
+            Some(Place::Group(group)) => self.body.lengths_of(group),
             _ => Vec::new(),
         };
         let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
@@ -182,8 +219,8 @@ impl Places<'_> {
             Action::BodyForce(force) => (volumes, [force.x, force.y, 0.0]),
             Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
             Action::ForcePerLength(_) if curve.is_empty() => {
-                let reason =
-                    "a force per length needs a physical curve, and this group has no edges";
+                let reason = "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: \
+                              this group has no length";
                 return Err(self.case.error(&format!("{key}.group"), reason));
             }
             Action::ForcePerLength(force) => (curve, [force.x, force.y, 0.0]),
@@ -209,16 +246,4 @@ impl Places<'_> {
             total: density.map(|value| value * total),
         })
     }
-}
-
-/// Length of curve that each point of a curve group stands for, m: half of its edges.
-fn tributary_lengths(mesh: &Mesh, group: &str) -> Vec<(u32, f64)> {
-    let mut lengths = BTreeMap::new();
-    for edge in mesh.groups_named(group).flat_map(|group| &group.edges) {
-        let [p, q] = edge.map(|node| mesh.positions[node as usize]);
-        for &node in edge {
-            *lengths.entry(node).or_insert(0.0) += 0.5 * (q[0] - p[0]).hypot(q[1] - p[1]);
-        }
-    }
-    lengths.into_iter().collect()
 }

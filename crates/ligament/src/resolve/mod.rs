@@ -1,6 +1,6 @@
-//! From a case and its mesh to the typed settings of the libraries.
+//! From a case and its body to the typed settings of the libraries.
 //!
-//! Names are looked up in the mesh here; what is not there is reported at its place in the case file.
+//! Names are looked up in the body here; what is not there is reported at its place in the case file.
 
 mod boundary;
 mod modal;
@@ -11,22 +11,22 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
-use ligament_analysis::probe::{PointField, Probe, Reading};
+use ligament_analysis::probe::{PointField, Probe, Reading, StressComponent};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::{StopRule, Sweeps};
-use ligament_model::{BondSystem, Elasticity, Isotropic, Material, Plane};
+use ligament_model::{BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud};
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
 
-pub use boundary::boundary;
+pub use boundary::{boundary, couples_have_stiffness};
 pub use modal::{mass, modal, supports};
 pub use places::{material_of_cell, no_fail};
 
 /// State of the plane.
 pub fn plane(case: &CaseFile) -> Plane {
-    match case.case.mesh.plane {
+    match case.case.body.plane() {
         case::Plane::Stress => Plane::Stress,
         case::Plane::Strain => Plane::Strain,
     }
@@ -46,6 +46,15 @@ pub fn materials(case: &CaseFile) -> Vec<Material> {
         density: material.density,
     };
     case.case.materials.iter().map(material).collect()
+}
+
+/// The horizons: lambda times the distance to the nearest point, or the same for all.
+pub fn horizons(case: &CaseFile, cloud: &PointCloud) -> Horizons {
+    let model = &case.case.model;
+    match (model.horizon_factor, model.horizon) {
+        (Some(factor), _) => Horizons::from_spacing(&cloud.spacing, factor),
+        (None, horizon) => Horizons::unified(horizon.unwrap_or_default(), cloud.len()),
+    }
 }
 
 /// Models with more bonds than this take the size-independent stop rule unless told otherwise.
@@ -203,6 +212,9 @@ fn reading(
                 case::Field::DisplacementY => PointField::Motion(Component::Y),
                 case::Field::Rotation => PointField::Motion(Component::Rotation),
                 case::Field::StrainEnergyDensity => PointField::StrainEnergyDensity,
+                case::Field::StressXx => PointField::Stress(StressComponent::Xx),
+                case::Field::StressYy => PointField::Stress(StressComponent::Yy),
+                case::Field::StressXy => PointField::Stress(StressComponent::Xy),
             },
         },
         case::Reading::Section {

@@ -2,16 +2,20 @@
 
 use ligament_analysis::modal::{ModalSettings, Rotations};
 use ligament_analysis::{Component, Supports};
-use ligament_mesh::Mesh;
 use ligament_model::{LumpedMass, PointCloud};
 
 use super::boundary::place_name;
 use super::places::Places;
+use crate::body::Body;
 use crate::case::{self, CaseError, CaseFile, Modal};
 
 /// The supports on the points.
-pub fn supports(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Supports, CaseError> {
-    let places = Places { case, mesh, cloud };
+pub fn supports(
+    case: &CaseFile,
+    body: &dyn Body,
+    cloud: &PointCloud,
+) -> Result<Supports, CaseError> {
+    let places = Places { case, body, cloud };
     let mut supports = Supports::none(cloud.len());
     for (index, support) in case.case.supports.iter().enumerate() {
         let points = places.points(&format!("support.{index}"), Some(&support.place))?;

@@ -1,15 +1,15 @@
-//! Places of a case file looked up in the mesh: groups, boxes, positions.
+//! Places of a case file looked up in the body: groups, boxes, positions.
 
-use ligament_mesh::{Group, Mesh};
 use ligament_model::PointCloud;
 
+use crate::body::Body;
 use crate::case::{CaseError, CaseFile, Fault, Place, Region};
 
-/// A mesh and its points, to look places of a case up in.
+/// A body and its points, to look places of a case up in.
 #[derive(Clone, Copy)]
 pub(super) struct Places<'a> {
     pub(super) case: &'a CaseFile,
-    pub(super) mesh: &'a Mesh,
+    pub(super) body: &'a dyn Body,
     pub(super) cloud: &'a PointCloud,
 }
 
@@ -31,28 +31,26 @@ impl Places<'_> {
     ) -> Result<Vec<u32>, CaseError> {
         let points = self.cloud.points_in_box(lower, upper);
         if points.is_empty() {
-            let reason = "there is no point of the mesh in this box";
+            let reason = "there is no point of the body in this box";
             return Err(self.case.error(&format!("{key}.box"), reason));
         }
         Ok(points)
     }
 
-    /// Points of all groups of this name, whatever their dimension.
+    /// Points of a group of the body.
     fn points_of_group(&self, key: &str, name: &str) -> Result<Vec<u32>, CaseError> {
-        let groups = groups_named(self.case, self.mesh, &format!("{key}.group"), name)?;
-        let mut points: Vec<u32> = groups
-            .iter()
-            .flat_map(|group| group.nodes.iter().copied())
-            .collect();
-        points.sort_unstable();
-        points.dedup();
-        Ok(points)
+        let points = self.body.points_of(name);
+        points.ok_or_else(|| unknown_group(self.case, self.body, &format!("{key}.group"), name))
     }
 }
 
 /// Marks the points whose bonds never break, shape (n_points).
-pub fn no_fail(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Vec<bool>, CaseError> {
-    let places = Places { case, mesh, cloud };
+pub fn no_fail(
+    case: &CaseFile,
+    body: &dyn Body,
+    cloud: &PointCloud,
+) -> Result<Vec<bool>, CaseError> {
+    let places = Places { case, body, cloud };
     let mut marked = vec![false; cloud.len()];
     for (index, region) in case.case.no_fail.iter().enumerate() {
         let key = format!("no_fail.{index}");
@@ -68,15 +66,14 @@ pub fn no_fail(case: &CaseFile, mesh: &Mesh, cloud: &PointCloud) -> Result<Vec<b
 }
 
 /// Index of the material of each cell, shape (n_cells): every cell must have exactly one.
-pub fn material_of_cell(case: &CaseFile, mesh: &Mesh) -> Result<Vec<u32>, CaseError> {
+pub fn material_of_cell(case: &CaseFile, body: &dyn Body) -> Result<Vec<u32>, CaseError> {
     let materials = &case.case.materials;
-    let mut material_of_cell = vec![None; mesh.cells.len()];
+    let n_cells = body.n_cells();
+    let mut material_of_cell = vec![None; n_cells];
     for (index, material) in materials.iter().enumerate() {
         let cells = match &material.group {
-            None => (0..mesh.cells.len() as u32).collect(),
-            Some(group) => {
-                cells_of_surface(case, mesh, &format!("{}.group", material.key()), group)?
-            }
+            None => (0..n_cells as u32).collect(),
+            Some(group) => cells_of_group(case, body, &format!("{}.group", material.key()), group)?,
         };
         for cell in cells {
             let before: Option<u32> = material_of_cell[cell as usize].replace(index as u32);
@@ -91,28 +88,25 @@ pub fn material_of_cell(case: &CaseFile, mesh: &Mesh) -> Result<Vec<u32>, CaseEr
         }
     }
     let covered: Vec<u32> = material_of_cell.iter().copied().flatten().collect();
-    if covered.len() < mesh.cells.len() {
-        let missing = mesh.cells.len() - covered.len();
+    if covered.len() < n_cells {
+        let missing = n_cells - covered.len();
         let reason = format!(
             "{missing} of {} cells belong to the group of no material",
-            mesh.cells.len()
+            n_cells
         );
         return Err(case.error("material", reason));
     }
     Ok(covered)
 }
 
-fn cells_of_surface(
+fn cells_of_group(
     case: &CaseFile,
-    mesh: &Mesh,
+    body: &dyn Body,
     key: &str,
     group: &str,
 ) -> Result<Vec<u32>, CaseError> {
-    let groups = groups_named(case, mesh, key, group)?;
-    let cells: Vec<u32> = groups
-        .iter()
-        .flat_map(|group| group.cells.iter().copied())
-        .collect();
+    let cells = body.cells_of(group);
+    let cells = cells.ok_or_else(|| unknown_group(case, body, key, group))?;
     if cells.is_empty() {
         let reason = format!("`{group}` has no cells: a material needs a physical surface");
         return Err(case.error(key, reason));
@@ -120,19 +114,7 @@ fn cells_of_surface(
     Ok(cells)
 }
 
-fn groups_named<'a>(
-    case: &CaseFile,
-    mesh: &'a Mesh,
-    key: &str,
-    name: &str,
-) -> Result<Vec<&'a Group>, CaseError> {
-    let groups: Vec<&Group> = mesh.groups_named(name).collect();
-    if groups.is_empty() {
-        let names = mesh.groups.iter().map(|group| group.name.clone());
-        return Err(case.error(
-            key,
-            Fault::unknown_name("physical group in the mesh", name, names),
-        ));
-    }
-    Ok(groups)
+fn unknown_group(case: &CaseFile, body: &dyn Body, key: &str, name: &str) -> CaseError {
+    let fault = Fault::unknown_name(body.group_kind(), name, body.group_names());
+    case.error(key, fault)
 }

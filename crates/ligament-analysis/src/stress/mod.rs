@@ -1,0 +1,21 @@
+//! Stresses at the points, from the forces of the bonds: two readings of the same forces.
+//!
+//! | reading | from | symmetric |
+//! |---|---|---|
+//! | [`virial`] | the bonds of the point, each with the whole of its length | made so |
+//! | [`traction`] | the bonds that cross a small plane through the point | no: couples on the points are in balance with the difference |
+//!
+//! In a uniform strain both are the stress of the continuum whose energy the bonds have. Tension is positive.
+
+pub mod traction;
+pub mod virial;
+
+use ligament_model::BondSystem;
+use ligament_model::element::BondDeformation;
+
+/// Force along x and y that the second end of a bond exerts on the first one, N.
+fn force_on_first(system: &BondSystem, bond: usize, deformation: &BondDeformation) -> [f64; 2] {
+    // The end force is what holds the end in place against the bond: the bond pulls the other way.
+    let [[x, y, _], _] = system.element(bond).end_forces(deformation);
+    [-x, -y]
+}

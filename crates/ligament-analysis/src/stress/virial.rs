@@ -1,0 +1,56 @@
+//! The virial stress: the mean of the force dyads of a point's bonds.
+
+use ligament_model::BondSystem;
+use ligament_model::element::BondDeformation;
+use rayon::prelude::*;
+
+use super::force_on_first;
+
+/// Stresses xx, yy and xy, Pa.
+pub type SymmetricStress = [f64; 3];
+
+/// Virial stress of every point, see [`point_stress`], shape (n_points).
+pub fn stress(
+    system: &BondSystem,
+    intact: &[bool],
+    deformations: &[BondDeformation],
+) -> Vec<SymmetricStress> {
+    (0..system.cloud.len() as u32)
+        .into_par_iter()
+        .map(|point| point_stress(system, intact, deformations, point))
+        .collect()
+}
+
+/// Virial stress of one point, Pa: sigma_i = 1/(2 V_i) sum_j f_ij (x) xi_ij over its intact bonds, with the force f_ij that
+/// point j exerts on i and xi_ij = X_j - X_i.
+///
+/// Factor and sign follow from equilibrium. For forces F_i on a body, V <sigma> = sum_i F_i (x) X_i (the mean stress theorem);
+/// with F_i = -sum_j f_ij and f_ji = -f_ij a bond gives f_ij (x) xi_ij once, half of it to each end as of its energy. So
+/// sum_i V_i sigma_i is the mean stress of any body in equilibrium, exactly. The derivative of the point's energy density for
+/// a uniform strain is the same, so that the stress is as good as the energies of the correction are.
+///
+/// A bond with a shear force has f and xi in different directions. The couples at its ends balance that: the symmetric part
+/// is given, sigma_xy = (f_x xi_y + f_y xi_x)/2. At the outline half of the neighbours is missing; that a correction makes up
+/// for the energy does not make the stress on a free side zero.
+pub fn point_stress(
+    system: &BondSystem,
+    intact: &[bool],
+    deformations: &[BondDeformation],
+    point: u32,
+) -> SymmetricStress {
+    let mut sum = [0.0; 3];
+    for &bond in system.bonds.incidence.of(point) {
+        let bond = bond as usize;
+        if !intact[bond] {
+            continue;
+        }
+        // Seen from the second end force and vector both change sign.
+        let [f_x, f_y] = force_on_first(system, bond, &deformations[bond]);
+        let [xi_x, xi_y] =
+            system.bonds.direction[bond].map(|cosine| cosine * system.bonds.length[bond]);
+        sum[0] += f_x * xi_x;
+        sum[1] += f_y * xi_y;
+        sum[2] += 0.5 * (f_x * xi_y + f_y * xi_x);
+    }
+    sum.map(|value| 0.5 * value / system.cloud.volumes[point as usize])
+}

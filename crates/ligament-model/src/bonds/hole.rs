@@ -1,0 +1,25 @@
+//! Holes of a lattice: pairs of points that see each other only across a hole are no bonds.
+
+use rayon::prelude::*;
+
+use super::BondSet;
+use crate::cloud::PointCloud;
+use crate::horizon::INCLUSION_TOLERANCE;
+use crate::shape::Shape;
+
+/// Which bonds meet the inside of a hole (coordinates of the case), shape (n_bonds): by more than 1e-9 of the nearest
+/// distance of their ends, so that rounding does not decide about bonds along a rim.
+pub fn bonds_across(holes: &[Shape], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
+    let to_local = cloud.origin.map(|coordinate| -coordinate);
+    let holes: Vec<Shape> = holes.iter().map(|hole| hole.moved(to_local)).collect();
+    (bonds.ends.par_iter())
+        .map(|&[a, b]| {
+            let [a, b] = [a, b].map(|end| end as usize);
+            let slack = INCLUSION_TOLERANCE * cloud.spacing[a].min(cloud.spacing[b]);
+            let ends = [cloud.positions[a], cloud.positions[b]];
+            holes
+                .iter()
+                .any(|hole| hole.is_crossed_by(ends[0], ends[1], slack))
+        })
+        .collect()
+}

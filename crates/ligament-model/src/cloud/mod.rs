@@ -1,0 +1,145 @@
+//! Material points, from a mesh ([`mesh`]) or a regular lattice ([`lattice`]).
+
+pub mod lattice;
+mod mesh;
+
+use rayon::prelude::*;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use crate::horizon::INCLUSION_TOLERANCE;
+
+/// Material points with their volumes, nearest-neighbour distances and materials.
+///
+/// Positions are kept relative to the middle of the bounding box: differences of coordinates of a body that lies far
+/// from the origin would lose digits. [`PointCloud::local`] takes a position of the case to these coordinates.
+#[derive(Debug, Clone)]
+pub struct PointCloud {
+    /// Positions X_i relative to [`PointCloud::origin`], shape (n_points), m.
+    pub positions: Vec<[f64; 2]>,
+    /// What was subtracted from the positions of the mesh file or the lattice, m.
+    pub origin: [f64; 2],
+    /// Thickness t, m.
+    pub thickness: f64,
+    /// Volumes V_i, shape (n_points), m^3.
+    pub volumes: Vec<f64>,
+    /// Distance to the nearest point dmin_i, shape (n_points), m.
+    pub spacing: Vec<f64>,
+    /// Sides dx, dy of the points' cells on a lattice, where all have the same; none on a mesh, m.
+    pub lattice_cell: Option<[f64; 2]>,
+    /// Number of materials.
+    pub n_materials: usize,
+    /// Share of each material in the volume of each point, shape (n_points, n_materials) row-major; rows sum to one.
+    pub material_shares: Vec<f64>,
+    /// All points in the order of a Hilbert curve, shape (n_points): for loops that visit the neighbours of points.
+    pub curve: Vec<u32>,
+}
+
+/// A point of the search tree, with its number.
+pub(crate) type NumberedPoint = GeomWithData<[f64; 2], u32>;
+
+impl PointCloud {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// A value for each point, shape (n_points), computed in parallel along the curve.
+    pub(crate) fn over_points<T: Copy + Default + Send>(
+        &self,
+        value: impl Fn(u32) -> T + Sync,
+    ) -> Vec<T> {
+        let along_curve: Vec<T> = self.curve.par_iter().map(|&point| value(point)).collect();
+        let mut values = vec![T::default(); self.len()];
+        for (&point, &value) in self.curve.iter().zip(&along_curve) {
+            values[point as usize] = value;
+        }
+        values
+    }
+
+    /// Sides of the cell that a point stands for, m: dx, dy on a lattice; on a mesh those of the square with the point's area,
+    /// sqrt(V/t) twice.
+    pub fn cell_size(&self, point: u32) -> [f64; 2] {
+        self.lattice_cell
+            .unwrap_or_else(|| [(self.volumes[point as usize] / self.thickness).sqrt(); 2])
+    }
+
+    /// Squared radius of gyration of a point's cell about its centre, (dx^2 + dy^2)/12, m^2.
+    pub fn squared_gyration(&self, point: u32) -> f64 {
+        let [dx, dy] = self.cell_size(point);
+        (dx * dx + dy * dy) / 12.0
+    }
+
+    /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
+    pub fn local(&self, position: [f64; 2]) -> [f64; 2] {
+        [position[0] - self.origin[0], position[1] - self.origin[1]]
+    }
+
+    /// Shares of the materials in the volume of a point, shape (n_materials).
+    pub fn shares(&self, point: usize) -> &[f64] {
+        &self.material_shares[point * self.n_materials..(point + 1) * self.n_materials]
+    }
+
+    /// Volume-weighted mean of a property of the materials (n_materials) at a point.
+    pub fn mean_property(&self, point: usize, property: &[f64]) -> f64 {
+        self.shares(point)
+            .iter()
+            .zip(property)
+            .map(|(share, value)| share * value)
+            .sum()
+    }
+
+    /// The point nearest to a position of the case (the one with the smallest number where several are, up to rounding).
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no point at all, which no mesh or lattice with a cell gives.
+    pub fn nearest_point(&self, position: [f64; 2]) -> u32 {
+        let target = self.local(position);
+        let nearest = (self.positions.iter())
+            .map(|&p| distance(p, target))
+            .fold(f64::INFINITY, f64::min);
+        (0..self.len())
+            .find(|&point| distance(self.positions[point], target) <= nearest + self.slack(point))
+            .expect("a cloud has points") as u32
+    }
+
+    /// Points inside the box (coordinates of the case, rim included), ascending.
+    pub fn points_in_box(&self, lower: [f64; 2], upper: [f64; 2]) -> Vec<u32> {
+        let (lower, upper) = (self.local(lower), self.local(upper));
+        (0..self.len())
+            .filter(|&point| {
+                let (p, slack) = (self.positions[point], self.slack(point));
+                (0..2).all(|axis| lower[axis] - slack <= p[axis] && p[axis] <= upper[axis] + slack)
+            })
+            .map(|point| point as u32)
+            .collect()
+    }
+
+    /// What counts as nothing in a comparison of distances at a point, m: on a lattice points lie exactly on the rims of
+    /// boxes and halfway between others, and rounding must not decide about them.
+    fn slack(&self, point: usize) -> f64 {
+        INCLUSION_TOLERANCE * self.spacing[point]
+    }
+}
+
+/// A search tree over the points.
+pub(crate) fn search_tree(positions: &[[f64; 2]]) -> RTree<NumberedPoint> {
+    RTree::bulk_load(
+        positions
+            .iter()
+            .enumerate()
+            .map(|(number, &p)| GeomWithData::new(p, number as u32))
+            .collect(),
+    )
+}
+
+/// Distance of two points, m; the same bits whichever comes first.
+pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+}

@@ -1,0 +1,283 @@
+//! Plane shapes: holes of a lattice, and the parts of a body that its sets are.
+
+use robust::{Coord, orient2d};
+
+/// A closed region of the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A disk.
+    Circle {
+        /// Centre, m.
+        centre: [f64; 2],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// The inside of a closed polygon that does not cross itself: three corners or more, m.
+    Polygon(Vec<[f64; 2]>),
+}
+
+impl Shape {
+    /// The rectangle between two opposite corners.
+    pub fn rectangle([a, b]: [[f64; 2]; 2]) -> Self {
+        Self::Polygon(vec![a, [b[0], a[1]], b, [a[0], b[1]]])
+    }
+
+    /// The same shape elsewhere.
+    pub fn moved(&self, by: [f64; 2]) -> Self {
+        let move_point = |p: &[f64; 2]| [p[0] + by[0], p[1] + by[1]];
+        match self {
+            Self::Circle { centre, radius } => Self::Circle {
+                centre: move_point(centre),
+                radius: *radius,
+            },
+            Self::Polygon(corners) => Self::Polygon(corners.iter().map(move_point).collect()),
+        }
+    }
+
+    /// Whether a point lies in the shape or on its rim, or no farther than `slack` outside of it (m).
+    pub fn contains(&self, point: [f64; 2], slack: f64) -> bool {
+        self.depth(point) >= -slack
+    }
+
+    /// Whether the straight line between two points meets the inside of the shape deeper than `slack` (m): a line along
+    /// the rim or one that touches it does not.
+    pub fn is_crossed_by(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
+        match self {
+            Self::Circle { centre, .. } => self.depth(along(a, b, foot(a, b, *centre))) > slack,
+            Self::Polygon(corners) => {
+                let [lower, upper] = bounding_box(corners);
+                let misses = (0..2).any(|axis| {
+                    a[axis].max(b[axis]) <= lower[axis] || a[axis].min(b[axis]) >= upper[axis]
+                });
+                !misses && self.is_crossed_near(corners, a, b, slack)
+            }
+        }
+    }
+
+    /// Between two places where the line crosses a side or passes a corner, the distance to each side changes in
+    /// proportion along the line: its middle is at least half as deep as any other place.
+    fn is_crossed_near(&self, corners: &[[f64; 2]], a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
+        let mut places = vec![0.0, 1.0];
+        for [p, q] in sides(corners) {
+            places.push(foot(a, b, p));
+            let (from, to) = (cross(p, q, a), cross(p, q, b));
+            if (from < 0.0) != (to < 0.0) {
+                places.push((from / (from - to)).clamp(0.0, 1.0));
+            }
+        }
+        places.sort_by(f64::total_cmp);
+        places
+            .windows(2)
+            .any(|piece| self.depth(along(a, b, 0.5 * (piece[0] + piece[1]))) > slack)
+    }
+
+    /// Distance of a point to the rim, m; negative outside.
+    fn depth(&self, point: [f64; 2]) -> f64 {
+        match self {
+            Self::Circle { centre, radius } => radius - distance(*centre, point),
+            Self::Polygon(corners) => {
+                let to_rim = sides(corners)
+                    .map(|[p, q]| distance(along(p, q, foot(p, q, point)), point))
+                    .fold(f64::INFINITY, f64::min);
+                if is_inside(corners, point) {
+                    to_rim
+                } else {
+                    -to_rim
+                }
+            }
+        }
+    }
+}
+
+/// Whether two sides of a closed polygon that are no neighbours meet, or neighbours lie on each other: decided exactly.
+pub fn crosses_itself(corners: &[[f64; 2]]) -> bool {
+    let sides: Vec<[[f64; 2]; 2]> = sides(corners).collect();
+    let last = sides.len() - 1;
+    (0..sides.len()).any(|first| {
+        (first + 1..sides.len()).any(|second| {
+            let ([p, q], [r, s]) = (sides[first], sides[second]);
+            if second == first + 1 {
+                turns_back(p, q, s)
+            } else if first == 0 && second == last {
+                turns_back(r, s, q)
+            } else {
+                meet(p, q, r, s)
+            }
+        })
+    })
+}
+
+/// Whether the way from p by q to r goes back on itself.
+fn turns_back(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> bool {
+    let ahead = (q[0] - p[0]) * (r[0] - q[0]) + (q[1] - p[1]) * (r[1] - q[1]);
+    orientation(p, q, r) == 0.0 && ahead <= 0.0
+}
+
+/// Whether two segments have a point in common.
+fn meet(p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]) -> bool {
+    let boxes_meet = (0..2).all(|axis| {
+        p[axis].min(q[axis]) <= r[axis].max(s[axis]) && r[axis].min(s[axis]) <= p[axis].max(q[axis])
+    });
+    boxes_meet
+        && orientation(p, q, r) * orientation(p, q, s) <= 0.0
+        && orientation(r, s, p) * orientation(r, s, q) <= 0.0
+}
+
+/// Sign of the orientation of c seen from a to b, exact: positive on the left.
+pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    let determinant = cross(a, b, c);
+    // Only the sign is exact; the product of two small determinants may underflow.
+    if determinant == 0.0 {
+        0.0
+    } else {
+        determinant.signum()
+    }
+}
+
+/// (b - a) x (c - a), with the right sign.
+fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
+    orient2d(coord(a), coord(b), coord(c))
+}
+
+/// Whether a ray to the right crosses an odd number of sides.
+fn is_inside(corners: &[[f64; 2]], point: [f64; 2]) -> bool {
+    let crossed = sides(corners).filter(|&[p, q]| {
+        let [lower, upper] = if p[1] <= q[1] { [p, q] } else { [q, p] };
+        lower[1] <= point[1] && point[1] < upper[1] && cross(lower, upper, point) > 0.0
+    });
+    crossed.count() % 2 == 1
+}
+
+fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(&p, &q)| [p, q])
+}
+
+fn bounding_box(corners: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let bound = |pick: fn(f64, f64) -> f64| {
+        [0, 1].map(|axis| corners.iter().map(|p| p[axis]).fold(corners[0][axis], pick))
+    };
+    [bound(f64::min), bound(f64::max)]
+}
+
+/// Place of the point of the segment from a to b that is nearest to c: 0 at a, 1 at b.
+fn foot(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    let [x, y] = [b[0] - a[0], b[1] - a[1]];
+    let square = x * x + y * y;
+    if square == 0.0 {
+        return 0.0;
+    }
+    (((c[0] - a[0]) * x + (c[1] - a[1]) * y) / square).clamp(0.0, 1.0)
+}
+
+fn along(a: [f64; 2], b: [f64; 2], place: f64) -> [f64; 2] {
+    [0, 1].map(|axis| a[axis] + place * (b[axis] - a[axis]))
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (b[0] - a[0]).hypot(b[1] - a[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An L: the square of side 2 without its upper right quarter.
+    fn corner() -> Shape {
+        Shape::Polygon(vec![
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 2.0],
+            [0.0, 2.0],
+        ])
+    }
+
+    #[test]
+    fn the_rim_belongs_to_a_shape() {
+        let circle = Shape::Circle {
+            centre: [1.0, 0.0],
+            radius: 2.0,
+        };
+        assert!(circle.contains([3.0, 0.0], 0.0) && !circle.contains([3.1, 0.0], 0.0));
+        assert!(circle.contains([3.1, 0.0], 0.11), "within the slack");
+        for (point, is_in) in [
+            ([0.0, 0.0], true),
+            ([1.0, 1.5], true),
+            ([0.5, 2.0], true),
+            ([1.5, 1.5], false),
+            ([1.5, 1.0], true),
+            ([-0.1, 1.0], false),
+            ([2.5, 0.0], false),
+        ] {
+            assert_eq!(corner().contains(point, 0.0), is_in, "{point:?}");
+        }
+        assert!(corner().contains([1.0 + 1e-10, 1.5], 1e-9));
+    }
+
+    #[test]
+    fn a_line_along_the_rim_does_not_cross() {
+        let crosses = |a, b| corner().is_crossed_by(a, b, 1e-9);
+        assert!(!crosses([-1.0, 0.0], [3.0, 0.0]), "along the lower side");
+        assert!(!crosses([1.0, 1.0], [1.0, 3.0]), "along the inner side");
+        assert!(crosses([1.0, -1.0], [1.0, 3.0]), "through the lower half");
+        assert!(!crosses([1.0, 3.0], [3.0, 1.0]), "past the inner corner");
+        assert!(!crosses([2.0, 2.0], [1.0, 1.0]), "up to the inner corner");
+        assert!(crosses([2.0, 2.0], [0.9, 0.9]) && crosses([0.1, 0.1], [0.2, 0.3]));
+        // From end to end of the L, through its inner corner.
+        assert!(crosses([0.0, 2.0], [2.0, 0.0]));
+        let circle = Shape::Circle {
+            centre: [0.0, 0.0],
+            radius: 1.0,
+        };
+        assert!(
+            !circle.is_crossed_by([-2.0, 1.0], [2.0, 1.0], 1e-9),
+            "a tangent"
+        );
+        assert!(circle.is_crossed_by([-2.0, 0.999], [2.0, 0.999], 1e-9));
+        assert!(
+            !circle.is_crossed_by([1.5, 0.0], [3.0, 0.0], 1e-9),
+            "the line is not endless"
+        );
+    }
+
+    /// A line crosses where one of many points along it lies inside. The points miss what is shorter than their distance:
+    /// there the line comes close to the shape.
+    #[test]
+    fn crossings_agree_with_points_along_the_line() {
+        let places: Vec<[f64; 2]> = (-2..=6)
+            .flat_map(|i| (-2..=6).map(move |j| [f64::from(i) * 0.57 - 0.01, f64::from(j) * 0.51]))
+            .collect();
+        let mut crossed = 0;
+        for &a in &places {
+            for &b in &places {
+                let depths = (0..=400).map(|k| corner().depth(along(a, b, f64::from(k) / 400.0)));
+                let deepest = depths.fold(f64::NEG_INFINITY, f64::max);
+                let found = corner().is_crossed_by(a, b, 1e-9);
+                let near = if found { -0.02 } else { 1e-9 };
+                assert!(found == (deepest > near), "{a:?} {b:?} {deepest}");
+                crossed += usize::from(found);
+            }
+        }
+        assert!(crossed > 1000 && crossed < places.len().pow(2) - 1000);
+    }
+
+    #[test]
+    fn polygons_that_cross_themselves_are_noticed() {
+        assert!(!crosses_itself(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]));
+        let Shape::Polygon(corners) = corner() else {
+            unreachable!("the corner is a polygon")
+        };
+        assert!(!crosses_itself(&corners));
+        let bow_tie = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+        assert!(crosses_itself(&bow_tie));
+        assert!(
+            crosses_itself(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]),
+            "flat"
+        );
+        let touching = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.0], [0.0, 2.0]];
+        assert!(crosses_itself(&touching));
+    }
+}

@@ -1,0 +1,198 @@
+//! A body on a lattice: points at the centres of the cells, named sets.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use ligament_model::{Lattice, PointCloud, Shape};
+use ligament_output::results::{BodyGrid, Canvas};
+
+use super::Body;
+use crate::case::{CaseError, CaseFile, CellSet, Circle, Hole, LatticeSection};
+
+#[derive(Debug)]
+pub(super) struct LatticeBody {
+    lattice: Lattice,
+    positions: Vec<[f64; 2]>,
+    sets: BTreeMap<String, Set>,
+}
+
+/// A named set of points.
+#[derive(Debug)]
+struct Set {
+    /// Its points, ascending.
+    points: Vec<u32>,
+    /// Length of the side that each point stands for, m: none where the set is no part of a side.
+    length: Option<f64>,
+}
+
+impl LatticeBody {
+    pub(super) fn new(case: &CaseFile, section: &LatticeSection) -> Result<Self, CaseError> {
+        let holes = section.remove.iter().map(hole).collect();
+        let lattice = Lattice::new(section.cells, section.spacing, section.corner, holes);
+        if lattice.cells.is_empty() {
+            let reason = format!("nothing is left of the {} cells", lattice.n_whole());
+            return Err(case.error("lattice.remove", reason));
+        }
+        let mut sets = BTreeMap::new();
+        for (name, cells) in &section.sets {
+            let set = Set::of(cells, &lattice);
+            if set.points.is_empty() {
+                let reason = "no cell has its centre in this set";
+                return Err(case.error(&LatticeSection::set_key(name), reason));
+            }
+            sets.insert(name.clone(), set);
+        }
+        let middle = lattice.middle();
+        let positions = lattice.cells.iter().map(|&cell| {
+            let [x, y] = lattice.offset(cell);
+            [middle[0] + x, middle[1] + y]
+        });
+        Ok(Self {
+            positions: positions.collect(),
+            lattice,
+            sets,
+        })
+    }
+}
+
+impl Set {
+    fn of(cells: &CellSet, lattice: &Lattice) -> Self {
+        let ([columns, rows], [dx, dy]) = (lattice.size, lattice.spacing);
+        let side = |is_in: &dyn Fn([u32; 2]) -> bool, length: f64, count: u32| Self {
+            points: lattice.points_where(is_in),
+            length: Some(length / f64::from(count)),
+        };
+        let part = |shape: Shape| Self {
+            points: lattice.points_in(&shape),
+            length: None,
+        };
+        match cells {
+            CellSet::Bottom(count) => side(&|[_, row]| row < *count, dx, *count),
+            CellSet::Top(count) => side(&|[_, row]| rows - row <= *count, dx, *count),
+            CellSet::Left(count) => side(&|[column, _]| column < *count, dy, *count),
+            CellSet::Right(count) => side(&|[column, _]| columns - column <= *count, dy, *count),
+            CellSet::Box(corners) => part(Shape::rectangle(*corners)),
+            CellSet::Circle(it) => part(circle(it)),
+            CellSet::Polygon(corners) => part(Shape::Polygon(corners.clone())),
+        }
+    }
+}
+
+fn hole(hole: &Hole) -> Shape {
+    match hole {
+        Hole::Circle(it) => circle(it),
+        Hole::Rectangle(corners) => Shape::rectangle(*corners),
+        Hole::Polygon(corners) => Shape::Polygon(corners.clone()),
+    }
+}
+
+fn circle(circle: &Circle) -> Shape {
+    Shape::Circle {
+        centre: circle.centre,
+        radius: circle.radius,
+    }
+}
+
+impl Body for LatticeBody {
+    fn positions(&self) -> &[[f64; 2]] {
+        &self.positions
+    }
+
+    fn tagged(&self) -> &'static str {
+        "cell"
+    }
+
+    /// Cells that are left count from 1.
+    fn tag(&self, point: u32) -> u64 {
+        u64::from(point) + 1
+    }
+
+    fn n_cells(&self) -> usize {
+        self.lattice.cells.len()
+    }
+
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
+        PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
+    }
+
+    fn group_kind(&self) -> &'static str {
+        "set of the lattice"
+    }
+
+    fn group_names(&self) -> Vec<String> {
+        self.sets.keys().cloned().collect()
+    }
+
+    fn points_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.sets.get(group).map(|set| set.points.clone())
+    }
+
+    /// Its points: a point is a cell.
+    fn cells_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.points_of(group)
+    }
+
+    /// The side of a cell spread over the rows or columns of the set.
+    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
+        let set = self.sets.get(group);
+        set.and_then(|set| {
+            let length = set.length?;
+            Some(set.points.iter().map(|&point| (point, length)).collect())
+        })
+        .unwrap_or_default()
+    }
+
+    fn holes(&self) -> &[Shape] {
+        &self.lattice.holes
+    }
+
+    fn grid(&self) -> BodyGrid {
+        let half = self.lattice.spacing.map(|side| 0.5 * side);
+        let corners = |[x, y]: &[f64; 2]| {
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+                .map(|[right, up]| [x + right * half[0], y + up * half[1]])
+        };
+        BodyGrid {
+            positions: self.positions.clone(),
+            tags: (1..=self.positions.len() as i64).collect(),
+            tagged: self.tagged(),
+            canvas: Canvas::Around(self.positions.iter().map(corners).collect()),
+        }
+    }
+
+    fn write(&self, out: &mut dyn Write, volume: f64) -> io::Result<()> {
+        let Lattice {
+            size: [nx, ny],
+            spacing: [dx, dy],
+            corner: [x, y],
+            ..
+        } = self.lattice;
+        let left = self.n_cells();
+        let removed = self.lattice.n_whole() - left;
+        let [right, top] = [x + f64::from(nx) * dx, y + f64::from(ny) * dy];
+        writeln!(out, "lattice")?;
+        writeln!(
+            out,
+            "  cells                 {left} of {nx} x {ny} ({removed} removed)"
+        )?;
+        writeln!(out, "  spacing               {dx:.6e} x {dy:.6e} m")?;
+        writeln!(
+            out,
+            "  rectangle             x {x:.5e} to {right:.5e} m, y {y:.5e} to {top:.5e} m"
+        )?;
+        writeln!(
+            out,
+            "  area                  {:.6e} m^2",
+            left as f64 * dx * dy
+        )?;
+        writeln!(out, "  volume of the points  {volume:.6e} m^3")?;
+        for (name, set) in &self.sets {
+            write!(out, "  set {name:<17} {} points", set.points.len())?;
+            match set.length {
+                Some(length) => writeln!(out, ", {length:.4e} m of a side each")?,
+                None => writeln!(out)?,
+            }
+        }
+        Ok(())
+    }
+}

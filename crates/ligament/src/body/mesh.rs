@@ -1,0 +1,118 @@
+//! A meshed body: points at the nodes, physical groups.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::Path;
+
+use ligament_mesh::{Cell, Group, Mesh};
+use ligament_model::PointCloud;
+use ligament_output::results::{BodyGrid, Canvas};
+use ligament_output::vtu;
+
+use super::Body;
+use crate::inspect::{MeshFileError, read_mesh};
+
+#[derive(Debug)]
+pub(super) struct MeshBody(Mesh);
+
+impl MeshBody {
+    pub(super) fn read(path: &Path) -> Result<Self, MeshFileError> {
+        read_mesh(path).map(Self)
+    }
+
+    /// What the groups of this name hold, whatever their dimension, ascending; `None` where there is none.
+    fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
+        let mut groups = self.0.groups_named(name).peekable();
+        groups.peek()?;
+        let mut all: Vec<T> = groups.flat_map(held).copied().collect();
+        all.sort_unstable();
+        all.dedup();
+        Some(all)
+    }
+}
+
+impl Body for MeshBody {
+    fn positions(&self) -> &[[f64; 2]] {
+        &self.0.positions
+    }
+
+    fn tagged(&self) -> &'static str {
+        "node"
+    }
+
+    fn tag(&self, point: u32) -> u64 {
+        self.0.node_tags[point as usize]
+    }
+
+    fn n_cells(&self) -> usize {
+        self.0.cells.len()
+    }
+
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
+        PointCloud::from_mesh(&self.0, thickness, material_of_cell, n_materials)
+    }
+
+    fn group_kind(&self) -> &'static str {
+        "physical group in the mesh"
+    }
+
+    fn group_names(&self) -> Vec<String> {
+        let groups = self.0.groups.iter();
+        groups.map(|group| group.name.clone()).collect()
+    }
+
+    fn points_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.union(group, |group| &group.nodes)
+    }
+
+    fn cells_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.union(group, |group| &group.cells)
+    }
+
+    /// Half of the edges of a curve group at each of its nodes.
+    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
+        let mut lengths = BTreeMap::new();
+        for edge in self.0.groups_named(group).flat_map(|group| &group.edges) {
+            let [p, q] = edge.map(|node| self.0.positions[node as usize]);
+            for &node in edge {
+                *lengths.entry(node).or_insert(0.0) += 0.5 * (q[0] - p[0]).hypot(q[1] - p[1]);
+            }
+        }
+        lengths.into_iter().collect()
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let remarks = self.0.remarks.iter();
+        remarks.map(|remark| format!("mesh: {remark}")).collect()
+    }
+
+    fn grid(&self) -> BodyGrid {
+        let cell = |cell: &Cell| match *cell {
+            Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
+            Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
+        };
+        BodyGrid {
+            positions: self.0.positions.clone(),
+            tags: self.0.node_tags.iter().map(|&tag| tag as i64).collect(),
+            tagged: self.tagged(),
+            canvas: Canvas::Between(self.0.cells.iter().map(cell).collect()),
+        }
+    }
+
+    fn write(&self, out: &mut dyn Write, volume: f64) -> io::Result<()> {
+        let mesh = &self.0;
+        let (nodes, cells) = (mesh.positions.len(), mesh.cells.len());
+        writeln!(out, "mesh")?;
+        writeln!(out, "  nodes, cells          {nodes}, {cells}")?;
+        writeln!(out, "  area                  {:.6e} m^2", mesh.area())?;
+        writeln!(out, "  volume of the points  {volume:.6e} m^3")?;
+        for group in &mesh.groups {
+            let kind = ["points", "curve", "surface"]
+                .get(usize::from(group.dimension))
+                .unwrap_or(&"group");
+            let (name, nodes) = (&group.name, group.nodes.len());
+            writeln!(out, "  group {name:<15} {kind} of {nodes} nodes")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,91 @@
+//! The body of a case: a mesh or a lattice behind one interface.
+
+mod lattice;
+mod mesh;
+
+use std::fmt::Debug;
+use std::io::{self, Write};
+
+use ligament_model::{PointCloud, Shape};
+use ligament_output::results::BodyGrid;
+
+use self::lattice::LatticeBody;
+use self::mesh::MeshBody;
+use crate::case::{BodySection, CaseFile};
+use crate::stages::Stages;
+
+/// What the program needs to know of a body, whatever its points come from.
+pub trait Body: Debug + Send + Sync {
+    /// Positions of the points in the coordinates of the case, shape (n_points), m.
+    fn positions(&self) -> &[[f64; 2]];
+
+    /// What the tag of a point is one of: `node` or `cell`.
+    fn tagged(&self) -> &'static str;
+
+    /// The tag that a point goes by.
+    fn tag(&self, point: u32) -> u64;
+
+    /// Number of cells, each of which has one material.
+    fn n_cells(&self) -> usize;
+
+    /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud;
+
+    /// What its groups are, for errors: "physical group in the mesh".
+    fn group_kind(&self) -> &'static str;
+
+    /// The names of its groups.
+    fn group_names(&self) -> Vec<String>;
+
+    /// Points of the group of this name, ascending; `None` where there is no such group.
+    fn points_of(&self, group: &str) -> Option<Vec<u32>>;
+
+    /// Cells of the group of this name, empty where it has only points; `None` where there is no such group.
+    fn cells_of(&self, group: &str) -> Option<Vec<u32>>;
+
+    /// Length that each point of a group stands for, m; empty where the group has no length.
+    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)>;
+
+    /// Holes across which there is no bond.
+    fn holes(&self) -> &[Shape] {
+        &[]
+    }
+
+    /// What the user should know about it.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// How result files show it.
+    fn grid(&self) -> BodyGrid;
+
+    /// Writes what it is made of, with the volume of its points.
+    fn write(&self, out: &mut dyn Write, volume: f64) -> io::Result<()>;
+
+    /// A point in words: "node 12".
+    fn label(&self, point: u32) -> String {
+        format!("{} {}", self.tagged(), self.tag(point))
+    }
+
+    /// A point in words, and where it is.
+    fn place(&self, point: u32) -> String {
+        let [x, y] = self.positions()[point as usize];
+        format!("{} at ({x:.6}, {y:.6})", self.label(point))
+    }
+}
+
+/// The body of a case.
+///
+/// # Errors
+///
+/// If the mesh cannot be read, or nothing is left of the lattice or of one of its sets.
+pub fn of_case(case: &CaseFile, stages: &mut Stages) -> anyhow::Result<Box<dyn Body>> {
+    Ok(match &case.case.body {
+        BodySection::Mesh(section) => {
+            Box::new(stages.time("read mesh", || MeshBody::read(&section.file))?)
+        }
+        BodySection::Lattice(section) => {
+            Box::new(stages.time("lattice", || LatticeBody::new(case, section))?)
+        }
+    })
+}

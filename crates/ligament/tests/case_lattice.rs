@@ -1,0 +1,323 @@
+//! `[lattice]` in place of `[mesh]`: keys, defaults, faults, and the program on such a case.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::ffi::OsStr;
+use std::path::Path;
+use std::process::Command;
+
+use ligament::case::{BodySection, CaseFile, CellSet, Circle, Hole, LatticeSection, Plane};
+
+const TEXT: &str = r#"title = "Plate"
+[lattice]
+cells = [20, 12]
+spacing = 0.01
+
+[[lattice.remove]]
+circle = { centre = [0.1, 0.06], radius = 0.02 }
+
+[lattice.set]
+left = { left = 3 }
+right = { right = 1 }
+rock = { box = [[0.2, 0.12], [0, 0]] }
+disk = { circle = { centre = [0, 0], radius = 0.03 } }
+tip = { polygon = [[0, 0.12], [0.03, 0.12], [0, 0.09]] }
+
+[material]
+young = 1e9
+poisson = 0.2
+[model]
+law = "nhpd"
+horizon = 0.03
+[[support]]
+group = "left"
+displacement = { x = 0, y = 0 }
+[[load]]
+group = "right"
+force_per_length = { x = 1e3 }
+"#;
+
+fn parse(text: &str, settings: &[&str]) -> Result<CaseFile, String> {
+    let settings: Vec<String> = settings.iter().map(|&it| it.to_owned()).collect();
+    CaseFile::parse(Path::new("case.toml"), text.to_owned(), &settings)
+        .map_err(|error| error.to_string())
+}
+
+fn section(text: &str, settings: &[&str]) -> LatticeSection {
+    match parse(text, settings).unwrap().case.body {
+        BodySection::Lattice(section) => section,
+        BodySection::Mesh(_) => panic!("the case has a lattice"),
+    }
+}
+
+/// The error of the case with `old` replaced by `new`.
+fn error_with(old: &str, new: &str) -> String {
+    assert!(TEXT.contains(old), "the case has no `{old}`");
+    parse(&TEXT.replacen(old, new, 1), &[]).unwrap_err()
+}
+
+#[test]
+fn the_section_is_read_with_its_defaults() {
+    let lattice = section(TEXT, &[]);
+    assert_eq!((lattice.cells, lattice.spacing), ([20, 12], [0.01; 2]));
+    assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], 1.0));
+    assert_eq!(lattice.plane, Plane::Stress);
+    let circle = |centre, radius| Circle { centre, radius };
+    assert_eq!(lattice.remove, [Hole::Circle(circle([0.1, 0.06], 0.02))]);
+    let sets: Vec<(&str, &CellSet)> = (lattice.sets.iter())
+        .map(|(name, set)| (name.as_str(), set))
+        .collect();
+    let corners = vec![[0.0, 0.12], [0.03, 0.12], [0.0, 0.09]];
+    assert_eq!(
+        sets,
+        [
+            ("disk", &CellSet::Circle(circle([0.0; 2], 0.03))),
+            ("left", &CellSet::Left(3)),
+            ("right", &CellSet::Right(1)),
+            ("rock", &CellSet::Box([[0.0, 0.0], [0.2, 0.12]])),
+            ("tip", &CellSet::Polygon(corners)),
+        ]
+    );
+    let settings = [
+        "lattice.spacing=[1e-3, 2]",
+        "lattice.corner=[-1, 5]",
+        "lattice.plane=strain",
+        "lattice.thickness=0.1",
+    ];
+    let lattice = section(TEXT, &settings);
+    assert_eq!(
+        (lattice.spacing, lattice.corner),
+        ([1e-3, 2.0], [-1.0, 5.0])
+    );
+    assert_eq!((lattice.thickness, lattice.plane), (0.1, Plane::Strain));
+}
+
+#[test]
+fn a_resolved_lattice_reads_as_the_same_case() {
+    let case = parse(TEXT, &["lattice.corner=[0.1, -3]"]).unwrap();
+    let resolved = case.resolved_toml().unwrap();
+    assert!(resolved.contains("[lattice]\n") && resolved.contains("\nhorizon = 0.03\n"));
+    assert!(!resolved.contains("[mesh]") && !resolved.contains("horizon_factor"));
+    let again = parse(&resolved, &[]).unwrap();
+    assert_eq!(again.case, case.case);
+    assert_eq!(again.resolved_toml().unwrap(), resolved);
+}
+
+#[test]
+fn a_body_is_a_mesh_or_a_lattice() {
+    assert_eq!(
+        error_with("[material]", "[mesh]\nfile = \"a.msh\"\n[material]"),
+        "case.toml:2:1: lattice: the case has a [mesh] as well, but its body is one of the two: remove [mesh] or \
+         [lattice]"
+    );
+    let start = TEXT.find("[lattice]").unwrap();
+    let end = TEXT.find("[material]").unwrap();
+    assert_eq!(
+        parse(&format!("{}{}", &TEXT[..start], &TEXT[end..]), &[]).unwrap_err(),
+        "case.toml: mesh: the case has no [mesh] or [lattice] section; it needs one of them: [mesh] with `file`, the \
+         Gmsh file, or [lattice] with `cells` and `spacing`"
+    );
+    assert!(
+        error_with("[lattice]", "[latice]\nx = 1\n[lattice]").contains("did you mean `lattice`?")
+    );
+}
+
+#[test]
+fn wrong_keys_and_values_are_refused() {
+    for (old, new, message) in [
+        (
+            "cells = [20",
+            "cels = [20",
+            "3:1: lattice.cels: unknown key `cels` in [lattice]; did you mean `cells`?",
+        ),
+        (
+            "cells = [20, 12]\n",
+            "",
+            "2:1: lattice.cells: missing key `cells` in [lattice]",
+        ),
+        (
+            "cells = [20, 12]",
+            "cells = [20, 0]",
+            "3:9: lattice.cells: must be at least 1 along x and y, and 50000000 together at most, found [20, 0]",
+        ),
+        (
+            "cells = [20, 12]",
+            "cells = [4000000000, 4000000000]",
+            "3:9: lattice.cells: must be at least 1 along x and y",
+        ),
+        (
+            "cells = [20, 12]",
+            "cells = [20, 1.5]",
+            "3:14: lattice.cells.1: expected a whole number, 0 or more, found the number 1.5",
+        ),
+        (
+            "spacing = 0.01",
+            "spacing = [0.01]",
+            "4:11: lattice.spacing: expected a number or a list of 2, found a list of 1",
+        ),
+        (
+            "spacing = 0.01",
+            "spacing = \"1 mm\"",
+            "4:11: lattice.spacing: expected a number or a list of 2, found the string \"1 mm\"; values are plain \
+             numbers in SI units, here m",
+        ),
+        (
+            "spacing = 0.01",
+            "spacing = [0.01, 0]",
+            "4:11: lattice.spacing: must be greater than 0, and of a size that gives the cells a volume",
+        ),
+        (
+            "spacing = 0.01",
+            "spacing = 1e-200",
+            "4:11: lattice.spacing: must be greater than 0, and of a size",
+        ),
+        (
+            "spacing = 0.01",
+            "spacing = 0.01\ncorner = [1e8, 0]",
+            "5:10: lattice.corner: must be so near to the origin",
+        ),
+        (
+            "spacing = 0.01",
+            "spacing = 0.01\nthickness = 0",
+            "5:13: lattice.thickness: must be greater than 0",
+        ),
+        (
+            "[[lattice.remove]]",
+            "[lattice.remove]",
+            "lattice.remove: expected a list, found a table",
+        ),
+        (
+            "radius = 0.02",
+            "radius = 0",
+            "lattice.remove.0.circle.radius: must be greater than 0, found 0.0",
+        ),
+        (
+            "circle = { centre = [0.1",
+            "rectangle = [[0, 0], [1, 0]] #",
+            "lattice.remove.0.rectangle: must be two opposite corners of a rectangle with a width and a height",
+        ),
+        (
+            "{ left = 3 }",
+            "{ left = 0 }",
+            "lattice.set.left.left: must be at least 1, found 0",
+        ),
+        (
+            "{ left = 3 }",
+            "{ left = 21 }",
+            "lattice.set.left.left: must be 20 or less, as the lattice has, found 21",
+        ),
+        (
+            "{ left = 3 }",
+            "{ left = 3, top = 1 }",
+            "lattice.set.left: needs exactly one of `bottom`, `top`, `left`, `right`, `box`, `circle`, `polygon`; found \
+             `top`, `left`",
+        ),
+        (
+            "[0, 0.09]]",
+            "[0.03, 0.09], [0, 0.13]]",
+            "lattice.set.tip.polygon: must be three corners or more of a polygon that does not cross or touch itself",
+        ),
+        (
+            "horizon = 0.03",
+            "horizon = 0",
+            "model.horizon: must be greater than 0, found 0.0",
+        ),
+        (
+            "horizon = 0.03\n",
+            "",
+            "model: needs exactly one of `horizon_factor`, `horizon`; found none",
+        ),
+        (
+            "horizon = 0.03\n",
+            "horizon = 0.03\nhorizon_factor = 3\n",
+            "model: needs exactly one of `horizon_factor`, `horizon`; found `horizon_factor`, `horizon`",
+        ),
+    ] {
+        let error = error_with(old, new);
+        assert!(error.contains(message), "{new}:\n{error}");
+    }
+}
+
+fn check(folder: &Path, settings: &[&str]) -> (Option<i32>, String) {
+    let path = folder.join("case.toml");
+    std::fs::write(&path, TEXT).unwrap();
+    let arguments = [
+        OsStr::new("check"),
+        path.as_os_str(),
+        "--model-only".as_ref(),
+    ];
+    let settings = settings.iter().flat_map(|it| ["--set", it]);
+    let output = Command::new(env!("CARGO_BIN_EXE_ligament"))
+        .args(arguments.into_iter().chain(settings.map(OsStr::new)))
+        .output()
+        .unwrap();
+    let said = if output.status.success() {
+        output.stdout
+    } else {
+        output.stderr
+    };
+    (output.status.code(), String::from_utf8(said).unwrap())
+}
+
+/// Cells, sets and pairs across a slit of one row, counted by hand: of the offset (i, j) with j = 2 or 3 the pairs that stand
+/// j - 1 rows apart, 20 + 2 (19 + 18) + 2 (20) = 134.
+#[test]
+fn check_shows_the_lattice() {
+    let folder = tempfile::tempdir().unwrap();
+    let slit = "lattice.remove=[{ rectangle = [[-1, 0.051], [1, 0.059]] }]";
+    let (code, said) = check(folder.path(), &[slit]);
+    assert_eq!(code, Some(0), "{said}");
+    for line in [
+        "lattice\n  cells                 220 of 20 x 12 (20 removed)\n",
+        "  area                  2.200000e-2 m^2\n",
+        "  set left              33 points, 3.3333e-3 m of a side each\n",
+        "  set rock              220 points\n",
+        "  set disk              8 points\n",
+        "  set tip               6 points\n",
+        "  pairs across holes    134\n",
+        "  horizon               3.0000e-2 to 3.0000e-2 m",
+        "warning: the body consists of 2 parts that no bond connects\n",
+    ] {
+        assert!(said.contains(line), "{line}\n{said}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_the_lattice_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    for (setting, message) in [
+        (
+            "lattice.remove=[{ polygon = [[-1, -1], [1, -1], [0, 2]] }]",
+            "lattice.remove: nothing is left of the 240 cells",
+        ),
+        (
+            "lattice.set.nowhere.box=[[1, 1], [2, 2]]",
+            "lattice.set.nowhere: no cell has its centre in this set",
+        ),
+        (
+            "load.0.group=rigth",
+            "load.0.group: no set of the lattice is called `rigth`; did you mean `right`?",
+        ),
+        (
+            "load.0.group=rock",
+            "load.0.group: a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice",
+        ),
+        (
+            "material={ a = { group = \"left\", young = 1e9, poisson = 0.2 }, b = { group = \"rock\", young = 1e9, poisson = \
+             0.2 } }",
+            "material.b: cells of this material belong to material `a` as well",
+        ),
+        (
+            "material={ a = { group = \"left\", young = 1e9, poisson = 0.2 } }",
+            "material: 192 of 228 cells belong to the group of no material",
+        ),
+        (
+            "model.horizon=0.0099",
+            "model: 228 of 228 points have no neighbour in their horizon (the first is cell 1 at (0.005000, 0.005000))",
+        ),
+    ] {
+        let (code, said) = check(folder.path(), &[setting]);
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains(message), "{setting}:\n{said}");
+    }
+}

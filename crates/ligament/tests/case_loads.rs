@@ -1,0 +1,122 @@
+//! Profiles, couples and stresses: as they are read, written back, and refused.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::path::Path;
+
+use ligament::case::{Action, Axis, CaseFile, Field, Profile, Reading, StressField};
+
+const TEXT: &str = include_str!("data/brazilian-disk.toml");
+
+fn error_of(text: &str) -> String {
+    let error = CaseFile::parse(Path::new("case.toml"), text.to_owned(), &[]).unwrap_err();
+    let message = error.to_string();
+    message.strip_prefix("case.toml:").unwrap().to_owned()
+}
+
+#[test]
+fn profiles_and_couples_are_read_and_written_back() {
+    let load = "moment = -2.5\nprofile = { along = \"x\", zero = -0.01, one = 0.02 }";
+    let case = CaseFile::parse(Path::new("case.toml"), with_load(load), &[]).unwrap();
+    let read = &case.case.loads[0];
+    assert_eq!(read.action, Action::Moment(-2.5));
+    let profile = Profile {
+        along: Axis::X,
+        zero: -0.01,
+        one: 0.02,
+    };
+    assert_eq!(read.profile, Some(profile));
+    assert!((profile.at([0.005, 7.0]) - 0.5).abs() < 1e-15);
+    let written = case.resolved_toml().unwrap();
+    let again = CaseFile::parse(Path::new("case.toml"), written, &[]).unwrap();
+    assert_eq!(again.case.loads, case.case.loads);
+}
+
+/// The first load of the case as another one, its place kept; its keys are on line 33.
+fn with_load(load: &str) -> String {
+    let line = TEXT
+        .lines()
+        .skip_while(|line| !line.contains("platen-top"))
+        .nth(1)
+        .unwrap();
+    TEXT.replacen(line, load, 1)
+}
+
+#[test]
+fn profiles_and_couples_are_checked() {
+    for (load, message) in [
+        (
+            "force = { x = 1.0 }\nprofile = { along = \"z\", zero = 0.0, one = 0.1 }",
+            "34:21: load.0.profile.along: unknown value \"z\"; valid values: \"x\", \"y\"",
+        ),
+        (
+            "force = { x = 1.0 }\nprofile = { along = \"y\", zero = 0.1, one = 0.1 }",
+            "34:44: load.0.profile.one: must be another coordinate than `zero`: the load is as given there, found 0.1",
+        ),
+        (
+            "force = { x = 1.0 }\nprofile = { along = \"y\", zero = 0.1, ones = 0.1 }",
+            "34:38: load.0.profile.ones: unknown key `ones` in `load.0.profile`; did you mean `one`? valid keys: \
+             `along`, `zero`, `one`",
+        ),
+        (
+            "force = { x = 1.0 }\nprofile = { along = \"y\", zero = 0.1 }",
+            "34:11: load.0.profile.one: missing key `one` in `load.0.profile` (in m)",
+        ),
+        (
+            "moment = 0.0",
+            "33:10: load.0.moment: must be other than 0, or the load does nothing, found 0.0",
+        ),
+        (
+            "moment = { x = 1.0 }",
+            "33:10: load.0.moment: expected a number, found a table",
+        ),
+        (
+            "moment = 1.0\nbody_couple = 1.0",
+            "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, `body_force`, `moment`, \
+             `body_couple`; found `moment`, `body_couple`",
+        ),
+    ] {
+        assert_eq!(error_of(&with_load(load)), message, "{load}");
+    }
+}
+
+#[test]
+fn stresses_are_asked_for_by_name() {
+    let with = |key: &str, value: &str| {
+        let settings = [format!("{key}={value}")];
+        CaseFile::parse(Path::new("case.toml"), TEXT.to_owned(), &settings)
+    };
+    assert_eq!(with("output.bonds", "true").unwrap().case.output.stress, []);
+    let case = with("output.stress", "[\"traction\", \"virial\"]").unwrap();
+    assert_eq!(
+        case.case.output.stress,
+        [StressField::Traction, StressField::Virial]
+    );
+    let written = case.resolved_toml().unwrap();
+    assert!(
+        written.contains("stress = [\"traction\", \"virial\"]"),
+        "{written}"
+    );
+    let message = |value: &str| with("output.stress", value).unwrap_err().to_string();
+    assert_eq!(
+        message("[\"tractions\"]"),
+        "--set output.stress=[\"tractions\"]: output.stress.0: unknown value \"tractions\"; did you mean \"traction\"? \
+         valid values: \"virial\", \"traction\""
+    );
+    assert_eq!(
+        message("[\"virial\", \"virial\"]"),
+        "--set output.stress=[\"virial\", \"virial\"]: output.stress: must be each stress once, found [Virial, Virial]"
+    );
+    assert_eq!(
+        message("true"),
+        "--set output.stress=true: output.stress: expected a list, found true"
+    );
+    let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
+    let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
+    let at = [0.0, 0.0];
+    let field = Field::StressXy;
+    assert_eq!(
+        case.case.probes.last().unwrap().reading,
+        Reading::At { at, field }
+    );
+}

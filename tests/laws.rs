@@ -1,0 +1,317 @@
+//! What every bond law must keep, law by law: rigid motions, balance, the energies it promises, and the cases in which two laws
+//! are one.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ligament::case::Law;
+use ligament_analysis::internal;
+use ligament_model::ElementKind;
+use verification::bench::Bench;
+use verification::numbers::{Random, deviation, largest, relative_error};
+use verification::problems::SQUARE;
+
+/// What a law is asked for.
+struct Entry {
+    law: Law,
+    /// Poisson's ratios below, at and above that of central forces, where the law takes them.
+    poisson: &'static [&'static str],
+    element: ElementKind,
+    /// Whether a rigid rotation of a body costs energy where k_t is not zero.
+    rotation_costs: bool,
+}
+
+const ALL: &[&str] = &["-0.3", "0.21", "0.333333333333333333", "0.38"];
+
+/// The laws. A new law is a row here, and the tests below hold it to the rest.
+static LAWS: [Entry; 6] = [
+    Entry {
+        law: Law::Nhpd,
+        poisson: ALL,
+        element: ElementKind::Beam,
+        rotation_costs: false,
+    },
+    Entry {
+        law: Law::Bbpd,
+        poisson: &["0.333333333333333333"],
+        element: ElementKind::Spring,
+        rotation_costs: false,
+    },
+    Entry {
+        law: Law::Pds,
+        poisson: ALL,
+        element: ElementKind::Spring,
+        rotation_costs: true,
+    },
+    Entry {
+        law: Law::Mppd,
+        poisson: ALL,
+        element: ElementKind::Beam,
+        rotation_costs: false,
+    },
+    Entry {
+        law: Law::MppdBeam,
+        poisson: ALL,
+        element: ElementKind::Beam,
+        rotation_costs: false,
+    },
+    Entry {
+        law: Law::Orthotropic,
+        poisson: ALL,
+        element: ElementKind::Beam,
+        rotation_costs: false,
+    },
+];
+
+/// Poisson's ratio of central forces in plane stress.
+const CENTRAL: &str = "0.333333333333333333";
+
+/// An orthotropic material off the axes.
+const LAMINA: &str = "material = { young_1 = 15e9, young_2 = 5e9, poisson_12 = 0.25, shear_modulus = 4.8e9, angle = 0.5 }";
+
+/// The square elastic under a law; `settings` as with `--set`.
+fn square(law: Law, settings: &[&str]) -> Bench {
+    Bench::new(&elastic(SQUARE), &with_law(law, settings))
+}
+
+/// A problem without its fracture.
+fn elastic(text: &str) -> String {
+    let lines = text.lines().filter(|line| !line.starts_with("fracture"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn with_law<'a>(law: Law, settings: &[&'a str]) -> Vec<&'a str> {
+    let word = match law {
+        Law::Nhpd => "model.law=nhpd",
+        Law::Bbpd => "model.law=bbpd",
+        Law::Pds => "model.law=pds",
+        Law::Mppd => "model.law=mppd",
+        Law::MppdBeam => "model.law=mppd-beam",
+        Law::Orthotropic => "model.law=orthotropic",
+    };
+    settings.iter().copied().chain([word]).collect()
+}
+
+/// Every law with every Poisson's ratio in both planes (0.38 only in plane stress: above 1/4 plane strain soon loses stability).
+fn all() -> impl Iterator<Item = (&'static Entry, String, Bench)> {
+    let each = |entry: &'static Entry| {
+        let poissons = entry.poisson.iter();
+        poissons.flat_map(move |poisson| ["stress", "strain"].map(|plane| (entry, *poisson, plane)))
+    };
+    LAWS.iter().flat_map(each).map(|(entry, poisson, plane)| {
+        let settings = [
+            format!("material.poisson={poisson}"),
+            format!("mesh.plane={plane}"),
+        ];
+        let bench = square(entry.law, &settings.each_ref().map(String::as_str));
+        let title = format!("{} nu {poisson} plane {plane}", entry.law.word());
+        (entry, title, bench)
+    })
+}
+
+fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
+    let system = &bench.model.system;
+    let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
+    internal::sweep(system, &vec![true; system.bonds.len()], &u).stored_energy
+}
+
+/// Translations cost nothing, nor does a rotation in which the points take part; without rotations of the points it costs
+/// energy where bonds resist shear (MPPD section 5: this is what makes their bending wrong).
+#[test]
+fn rigid_motions() {
+    for (entry, title, bench) in all() {
+        let system = &bench.model.system;
+        assert_eq!(system.element, entry.element, "{title}");
+        let measure = stored_energy(&bench, |p| [1e-3 * p[0], 0.0, 0.0]);
+        assert!(measure > 0.0, "{title}");
+        for translation in [[1e-3, 0.0, 0.0], [0.0, -2e-3, 0.0]] {
+            let error = stored_energy(&bench, |_| translation) / measure;
+            // Squares of the rounding of displacements 1 % of the body.
+            assert!(error.abs() < 1e-20, "{title}: {error:e}");
+        }
+        let turned = stored_energy(&bench, |p| [-1e-3 * p[1], 1e-3 * p[0], 1e-3]) / measure;
+        let resists = entry.rotation_costs && system.shear_rigidity.iter().any(|&k| k != 0.0);
+        println!("{title}: a rotation costs {turned:.2e} of a stretch of its size");
+        if resists {
+            assert!(turned.abs() > 0.01, "{title}: {turned:e}");
+        } else {
+            assert!(turned.abs() < 1e-20, "{title}: {turned:e}");
+        }
+    }
+}
+
+/// Forces of any state add up to none, moments as well where rotations of the points carry them.
+#[test]
+fn internal_forces_are_in_balance() {
+    for (entry, title, bench) in all() {
+        let system = &bench.model.system;
+        let mut random = Random(1);
+        let u: Vec<f64> = (0..3 * bench.points())
+            .map(|_| 1e-4 * random.uniform())
+            .collect();
+        let forces = internal::sweep(system, &vec![true; system.bonds.len()], &u).internal;
+        let mut sum = [0.0; 3];
+        for (force, p) in forces.values.chunks(3).zip(&system.cloud.positions) {
+            sum[0] += force[0];
+            sum[1] += force[1];
+            sum[2] += p[0] * force[1] - p[1] * force[0] + force[2];
+        }
+        let moments = if entry.rotation_costs {
+            0.0
+        } else {
+            sum[2] / 0.1
+        };
+        let error = sum[0].abs().max(sum[1].abs()).max(moments.abs()) / forces.force_scale;
+        // Rounding of some thousand terms.
+        assert!(
+            forces.force_scale > 0.0 && error < 1e-12,
+            "{title}: {error:e}"
+        );
+        if entry.element == ElementKind::Spring {
+            assert!(
+                forces.values.chunks(3).all(|force| force[2] == 0.0),
+                "{title}"
+            );
+        }
+    }
+}
+
+/// The solution balances the load, with as many unknowns as the law has, for every law; above the Poisson's ratio of central
+/// forces too.
+#[test]
+fn every_law_is_solved() {
+    for (entry, title, bench) in all() {
+        let run = bench.solve();
+        let residual = run.largest_residual;
+        // Plane strain at 0.38 is far above the central-force value: its stability is not promised.
+        if title.ends_with("0.38 plane strain") {
+            continue;
+        }
+        println!(
+            "{title}: residual {residual:.1e}, reaction {:.4e}",
+            run.last().reaction
+        );
+        assert!(
+            residual < 1e-10 && run.last().reaction > 0.0,
+            "{title}: {residual:e}"
+        );
+        let turns = run.displacement().chunks(3).any(|motion| motion[2] != 0.0);
+        let has_shear = bench.model.system.shear_rigidity.iter().any(|&k| k != 0.0);
+        assert_eq!(
+            turns,
+            entry.element == ElementKind::Beam && has_shear,
+            "{title}"
+        );
+    }
+}
+
+/// At the Poisson's ratio of central forces all laws with partial volumes and surfaces by volume are one (theory of MPPD,
+/// section 3): the same displacements to rounding.
+#[test]
+fn central_forces_are_common_to_all() {
+    let settings = [format!("material.poisson={CENTRAL}")];
+    let settings = settings.each_ref().map(String::as_str);
+    let reference = square(Law::Bbpd, &settings).solve().displacement().to_vec();
+    for law in [Law::Pds, Law::Mppd, Law::Orthotropic] {
+        let other = square(law, &settings).solve();
+        let error = deviation(other.displacement(), &reference);
+        assert!(error < 1e-11, "{}: {error:e}", law.word());
+    }
+    let mut beam = settings.to_vec();
+    beam.extend(["model.calibration=integral", "correction.surface=volume"]);
+    let error = deviation(
+        square(Law::MppdBeam, &beam).solve().displacement(),
+        &reference,
+    );
+    assert!(error < 1e-11, "mppd-beam: {error:e}");
+}
+
+/// The orthotropic law has the constants of `mppd` for an isotropic material (OMPPD eqs 54 to 57), whichever way that is
+/// written, and its axes do not matter then.
+#[test]
+fn isotropy_is_a_case_of_orthotropy() {
+    for plane in ["mesh.plane=stress", "mesh.plane=strain"] {
+        let of = |law: Law, text: &str| {
+            Bench::new(text, &with_law(law, &[plane]))
+                .solve()
+                .displacement()
+                .to_vec()
+        };
+        let isotropic = elastic(SQUARE);
+        let reference = of(Law::Mppd, &isotropic);
+        assert!(largest(reference.iter().copied()) > 1e-5);
+        let given = "material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }";
+        assert!(isotropic.contains(given));
+        for angle in ["0.0", "0.7"] {
+            let shear = 15e9 / (2.0 * 1.21);
+            let axes = format!(
+                "material = {{ young_1 = 15e9, young_2 = 15e9, poisson_12 = 0.21, shear_modulus = {shear:?}, angle = {angle}, \
+                 young_3 = 15e9, poisson_13 = 0.21, poisson_23 = 0.21 }}"
+            );
+            let error = deviation(
+                &of(Law::Orthotropic, &isotropic.replace(given, &axes)),
+                &reference,
+            );
+            assert!(error < 1e-11, "{plane} angle {angle}: {error:e}");
+        }
+        let error = deviation(&of(Law::Orthotropic, &isotropic), &reference);
+        assert!(error < 1e-11, "{plane}: {error:e}");
+    }
+}
+
+/// Turning the material by a right angle is turning the bonds: k_n and k_t of a bond are those of the bond across to it.
+#[test]
+fn axes_turn_with_the_material() {
+    let given = "material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }";
+    let text = elastic(SQUARE).replace(given, LAMINA);
+    let of = |angle: f64| {
+        let angle = format!("material.angle={angle:?}");
+        Bench::new(&text, &with_law(Law::Orthotropic, &[&angle]))
+            .model
+            .system
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let (straight, turned, half) = (of(0.0), of(quarter), of(2.0 * quarter));
+    // OMPPD eq. 31 along the axes: k_n1 and k_n2, 12 (C_11 - C_66) and 12 (C_22 - C_66) over pi t delta^3.
+    let minor = 0.25 * 5.0 / 15.0;
+    let reduced = 1.0 - 0.25 * minor;
+    let ratio = (5e9 / reduced - 4.8e9) / (15e9 / reduced - 4.8e9);
+    let mut along_the_axes = 0;
+    for bond in 0..straight.bonds.len() {
+        let [a, b] = straight.bonds.direction[bond];
+        let (before, after) = (straight.axial_rigidity[bond], turned.axial_rigidity[bond]);
+        assert!(relative_error(half.axial_rigidity[bond], before) < 1e-13);
+        if b.abs() < 1e-12 {
+            assert!(relative_error(after / before, ratio) < 1e-12);
+            along_the_axes += 1;
+        }
+        if (a.abs() - b.abs()).abs() < 1e-12 {
+            assert!(relative_error(after, before) < 1e-12);
+        }
+    }
+    assert!(along_the_axes > 10);
+}
+
+/// Discrete calibration: points whose family has points of the same family sums around them have the energy of equal strains
+/// along both axes, as bonds take the mean of their ends. On irregular meshes the mean over the points shows it: nothing is lost
+/// at the surface, where the integrals leave points with less than half of it.
+#[test]
+fn discrete_calibration_gives_surfaces_their_energy() {
+    let [discrete, integral] = ["discrete", "integral"].map(|calibration| {
+        let setting = format!("model.calibration={calibration}");
+        let settings = [setting.as_str(), "correction.surface=none"];
+        square(Law::MppdBeam, &settings).model.fixed.energy_ratios
+    });
+    let mean = |ratios: &[f64]| ratios.iter().sum::<f64>() / ratios.len() as f64;
+    let least = |ratios: &[f64]| ratios.iter().copied().fold(f64::INFINITY, f64::min);
+    let (biaxial, shear) = (&discrete[2], &discrete[3]);
+    println!(
+        "biaxial: mean {:.3}, least {:.3}; by integrals {:.3}, {:.3}; shear mean {:.3}",
+        mean(biaxial),
+        least(biaxial),
+        mean(&integral[2]),
+        least(&integral[2]),
+        mean(shear)
+    );
+    assert!((mean(biaxial) - 1.0).abs() < 0.05 && least(biaxial) > 0.7);
+    assert!((mean(shear) - 1.0).abs() < 0.05);
+    assert!(least(&integral[2]) < 0.5);
+}
