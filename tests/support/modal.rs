@@ -44,7 +44,7 @@ impl ModalBench {
         let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
         let cloud = &model.system.cloud;
         Self {
-            supports: resolve::supports(&case, &model.mesh, cloud).unwrap(),
+            supports: resolve::supports(&case, &*model.body, cloud).unwrap(),
             mass: resolve::mass(&case, cloud),
             model,
             case,

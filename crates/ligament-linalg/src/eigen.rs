@@ -65,7 +65,8 @@ pub fn largest_eigenpairs(
     let mut products = 0;
     loop {
         products += basis.extend(&mut product, &mut random);
-        let is_full = basis.n_projected + BLOCK > limit_of_basis || basis.n_next == 0;
+        let spans_all = basis.n_next == 0;
+        let is_full = spans_all || limit_of_basis < n && basis.n_projected + BLOCK > limit_of_basis;
         let is_due = basis.n_projected >= count && products % (4 * BLOCK) < BLOCK;
         if !is_full && !is_due {
             continue;
@@ -82,7 +83,7 @@ pub fn largest_eigenpairs(
         let converged = found == count
             && (0..found)
                 .all(|pair| ritz.residuals[pair] <= search.tolerance * ritz.values[pair].abs());
-        if converged || products >= search.limit || basis.n_next == 0 {
+        if converged || products >= search.limit || spans_all {
             let vectors = basis.combine(&ritz.vectors, found);
             return Eigenpairs {
                 values: ritz.values[..found].to_vec(),
