@@ -1,8 +1,10 @@
 //! A case in memory: the pipeline of a run without its files.
 
+use anyhow::Context;
 use ligament_analysis::Observer;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
+use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem};
 use ligament_analysis::probe::Probe;
 
 use crate::body::Body;
@@ -41,6 +43,7 @@ fn solve_here(case: &CaseFile, body: Option<Box<dyn Body>>) -> anyhow::Result<So
         Some(body) => model_of(case, body, &mut stages, &progress)?,
     };
     let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
+    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
     let probes = resolve::probes(case, &model.system);
     let problem = Problem {
         system: &model.system,
@@ -54,6 +57,36 @@ fn solve_here(case: &CaseFile, body: Option<Box<dyn Body>>) -> anyhow::Result<So
         probes,
         outcome,
     })
+}
+
+/// The natural modes of a modal case; nothing is shown and nothing is written.
+///
+/// # Errors
+///
+/// If the case is not modal, the body cannot be read, a name of the case is not in it, or the equations cannot be set up.
+pub fn modes(case: &CaseFile) -> anyhow::Result<ModalOutcome> {
+    resolve::on_threads(case, || modes_here(case))?
+}
+
+/// The natural modes, on the threads of the caller.
+fn modes_here(case: &CaseFile) -> anyhow::Result<ModalOutcome> {
+    let modal = case
+        .case
+        .modal
+        .as_ref()
+        .context("the case has no modal analysis")?;
+    let progress = Progress::new(ProgressMode::Quiet);
+    let model = build_model(case, &mut Stages::default(), &progress)?;
+    let mass = resolve::mass(case, &model.system.cloud);
+    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
+    let problem = ModalProblem {
+        system: &model.system,
+        mass: &mass,
+        supports: &supports,
+        solver: resolve::solver(case),
+    };
+    let analysis = ModalAnalysis::of(problem, resolve::modal(modal))?;
+    Ok(analysis.find()?)
 }
 
 /// Watches nothing.

@@ -18,6 +18,9 @@ use crate::suggestion::hint;
 
 mod disk;
 pub mod entry;
+mod frequencies;
+mod lamina;
+mod named_modes;
 pub mod plots;
 mod poisson;
 pub mod printed;
@@ -26,6 +29,7 @@ pub mod report;
 mod statics;
 pub mod table;
 pub mod tally;
+mod tension;
 mod trial;
 
 use entry::Verdict;
@@ -35,8 +39,14 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 3] =
-    [statics::EXPERIMENT, poisson::EXPERIMENT, disk::EXPERIMENT];
+pub static EXPERIMENTS: [Experiment; 6] = [
+    frequencies::EXPERIMENT,
+    statics::EXPERIMENT,
+    lamina::EXPERIMENT,
+    tension::EXPERIMENT,
+    poisson::EXPERIMENT,
+    disk::EXPERIMENT,
+];
 
 /// A published case, or several that belong together.
 #[derive(Debug, Clone, Copy)]
@@ -53,8 +63,22 @@ pub struct Experiment {
     pub compute: fn(Extent) -> anyhow::Result<Findings>,
 }
 
+impl Experiment {
+    /// Runs the experiment; a table without entries in the subset is left out.
+    ///
+    /// # Errors
+    ///
+    /// If a case of it cannot be run.
+    pub fn run(&self, extent: Extent) -> anyhow::Result<Findings> {
+        let mut findings = (self.compute)(extent)
+            .with_context(|| format!("experiment {} cannot be run", self.name))?;
+        findings.tables.retain(|table| !table.rows.is_empty());
+        Ok(findings)
+    }
+}
+
 /// What an experiment comes to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Findings {
     /// Known and computed values.
     pub tables: Vec<Table>,
@@ -109,8 +133,7 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     let mut done = Vec::new();
     for experiment in chosen {
         console::announce(screen, experiment)?;
-        let findings = (experiment.compute)(request.extent)
-            .with_context(|| format!("experiment {} cannot be run", experiment.name))?;
+        let findings = experiment.run(request.extent)?;
         console::tell(screen, &findings)?;
         files::write(&folder, &findings)?;
         summary.append(experiment, &Tally::of(&findings))?;

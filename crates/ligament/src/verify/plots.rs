@@ -54,6 +54,8 @@ pub struct Series {
 pub enum Mark {
     /// A line with dots: what the program computes.
     Line,
+    /// A line alone: the same at many points.
+    Curve,
     /// Open circles: what is printed.
     Circles,
     /// A dashed line: another theory.
@@ -186,6 +188,9 @@ impl Series {
                 chart.draw_series(LineSeries::new(points(), self.stroke()))?;
                 chart.draw_series(points().map(|point| Circle::new(point, 3, self.dot())))?;
             }
+            Mark::Curve => {
+                chart.draw_series(LineSeries::new(points(), self.stroke()))?;
+            }
             Mark::Circles => {
                 chart.draw_series(points().map(|point| Circle::new(point, 6, self.stroke())))?;
             }
@@ -204,6 +209,7 @@ impl Series {
                 area.draw(&line(4, 32))?;
                 area.draw(&Circle::new((18, y), 3, self.dot()))?;
             }
+            Mark::Curve => area.draw(&line(4, 32))?,
             Mark::Circles => area.draw(&Circle::new((18, y), 6, self.stroke()))?,
             Mark::Dashes => {
                 for start in [4, 16, 28] {

@@ -58,6 +58,12 @@ pub enum TableFault {
         /// Cells.
         found: usize,
     },
+    /// A cell of a table of numbers holds something else.
+    #[error("`{found}` is not a number")]
+    NotANumber {
+        /// What stands there.
+        found: String,
+    },
     /// A cell does not hold what its column takes.
     #[error("`{found}` in column `{column}`, expected {expected}")]
     Cell {
@@ -101,6 +107,36 @@ impl Known {
         }
         Ok(Self { heading, entries })
     }
+}
+
+/// The rows of a table of numbers below a line of `N` column names.
+///
+/// # Errors
+///
+/// If a row has another number of cells, or a cell is no number; with the line.
+pub(super) fn numbers<const N: usize>(name: &str, text: &str) -> Result<Vec<[f64; N]>, TableError> {
+    let row = |(line, row): (usize, &str)| {
+        let read = || {
+            let cells: Vec<&str> = row.split(',').collect();
+            let found = cells.len();
+            let cells: [&str; N] = cells
+                .try_into()
+                .map_err(|_| TableFault::Cells { expected: N, found })?;
+            let mut numbers = [0.0; N];
+            for (number, cell) in numbers.iter_mut().zip(cells) {
+                *number = cell.parse().map_err(|_| TableFault::NotANumber {
+                    found: cell.to_owned(),
+                })?;
+            }
+            Ok(numbers)
+        };
+        read().map_err(|fault| TableError {
+            name: name.to_owned(),
+            line: line + 1,
+            fault,
+        })
+    };
+    text.lines().enumerate().skip(1).map(row).collect()
 }
 
 fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, TableFault> {
@@ -250,6 +286,26 @@ nu,law,known,allowed,subset,standing,instead,reason
         );
         assert_eq!(table.computed("nu", &[("law", "bbpd")]), Ok(vec![]));
         assert_eq!(known.judge(Extent::Fast, compute).unwrap().rows.len(), 1);
+    }
+
+    #[test]
+    fn tables_of_numbers_are_read_and_their_faults_told() {
+        assert_eq!(
+            numbers::<2>("edge", "x,u\n1,-2e-3\n"),
+            Ok(vec![[1.0, -2e-3]])
+        );
+        for (text, message) in [
+            (
+                "x,u\n1\n",
+                "published table edge, line 2: 1 cells, expected 2",
+            ),
+            (
+                "x,u\n1,2\n1,b\n",
+                "published table edge, line 3: `b` is not a number",
+            ),
+        ] {
+            assert_eq!(numbers::<2>("edge", text).unwrap_err().to_string(), message);
+        }
     }
 
     #[test]

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Context;
+use ligament_analysis::modal::Mode;
 use ligament_analysis::{COMPONENTS, Termination};
 use ligament_mesh::gmsh;
 
 use crate::body::{self, Body};
-use crate::case::CaseFile;
-use crate::solve::{Solution, solve};
+use crate::case::{CaseError, CaseFile};
+use crate::solve::{Solution, modes, solve};
 
 /// A case file of the repository, as it was when the program was built.
 pub(super) struct Template {
@@ -62,10 +63,23 @@ impl Trial {
         trial.run(Some(body)).with_context(|| trial.command())
     }
 
-    fn run(&self, body: Option<Box<dyn Body>>) -> anyhow::Result<Solution> {
+    /// The natural modes of the case, as `ligament run` finds them.
+    pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
+        let case = self.case()?;
+        let found = modes(&case).with_context(|| self.command())?;
+        match found.notices.first() {
+            Some(notice) => Err(anyhow::anyhow!("{notice}")).with_context(|| self.command()),
+            None => Ok(found.modes),
+        }
+    }
+
+    fn case(&self) -> Result<CaseFile, CaseError> {
         let text = self.template.text.to_owned();
-        let case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
-        let solution = solve(&case, body)?;
+        CaseFile::parse(Path::new(self.template.path), text, &self.settings)
+    }
+
+    fn run(&self, body: Option<Box<dyn Body>>) -> anyhow::Result<Solution> {
+        let solution = solve(&self.case()?, body)?;
         match &solution.outcome.termination {
             Termination::NoEquilibrium { .. } | Termination::NotAtRest { .. } => {
                 Err(anyhow::anyhow!("{}", solution.outcome.termination))
