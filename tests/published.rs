@@ -53,4 +53,4 @@ macro_rules! experiments {
     };
 }
 
-experiments!(frequencies, statics, lamina, tension, poisson, disk);
+experiments!(frequencies, statics, lamina, tension, moduli, poisson, disk);

@@ -20,6 +20,7 @@ mod disk;
 pub mod entry;
 mod frequencies;
 mod lamina;
+mod moduli;
 mod named_modes;
 pub mod plots;
 mod poisson;
@@ -39,11 +40,12 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 6] = [
+pub static EXPERIMENTS: [Experiment; 7] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
+    moduli::EXPERIMENT,
     poisson::EXPERIMENT,
     disk::EXPERIMENT,
 ];

@@ -101,7 +101,7 @@ pub enum PlotError {
 }
 
 impl Series {
-    /// A curve through the points, shape (n, 2), in their order.
+    /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or points.
     pub fn new(label: &str, mark: Mark, colour: Colour, points: Vec<[f64; 2]>) -> Self {
         Self {
             label: label.to_owned(),
@@ -159,12 +159,11 @@ impl Plot {
             .bold_line_style(GRID)
             .axis_style(AXES)
             .draw()?;
-        let drawn = self
-            .series
-            .iter()
-            .filter(|series| !series.points.is_empty());
-        for (place, series) in drawn.enumerate() {
+        for series in &self.series {
             series.draw(&mut chart)?;
+        }
+        let named = self.series.iter().filter(|series| series.is_named());
+        for (place, series) in named.enumerate() {
             series.draw_legend(&legend, 52 + LINE * place as i32)?;
         }
         area.present()
@@ -219,6 +218,10 @@ impl Series {
         }
         let style = ("sans-serif", 15, &TEXT).into_text_style(area);
         area.draw(&Text::new(self.label.as_str(), (42, y - 6), style))
+    }
+
+    fn is_named(&self) -> bool {
+        !self.label.is_empty() && !self.points.is_empty()
     }
 
     fn stroke(&self) -> ShapeStyle {

@@ -108,20 +108,16 @@ fn plot(edges: &[Edge], component: usize) -> Plot {
     ];
     let mut series = Vec::new();
     for (edge, colour) in edges.iter().zip(colours) {
-        let label = format!("{} degrees, lattice", edge.angle);
-        series.push(Series::new(
-            &label,
-            Mark::Curve,
-            colour,
-            edge.curve(&edge.lattice, component),
-        ));
+        let label = format!("{} degrees", edge.angle);
+        let lattice = edge.curve(&edge.lattice, component);
+        series.push(Series::new(&label, Mark::Curve, colour, lattice));
+        let label = if series.len() == 1 {
+            "finite elements"
+        } else {
+            ""
+        };
         let elements = edge.curve(&edge.elements, component);
-        series.push(Series::new(
-            "finite elements",
-            Mark::Dashes,
-            Colour::Black,
-            elements,
-        ));
+        series.push(Series::new(label, Mark::Dashes, Colour::Black, elements));
     }
     let name = ["u_x", "u_y"][component];
     Plot {

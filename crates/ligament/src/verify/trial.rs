@@ -10,7 +10,10 @@ use ligament_mesh::gmsh;
 
 use crate::body::{self, Body};
 use crate::case::{CaseError, CaseFile};
+use crate::progress::{Progress, ProgressMode};
+use crate::run::{Model, build_model};
 use crate::solve::{Solution, modes, solve};
+use crate::stages::Stages;
 
 /// A case file of the repository, as it was when the program was built.
 pub(super) struct Template {
@@ -61,6 +64,15 @@ impl Trial {
         let trial = self.set("mesh.file", mesh.path);
         let body = body::of_mesh(gmsh::parse(mesh.bytes)?);
         trial.run(Some(body)).with_context(|| trial.command())
+    }
+
+    /// The discrete model of the case, as `ligament run` builds it.
+    pub(super) fn model(&self) -> anyhow::Result<Model> {
+        let build = || {
+            let progress = Progress::new(ProgressMode::Quiet);
+            build_model(&self.case()?, &mut Stages::default(), &progress)
+        };
+        build().with_context(|| self.command())
     }
 
     /// The natural modes of the case, as `ligament run` finds them.
