@@ -2,9 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use ligament::verify::entry::Verdict;
-use ligament::verify::table::Extent;
+use ligament::verify::published::cells;
+use ligament::verify::table::{Extent, Table};
 use ligament::verify::tally::Tally;
 use ligament::verify::{EXPERIMENTS, Experiment};
+use verification::numbers::largest;
+use verification::repository;
 
 /// Runs the fast subset of an experiment: every entry is met, within its tolerance, or a declared misprint or open question
 /// whose independent value is met.
@@ -24,6 +27,10 @@ fn passes(experiment: &Experiment) {
                 row.entry.allowed
             );
         }
+        is_stored(experiment, table);
+    }
+    for case in experiment.cases {
+        assert!(repository().join(case).is_file(), "{case}");
     }
     let tally = Tally::of(&findings);
     assert!(
@@ -33,6 +40,39 @@ fn passes(experiment: &Experiment) {
     );
     for plot in &findings.plots {
         plot.to_svg().unwrap();
+    }
+}
+
+/// The stored report, `cases/verification`, is what the program computes: labels, verdicts, and values to 1e-6 of the largest in
+/// their table. The order of breaking amplifies rounding, which processors do differently: peaks may differ by 1 %.
+fn is_stored(experiment: &Experiment, table: &Table) {
+    let tolerance = if experiment.name == "disk" {
+        1e-2
+    } else {
+        1e-6
+    };
+    let size = largest(table.rows.iter().map(|row| row.computed));
+    let file = format!("cases/verification/{}.csv", table.heading.name);
+    let text = std::fs::read_to_string(repository().join(&file)).unwrap();
+    let stored: Vec<Vec<String>> = text.lines().map(cells).collect();
+    let n_keys = table.heading.keys.len();
+    for row in &table.rows {
+        let place = format!("{file}, {}", table.labels(row));
+        let line = stored
+            .iter()
+            .find(|line| line[..n_keys] == row.entry.labels);
+        let [known, computed, _, verdict, ..] = &line.expect(&place)[n_keys..] else {
+            panic!("{place}: too few cells");
+        };
+        assert_eq!(*known, row.entry.known.to_string(), "{place}");
+        assert_eq!(verdict, row.verdict.words(), "{place}");
+        let computed: f64 = computed.parse().unwrap();
+        let difference = (computed - row.computed).abs();
+        assert!(
+            difference <= tolerance * size,
+            "{place}: stored {computed}, now {}",
+            row.computed
+        );
     }
 }
 

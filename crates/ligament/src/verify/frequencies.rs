@@ -15,6 +15,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             unknowns. PDS, and MPPD with constant k_t and k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface \
             correction by volumes. Modes are told by their shape, as in the paper: with PDS the axial one is the lowest for \
             nu < 0.",
+    cases: &["cases/verification/square-modes.toml"],
     compute,
 };
 

@@ -16,6 +16,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             2500 kg/m^3, plane stress, axis 1 turned by the angle (degrees). The two columns at the left end are held in all \
             unknowns. k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface correction by volumes. The coarse and \
             the fine lattice have 748 and 11,988 points (cells of 10 and 2.5 mm).",
+    cases: &["cases/verification/lamina-modes.toml"],
     compute,
 };
 

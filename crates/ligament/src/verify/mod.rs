@@ -61,6 +61,8 @@ pub struct Experiment {
     pub source: &'static str,
     /// What is computed, and how.
     pub setup: &'static str,
+    /// The cases that are run, with settings of each entry.
+    pub cases: &'static [&'static str],
     /// Computes the tables, or their fast subset.
     pub compute: fn(Extent) -> anyhow::Result<Findings>,
 }

@@ -233,8 +233,8 @@ fn fault(column: &'static str, found: &str, expected: &'static str) -> TableFaul
     }
 }
 
-/// The cells of a line (RFC 4180, no line breaks in quotes).
-fn cells(line: &str) -> Vec<String> {
+/// The cells of a line of CSV (RFC 4180, no line breaks in quotes).
+pub fn cells(line: &str) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut is_quoted = false;
     let mut characters = line.chars().peekable();

@@ -16,6 +16,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             and right and proportional to y (bending). PDS, and MPPD with constant k_t and k_theta = k_t l (1 - l/delta)/2; \
             partial volumes and the surface correction by volumes. Displacements are the largest of all points; those of \
             shear are u_x at (0, 300) mm and u_y at (300, 0) mm, turned until they are equal.",
+    cases: &[
+        "cases/verification/square-traction.toml",
+        "cases/verification/square-shear.toml",
+        "cases/verification/square-bending.toml",
+    ],
     compute,
 };
 

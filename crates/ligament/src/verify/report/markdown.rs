@@ -32,8 +32,16 @@ pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
     for (experiment, findings) in done {
         let _ = write!(
             text,
-            "\n## {}\n\n**{}.** {}\n",
-            experiment.name, experiment.title, experiment.setup
+            "\n## {}\n\n**{}.** {}\n\nCases: {}.\n",
+            experiment.name,
+            experiment.title,
+            experiment.setup,
+            experiment
+                .cases
+                .iter()
+                .map(|path| format!("`{path}`"))
+                .collect::<Vec<_>>()
+                .join(", ")
         );
         for table in &findings.tables {
             push_table(&mut text, table);
@@ -49,7 +57,8 @@ const INTRODUCTION: &str = "\
 # Verification
 
 Written by `ligament verify`: published values, and what this version of the program computes for them by the functions of
-`ligament run`. Each table is also a CSV file here, with all digits.
+`ligament run`. Each table is also a CSV file here, with all digits. The cases named below can be run by themselves; what an
+entry changes in them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
 
 - **met**: the computed value, rounded, is the known one. **within tolerance**: it is as near as the column *allowed* asks.
 - **misprint**: the known value is a misprint, and the computed one is what should stand there. **not reproduced**: no

@@ -100,6 +100,7 @@ nu,known,allowed,subset,standing,instead,reason
         title: "Modes",
         source: "Author 2019",
         setup: "A lamina.",
+        cases: &["cases/a.toml", "cases/b.toml"],
         compute: |_| findings(),
     };
 
@@ -145,6 +146,7 @@ nu,known,allowed,subset,standing,instead,reason
             "| 0.1 | 2025.5 | 2053.20 | +1.37 % | digits | misprint for 2053 [1] |",
             "[1] digits exchanged, as ...",
             "Tolerance: because",
+            "Cases: `cases/a.toml`, `cases/b.toml`.",
         ] {
             assert!(text.lines().any(|it| it == line), "{line}\n{text}");
         }
