@@ -107,16 +107,24 @@ impl Allowed {
 }
 
 impl Difference {
-    /// The difference in words, an amount with one digit more than the known value.
+    /// The difference in words with its sign, an amount with one digit more than the known value.
     pub fn words(self, known: &Printed) -> String {
-        match self {
-            Self::Share(share) => format!("{:+.2} %", 100.0 * share),
-            Self::Amount(amount) => {
-                let digits = known.like(amount);
-                let sign = if digits.starts_with('-') { "" } else { "+" };
-                format!("{sign}{digits}")
-            }
-        }
+        let (digits, unit) = match self {
+            Self::Share(share) => (format!("{:.2}", 100.0 * share), " %"),
+            Self::Amount(amount) => (known.like(amount), ""),
+        };
+        let is_zero = digits.chars().all(|digit| matches!(digit, '-' | '.' | '0'));
+        let digits = if is_zero {
+            digits.trim_start_matches('-')
+        } else {
+            &digits
+        };
+        let sign = if is_zero || digits.starts_with('-') {
+            ""
+        } else {
+            "+"
+        };
+        format!("{sign}{digits}{unit}")
     }
 }
 
@@ -178,6 +186,8 @@ mod tests {
         assert_eq!(Allowed::Absolute(0.04).to_string(), "0.04");
         let known = Printed::parse("0.3800").unwrap();
         assert_eq!(Difference::Share(-0.01234).words(&known), "-1.23 %");
+        assert_eq!(Difference::Share(-1e-6).words(&known), "0.00 %");
+        assert_eq!(Difference::Amount(-1e-6).words(&known), "0.00000");
         assert_eq!(Difference::Amount(0.0191).words(&known), "+0.01910");
         assert_eq!(Difference::Amount(-0.0191).words(&known), "-0.01910");
     }

@@ -128,7 +128,7 @@ nu,known,allowed,subset,standing,instead,reason
         let expected = "
   First mode, f, Hz
     nu    printed  computed  difference  allowed  verdict
-    0     2294.9   2294.86   -0.00 %     digits   met
+    0     2294.9   2294.86   0.00 %      digits   met
     0.1   2025.5   2053.20   +1.37 %     digits   misprint for 2053 [1]
     0.25  1565.9   1500.00   -4.21 %     1 %      FAILED
     [1] digits exchanged, as ...
