@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use ligament_model::BondSystem;
-use ligament_model::element::BondDeformation;
+use ligament_model::element::beam::BeamBond;
+use ligament_model::element::spring::SpringBond;
+use ligament_model::element::{BondDeformation, Element, ElementKind};
 use rayon::prelude::*;
 
 use crate::unknowns::COMPONENTS;
@@ -42,17 +44,28 @@ pub struct InternalForces {
 /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
 /// after each other.
 pub fn sweep(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
+    match system.element {
+        ElementKind::Beam => sweep_of::<BeamBond>(system, intact, displacement),
+        ElementKind::Spring => sweep_of::<SpringBond>(system, intact, displacement),
+    }
+}
+
+fn sweep_of<E: Element>(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
     let n_bonds = system.bonds.len();
     let deformations: Vec<BondDeformation> = (0..n_bonds)
         .into_par_iter()
         .with_min_len(TASK)
-        .map(|bond| system.deformation(bond, displacement))
+        .map(|bond| {
+            let [a, b] = system.bonds.ends[bond].map(|end| COMPONENTS * end as usize);
+            let ends = [a, b].map(|end| &displacement[end..end + COMPONENTS]);
+            E::of(system, bond).deformation(ends[0], ends[1])
+        })
         .collect();
     let parts: Vec<Part> = (0..PARTS)
         .into_par_iter()
         .map(|part| {
             let bonds = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-            Part::of(system, intact, &deformations, bonds)
+            Part::of::<E>(system, intact, &deformations, bonds)
         })
         .collect();
     let sums: Vec<PointForces> = (0..system.cloud.len())
@@ -110,7 +123,7 @@ impl PointForces {
 }
 
 impl Part {
-    fn of(
+    fn of<E: Element>(
         system: &BondSystem,
         intact: &[bool],
         deformations: &[BondDeformation],
@@ -121,9 +134,9 @@ impl Part {
             energy: 0.0,
         };
         for bond in bonds.filter(|&bond| intact[bond]) {
-            let element = system.element(bond);
-            part.energy += element.energy(&deformations[bond]);
-            let [at_a, at_b] = element.end_forces(&deformations[bond]);
+            let (element, deformation) = (E::of(system, bond), &deformations[bond]);
+            part.energy += element.mutual_energy(deformation, deformation);
+            let [at_a, at_b] = element.end_forces(deformation);
             let [a, b] = system.bonds.ends[bond];
             part.forces[a as usize].add(at_a);
             part.forces[b as usize].add(at_b);

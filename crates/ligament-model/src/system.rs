@@ -6,7 +6,7 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::beam::BeamBond;
 use crate::element::spring::SpringBond;
-use crate::element::{BondDeformation, BondElement, ElementKind, UNKNOWNS};
+use crate::element::{BondDeformation, BondElement, Element, ElementKind, UNKNOWNS};
 use crate::law::BondStiffness;
 
 /// Points and bonds with their rigidities; it never changes after construction.
@@ -77,23 +77,9 @@ impl BondSystem {
 
     /// The element of a bond.
     pub fn element(&self, bond: usize) -> BondElement {
-        let (length, direction) = (self.bonds.length[bond], self.bonds.direction[bond]);
-        let (axial_rigidity, shear_rigidity) =
-            (self.axial_rigidity[bond], self.shear_rigidity[bond]);
         match self.element {
-            ElementKind::Beam => BondElement::Beam(BeamBond {
-                length,
-                direction,
-                axial_rigidity,
-                shear_rigidity,
-                rotational_rigidity: self.rotational_rigidity[bond],
-            }),
-            ElementKind::Spring => BondElement::Spring(SpringBond {
-                length,
-                direction,
-                axial_rigidity,
-                shear_rigidity,
-            }),
+            ElementKind::Beam => BondElement::Beam(BeamBond::of(self, bond)),
+            ElementKind::Spring => BondElement::Spring(SpringBond::of(self, bond)),
         }
     }
 

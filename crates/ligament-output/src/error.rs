@@ -115,12 +115,14 @@ pub enum Error {
     },
     /// The folder holds files, but nothing shows that they are results, so it is never replaced.
     #[error(
-        "{path} exists and is not a result folder (it holds files, but no case.resolved.toml), so \
+        "{path} exists and is not a result folder (it holds files, but no {marker}), so \
          not even --force replaces it; choose another folder with --out, or remove it yourself"
     )]
     NotAResultFolder {
         /// The folder meant.
         path: PathBuf,
+        /// The file that would show it.
+        marker: &'static str,
     },
     /// Something other than a folder is in the place of the folder.
     #[error("{path} exists and is not a folder; choose another folder with --out")]

@@ -13,7 +13,8 @@ pub const RESOLVED_CASE: &str = "case.resolved.toml";
 
 /// A folder for the results of one run, new or empty when created.
 ///
-/// A run writes [`RESOLVED_CASE`] first: by it a later run recognises the folder as one it may replace.
+/// A run writes [`RESOLVED_CASE`] first: by it a later run recognises the folder as one it may replace. What is no run
+/// has another such file, its marker.
 #[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
@@ -25,8 +26,17 @@ impl ResultFolder {
     /// A folder with results is refused unless `replace` is set; then it is moved aside to `NAME.replaced`, the new
     /// folder is created and the old one removed. A folder with other files is refused in any case.
     pub fn create(path: impl Into<PathBuf>, replace: bool) -> Result<Self, Error> {
+        Self::create_marked(path, RESOLVED_CASE, replace)
+    }
+
+    /// Creates a folder that is recognised by another file than [`RESOLVED_CASE`], which the caller writes first.
+    pub fn create_marked(
+        path: impl Into<PathBuf>,
+        marker: &'static str,
+        replace: bool,
+    ) -> Result<Self, Error> {
         let path = path.into();
-        match Self::admit(&path, replace)? {
+        match Self::admit(&path, marker, replace)? {
             Occupant::Nothing => create_folder(&path)?,
             Occupant::Results => replace_folder(&path)?,
             _ => {}
@@ -36,15 +46,18 @@ impl ResultFolder {
 
     /// Fails as [`ResultFolder::create`] would, and touches nothing: for a run to ask before its work begins.
     pub fn check(path: &Path, replace: bool) -> Result<(), Error> {
-        Self::admit(path, replace).map(|_| ())
+        Self::admit(path, RESOLVED_CASE, replace).map(|_| ())
     }
 
     /// What is in the place of the folder, if a run may put its results there.
-    fn admit(path: &Path, replace: bool) -> Result<Occupant, Error> {
+    fn admit(path: &Path, marker: &'static str, replace: bool) -> Result<Occupant, Error> {
         let path_buf = || path.to_path_buf();
-        match Occupant::of(path)? {
+        match Occupant::of(path, marker)? {
             Occupant::Results if !replace => Err(Error::ResultsExist { path: path_buf() }),
-            Occupant::OtherFiles => Err(Error::NotAResultFolder { path: path_buf() }),
+            Occupant::OtherFiles => Err(Error::NotAResultFolder {
+                path: path_buf(),
+                marker,
+            }),
             Occupant::NotAFolder => Err(Error::NotAFolder { path: path_buf() }),
             occupant => Ok(occupant),
         }
@@ -76,7 +89,7 @@ enum Occupant {
 }
 
 impl Occupant {
-    fn of(path: &Path) -> Result<Self, Error> {
+    fn of(path: &Path, marker: &str) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Nothing),
@@ -89,7 +102,7 @@ impl Occupant {
         if entries.next().is_none() {
             return Ok(Self::EmptyFolder);
         }
-        let is_marked = path.join(RESOLVED_CASE).is_file();
+        let is_marked = path.join(marker).is_file();
         Ok(if is_marked {
             Self::Results
         } else {

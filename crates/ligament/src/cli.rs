@@ -51,6 +51,13 @@ pub enum Command {
     /// replaced only by one that could be read.
     #[command(after_help = MESH_EXAMPLES)]
     Mesh(MeshArgs),
+    /// Run the published cases and compare with their printed values
+    ///
+    /// Runs cases of the papers that the models are from, and prints for every known value what this
+    /// program computes, the difference, and whether that is as it should be; known misprints with
+    /// their reasons. Writes the same as Markdown, CSV and plots (SVG).
+    #[command(after_help = VERIFY_EXAMPLES)]
+    Verify(VerifyArgs),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions(CompletionsArgs),
@@ -88,6 +95,14 @@ Examples:
 
 A --set gives a number that the geometry declares by DefineConstant[ h = ... ].
 Lengths of the geometry are in m.";
+
+const VERIFY_EXAMPLES: &str = "\
+Examples:
+  ligament verify                    everything: results/verification/README.md
+  ligament verify disk --fast        one experiment, and of it what the tests run
+  ligament verify --list             the experiments
+
+The exit code is 1 if a value that should agree does not.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
@@ -168,6 +183,26 @@ pub struct MeshArgs {
     /// Set a number of the geometry, e.g. h=0.001 (may be repeated)
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = number_setting)]
     pub numbers: Vec<(String, f64)>,
+}
+
+/// `ligament verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Experiments to run [default: all]
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+    /// List the experiments with their sources, and run none
+    #[arg(long)]
+    pub list: bool,
+    /// Run the subset that the tests run
+    #[arg(long)]
+    pub fast: bool,
+    /// Folder for the report
+    #[arg(long, value_name = "DIR", default_value = "results/verification")]
+    pub out: PathBuf,
+    /// Replace an earlier report in the folder
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// `ligament completions`.

@@ -8,11 +8,12 @@ use clap::{CommandFactory, Parser};
 use ligament::case::{CaseError, CaseFile};
 use ligament::check::Extent;
 use ligament::cli::{
-    CaseArgs, CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs,
+    CaseArgs, CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs, VerifyArgs,
 };
 use ligament::mesh_command::{MeshRequest, make_mesh};
 use ligament::progress::ProgressMode;
-use ligament::{check, inspect, run};
+use ligament::verify::table::Extent as VerifyExtent;
+use ligament::{check, inspect, run, verify};
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
@@ -20,6 +21,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check(args),
         Command::Inspect(args) => inspect(&args),
         Command::Mesh(args) => mesh(args),
+        Command::Verify(args) => verify(args),
         Command::Completions(args) => completions(&args),
     };
     match result {
@@ -92,6 +94,24 @@ fn mesh(args: MeshArgs) -> anyhow::Result<()> {
         &request.out,
         &mesh,
     )?)
+}
+
+fn verify(args: VerifyArgs) -> anyhow::Result<()> {
+    let mut stdout = io::stdout();
+    if args.list {
+        return Ok(verify::report::console::list(&mut stdout)?);
+    }
+    let request = verify::Request {
+        names: args.names,
+        extent: if args.fast {
+            VerifyExtent::Fast
+        } else {
+            VerifyExtent::Full
+        },
+        out: args.out,
+        force: args.force,
+    };
+    verify::verify(&request, &mut stdout)
 }
 
 fn completions(args: &CompletionsArgs) -> anyhow::Result<()> {

@@ -60,9 +60,19 @@ pub fn build_model(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
+    let body = body::of_case(case, stages)?;
+    model_of(case, body, stages, progress)
+}
+
+/// A body in, bond system out.
+pub(crate) fn model_of(
+    case: &CaseFile,
+    body: Box<dyn Body>,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model> {
     let plane = resolve::plane(case);
     let materials = resolve::materials(case);
-    let body = body::of_case(case, stages)?;
     let material_of_cell = resolve::material_of_cell(case, &*body)?;
     let thickness = case.case.body.thickness();
     let cloud = stages.time("points", || {
@@ -290,9 +300,8 @@ fn follow_loads(
         &*model.body,
         case.case.fracture.as_ref(),
     );
-    let outcome: Outcome = stages.time("solution", || match &case.case.fracture {
-        None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut watch),
-        Some(fracture) => break_bonds(&problem, &model.critical_stretch, fracture, &mut watch),
+    let outcome = stages.time("solution", || {
+        follow(case, &problem, &model.critical_stretch, &mut watch)
     })?;
 
     let notices = watch.into_notices();
@@ -302,6 +311,19 @@ fn follow_loads(
     folder.write_text("summary.json", &(text + "\n"))?;
     progress.finish(&outcome.termination.to_string());
     Ok(summary)
+}
+
+/// Solves the case, or follows its loading up to failure.
+pub(crate) fn follow(
+    case: &CaseFile,
+    problem: &Problem<'_>,
+    critical_stretch: &[f64],
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    match &case.case.fracture {
+        None => driver::elastic::run(problem, ELASTIC_ENERGY_TOLERANCE, observer),
+        Some(fracture) => break_bonds(problem, critical_stretch, fracture, observer),
+    }
 }
 
 /// Follows the loading with the driver that the case chooses.

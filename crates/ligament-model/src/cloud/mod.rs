@@ -1,4 +1,4 @@
-//! Material points, from a mesh ([`mesh`]) or a regular lattice ([`lattice`]).
+//! Material points, from a mesh (`mesh.rs`) or a regular lattice ([`lattice`]).
 
 pub mod lattice;
 mod mesh;

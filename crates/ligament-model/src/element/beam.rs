@@ -3,7 +3,8 @@
 //! Rotations are counter-clockwise. With them the shear row of B reads [0, -1, -l/2, 0, 1, -l/2]/l; the signs +l/2 of
 //! the printed eq. 3 belong to clockwise rotations.
 
-use super::{BondDeformation, UNKNOWNS};
+use super::{BondDeformation, Element, UNKNOWNS};
+use crate::system::BondSystem;
 
 /// Geometry and rigidity of one bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,12 +21,24 @@ pub struct BeamBond {
     pub rotational_rigidity: f64,
 }
 
-impl BeamBond {
+impl Element for BeamBond {
+    #[inline]
+    fn of(system: &BondSystem, bond: usize) -> Self {
+        Self {
+            length: system.bonds.length[bond],
+            direction: system.bonds.direction[bond],
+            axial_rigidity: system.axial_rigidity[bond],
+            shear_rigidity: system.shear_rigidity[bond],
+            rotational_rigidity: system.rotational_rigidity[bond],
+        }
+    }
+
     /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):
     ///
     /// s = [a (u_xB - u_xA) + b (u_yB - u_yA)]/l,
     /// gamma = [-b (u_xB - u_xA) + a (u_yB - u_yA)]/l - (theta_A + theta_B)/2, theta_rel = theta_B - theta_A.
-    pub fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
+    #[inline]
+    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         let [a, b] = self.direction;
         let (du_x, du_y) = (end_b[0] - end_a[0], end_b[1] - end_a[1]);
         let per_length = 1.0 / self.length;
@@ -37,14 +50,16 @@ impl BeamBond {
     }
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
-    pub fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+    #[inline]
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         0.5 * (self.axial_rigidity * one.stretch * other.stretch
             + self.shear_rigidity * one.shear * other.shear
             + self.rotational_rigidity * one.rotation * other.rotation)
     }
 
     /// Internal forces and moment K u at the ends A and B, N and N m.
-    pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
+    #[inline]
+    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
         let [a, b] = self.direction;
         let per_length = 1.0 / self.length;
         let axial = self.axial_rigidity * deformation.stretch * per_length;
@@ -61,7 +76,7 @@ impl BeamBond {
 
     /// K as a sum over stretch, shear and relative rotation of rigidity g g^T, with the rows g of B^T R (NHPD eq. 3), which
     /// take the unknowns of A and B to (s, gamma, theta_rel).
-    pub fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
+    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
         let [a, b] = [
             self.direction[0] / self.length,
             self.direction[1] / self.length,

@@ -13,6 +13,7 @@ pub mod spring;
 
 use nalgebra::{Matrix6, Vector6};
 
+use crate::system::BondSystem;
 use beam::BeamBond;
 use spring::SpringBond;
 
@@ -37,6 +38,25 @@ pub struct BondDeformation {
     pub shear: f64,
     /// Relative rotation theta_B - theta_A, rad.
     pub rotation: f64,
+}
+
+/// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
+pub trait Element: Copy {
+    /// The element of a bond.
+    fn of(system: &BondSystem, bond: usize) -> Self;
+
+    /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
+    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation;
+
+    /// 1/2 u^T K u', J, for two deformations of the same bond.
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64;
+
+    /// Internal forces and moments K u at the ends A and B, N and N m.
+    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2];
+
+    /// K as a sum over stretch, shear and relative rotation of rigidity g g^T; the rows g take the unknowns of A and B to
+    /// (s, gamma, theta_rel).
+    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3];
 }
 
 /// One bond with its geometry and rigidity.

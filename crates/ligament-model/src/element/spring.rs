@@ -3,7 +3,8 @@
 //! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
 //! rigid rotation costs energy.
 
-use super::{BondDeformation, UNKNOWNS};
+use super::{BondDeformation, Element, UNKNOWNS};
+use crate::system::BondSystem;
 
 /// Geometry and rigidity of one bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,11 +19,22 @@ pub struct SpringBond {
     pub shear_rigidity: f64,
 }
 
-impl SpringBond {
+impl Element for SpringBond {
+    #[inline]
+    fn of(system: &BondSystem, bond: usize) -> Self {
+        Self {
+            length: system.bonds.length[bond],
+            direction: system.bonds.direction[bond],
+            axial_rigidity: system.axial_rigidity[bond],
+            shear_rigidity: system.shear_rigidity[bond],
+        }
+    }
+
     /// Deformation for the displacements of the ends A and B:
     ///
     /// s = [a (u_xB - u_xA) + b (u_yB - u_yA)]/l, gamma = [-b (u_xB - u_xA) + a (u_yB - u_yA)]/l.
-    pub fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
+    #[inline]
+    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         let [a, b] = self.direction;
         let (du_x, du_y) = (end_b[0] - end_a[0], end_b[1] - end_a[1]);
         let per_length = 1.0 / self.length;
@@ -34,13 +46,15 @@ impl SpringBond {
     }
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
-    pub fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+    #[inline]
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         0.5 * (self.axial_rigidity * one.stretch * other.stretch
             + self.shear_rigidity * one.shear * other.shear)
     }
 
     /// Internal forces K u at the ends A and B, N; the moments are zero.
-    pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
+    #[inline]
+    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
         let [a, b] = self.direction;
         let per_length = 1.0 / self.length;
         let axial = self.axial_rigidity * deformation.stretch * per_length;
@@ -50,7 +64,7 @@ impl SpringBond {
     }
 
     /// K as a sum over stretch and shear of rigidity g g^T, and a third term of rigidity zero.
-    pub fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
+    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
         let [a, b] = [
             self.direction[0] / self.length,
             self.direction[1] / self.length,

@@ -20,6 +20,10 @@ impl MeshBody {
         read_mesh(path).map(Self)
     }
 
+    pub(super) fn new(mesh: Mesh) -> Self {
+        Self(mesh)
+    }
+
     /// What the groups of this name hold, whatever their dimension, ascending; `None` where there is none.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
         let mut groups = self.0.groups_named(name).peekable();

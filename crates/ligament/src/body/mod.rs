@@ -6,6 +6,7 @@ mod mesh;
 use std::fmt::Debug;
 use std::io::{self, Write};
 
+use ligament_mesh::Mesh;
 use ligament_model::{PointCloud, Shape};
 use ligament_output::results::BodyGrid;
 
@@ -88,4 +89,9 @@ pub fn of_case(case: &CaseFile, stages: &mut Stages) -> anyhow::Result<Box<dyn B
             Box::new(stages.time("lattice", || LatticeBody::new(case, section))?)
         }
     })
+}
+
+/// A body on a mesh that is there already.
+pub(crate) fn of_mesh(mesh: Mesh) -> Box<dyn Body> {
+    Box::new(MeshBody::new(mesh))
 }

@@ -211,21 +211,21 @@ impl RawSet {
             (self.circle).map(|circle| circle.check(key).map(CellSet::Circle)),
             (self.polygon).map(|corners| polygon(key, corners).map(CellSet::Polygon)),
         ];
-        let sides: [(&str, Option<u32>, u32, fn(u32) -> CellSet); 4] = [
-            ("bottom", self.bottom, rows, CellSet::Bottom),
-            ("top", self.top, rows, CellSet::Top),
-            ("left", self.left, columns, CellSet::Left),
-            ("right", self.right, columns, CellSet::Right),
-        ];
-        let sides = sides.into_iter().filter_map(|(name, count, most, set)| {
-            let count = count?;
-            let fits = require_at_least_one(key, name, count).and_then(|()| {
+        let side = |name: &str, count: Option<u32>, most: u32, set: fn(u32) -> CellSet| {
+            count.map(|count| {
+                require_at_least_one(key, name, count)?;
                 let expected = format!("{most} or less, as the lattice has");
-                require(count <= most, || key.child(name), &expected, count)
-            });
-            Some(fits.map(|()| set(count)))
-        });
-        let found = shapes.into_iter().flatten().chain(sides).next();
+                require(count <= most, || key.child(name), &expected, count)?;
+                Ok(set(count))
+            })
+        };
+        let sides = [
+            side("bottom", self.bottom, rows, CellSet::Bottom),
+            side("top", self.top, rows, CellSet::Top),
+            side("left", self.left, columns, CellSet::Left),
+            side("right", self.right, columns, CellSet::Right),
+        ];
+        let found = shapes.into_iter().chain(sides).flatten().next();
         found.unwrap_or_else(|| Err(not_exactly_one(key, &given)))
     }
 }

@@ -1,0 +1,208 @@
+//! An entry of a table: a known value, whether it is to be trusted, and the verdict on what was computed.
+
+use super::printed::{Allowed, Printed};
+
+/// A value that is known before it is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// What it is the value of, a label for each key of the heading.
+    pub labels: Vec<String>,
+    /// The value.
+    pub known: Printed,
+    /// How far the computed value may be from it.
+    pub allowed: Allowed,
+    /// Whether the value is to be trusted.
+    pub standing: Standing,
+    /// Whether it belongs to the fast subset.
+    pub is_fast: bool,
+}
+
+/// Whether a known value is to be trusted.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Standing {
+    /// It is.
+    Sound,
+    /// It is, but its last digit was cut off, not rounded.
+    Truncated {
+        /// What shows it.
+        reason: String,
+    },
+    /// It was printed in error.
+    Misprint {
+        /// What should stand there, and is compared with.
+        instead: Printed,
+        /// What shows it.
+        reason: String,
+    },
+    /// No set-up is known that leads to it.
+    Open {
+        /// What an independent calculation gives, and is compared with.
+        instead: Printed,
+        /// What is known about it.
+        reason: String,
+    },
+}
+
+/// What became of an entry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The computed value is the known one to its last digit.
+    Met,
+    /// It is as near as it should be.
+    Within,
+    /// The known value is a misprint, and the computed one is what should stand there.
+    Misprint,
+    /// The known value is not met, and the computed one is that of an independent calculation.
+    NotReproduced,
+    /// It is not judged.
+    Shown,
+    /// It should be near, and is not.
+    Failed,
+}
+
+impl Entry {
+    /// What becomes of the entry with this computed value.
+    pub fn verdict(&self, computed: f64) -> Verdict {
+        let agrees = |printed: &Printed| self.allowed.admits(printed, computed);
+        match &self.standing {
+            _ if !computed.is_finite() => Verdict::Failed,
+            Standing::Sound if self.allowed == Allowed::Any => Verdict::Shown,
+            Standing::Sound if !agrees(&self.known) => Verdict::Failed,
+            Standing::Sound if self.known.is_rounded_from(computed) => Verdict::Met,
+            Standing::Sound => Verdict::Within,
+            Standing::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Met,
+            Standing::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
+            Standing::Open { instead, .. } if agrees(instead) => Verdict::NotReproduced,
+            _ => Verdict::Failed,
+        }
+    }
+}
+
+impl Standing {
+    /// Why the known value is not taken as it is.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Sound => None,
+            Self::Truncated { reason }
+            | Self::Misprint { reason, .. }
+            | Self::Open { reason, .. } => Some(reason),
+        }
+    }
+
+    /// What the computed value is compared with instead of the known one.
+    pub fn instead(&self) -> Option<&Printed> {
+        match self {
+            Self::Misprint { instead, .. } | Self::Open { instead, .. } => Some(instead),
+            Self::Sound | Self::Truncated { .. } => None,
+        }
+    }
+}
+
+impl Verdict {
+    /// All verdicts, the best first.
+    pub const ALL: [Self; 6] = [
+        Self::Met,
+        Self::Within,
+        Self::Misprint,
+        Self::NotReproduced,
+        Self::Shown,
+        Self::Failed,
+    ];
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::Within => "within tolerance",
+            Self::Misprint => "misprint",
+            Self::NotReproduced => "not reproduced",
+            Self::Shown => "not judged",
+            Self::Failed => "FAILED",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(known: &str, allowed: Allowed, standing: Standing) -> Entry {
+        Entry {
+            labels: Vec::new(),
+            known: Printed::parse(known).unwrap(),
+            allowed,
+            standing,
+            is_fast: true,
+        }
+    }
+
+    /// The verdicts on several computed values.
+    fn verdicts(entry: &Entry, computed: &[f64]) -> Vec<Verdict> {
+        computed.iter().map(|value| entry.verdict(*value)).collect()
+    }
+
+    #[test]
+    fn a_sound_value_is_met_nearly_met_or_missed() {
+        use Verdict::{Failed, Met, Shown, Within};
+        let printed = entry("2294.9", Allowed::Digits, Standing::Sound);
+        assert_eq!(
+            verdicts(&printed, &[2294.94, 2294.86, 2294.96]),
+            [Met, Met, Failed]
+        );
+        let near = entry("2294.9", Allowed::Relative(0.01), Standing::Sound);
+        assert_eq!(
+            verdicts(&near, &[2294.9, 2310.0, 2272.0, 2318.0]),
+            [Met, Within, Within, Failed]
+        );
+        // Half a unit of the only digit of 0 is no excuse for missing the tolerance.
+        let zero = entry("0", Allowed::Absolute(0.01), Standing::Sound);
+        assert_eq!(verdicts(&zero, &[-0.005, 0.3]), [Met, Failed]);
+        let shown = entry("0.1", Allowed::Any, Standing::Sound);
+        assert_eq!(verdicts(&shown, &[0.1, 7.0]), [Shown, Shown]);
+        for it in [printed, near, zero, shown] {
+            assert_eq!(verdicts(&it, &[f64::NAN, f64::INFINITY]), [Failed, Failed]);
+        }
+    }
+
+    #[test]
+    fn a_truncated_value_is_met_by_what_was_cut() {
+        let reason = String::from("cut");
+        let cut = entry("0.01085", Allowed::Digits, Standing::Truncated { reason });
+        let found = verdicts(&cut, &[0.010856, 0.01085, 0.010849, 0.010861]);
+        assert_eq!(
+            found,
+            [Verdict::Met, Verdict::Met, Verdict::Failed, Verdict::Failed]
+        );
+        let reason = String::from("cut");
+        let negative = entry("-0.5", Allowed::Digits, Standing::Truncated { reason });
+        assert_eq!(
+            verdicts(&negative, &[-0.58, -0.48]),
+            [Verdict::Met, Verdict::Failed]
+        );
+    }
+
+    #[test]
+    fn a_misprint_must_still_be_what_should_stand_there() {
+        let (instead, reason) = (
+            Printed::parse("2053").unwrap(),
+            String::from("digits exchanged"),
+        );
+        let misprint = entry(
+            "2025.5",
+            Allowed::Digits,
+            Standing::Misprint {
+                instead: instead.clone(),
+                reason: reason.clone(),
+            },
+        );
+        let found = verdicts(&misprint, &[2053.2, 2025.5]);
+        assert_eq!(found, [Verdict::Misprint, Verdict::Failed]);
+        let open = entry(
+            "2025.5",
+            Allowed::Relative(0.001),
+            Standing::Open { instead, reason },
+        );
+        let found = verdicts(&open, &[2054.0, 2025.5]);
+        assert_eq!(found, [Verdict::NotReproduced, Verdict::Failed]);
+    }
+}

@@ -1,0 +1,236 @@
+//! `ligament verify`: runs the published cases and compares, entry by entry.
+//!
+//! | Module | Holds |
+//! |--------|-------|
+//! | [`published`] | the reader of the tables in `published/*.csv`: known values, tolerances, misprints with their reasons |
+//! | [`table`], [`entry`], [`printed`] | a table, the verdict on an entry, numbers with their printed digits |
+//! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
+//! | `disk`, `poisson`, ... | the experiments, a file each |
+//! | [`report`], [`plots`], [`tally`] | console, Markdown, CSV and SVG |
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::Context;
+use ligament_output::folder::ResultFolder;
+
+use crate::suggestion::hint;
+
+mod disk;
+pub mod entry;
+mod frequencies;
+mod lamina;
+mod moduli;
+mod named_modes;
+pub mod plots;
+mod poisson;
+pub mod printed;
+pub mod published;
+pub mod report;
+mod statics;
+pub mod table;
+pub mod tally;
+mod tension;
+mod trial;
+
+use entry::Verdict;
+use plots::Plot;
+use report::{console, files, markdown};
+use table::{Extent, Table};
+use tally::Tally;
+
+/// All experiments, in the order of the report.
+pub static EXPERIMENTS: [Experiment; 7] = [
+    frequencies::EXPERIMENT,
+    statics::EXPERIMENT,
+    lamina::EXPERIMENT,
+    tension::EXPERIMENT,
+    moduli::EXPERIMENT,
+    poisson::EXPERIMENT,
+    disk::EXPERIMENT,
+];
+
+/// A published case, or several that belong together.
+#[derive(Debug, Clone, Copy)]
+pub struct Experiment {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// Paper, tables and figures, or closed form.
+    pub source: &'static str,
+    /// What is computed, and how.
+    pub setup: &'static str,
+    /// The cases that are run, with settings of each entry.
+    pub cases: &'static [&'static str],
+    /// Computes the tables, or their fast subset.
+    pub compute: fn(Extent) -> anyhow::Result<Findings>,
+}
+
+impl Experiment {
+    /// Runs the experiment; a table without entries in the subset is left out.
+    ///
+    /// # Errors
+    ///
+    /// If a case of it cannot be run.
+    pub fn run(&self, extent: Extent) -> anyhow::Result<Findings> {
+        let mut findings = (self.compute)(extent)
+            .with_context(|| format!("experiment {} cannot be run", self.name))?;
+        findings.tables.retain(|table| !table.rows.is_empty());
+        Ok(findings)
+    }
+}
+
+/// What an experiment comes to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Findings {
+    /// Known and computed values.
+    pub tables: Vec<Table>,
+    /// Curves of them.
+    pub plots: Vec<Plot>,
+}
+
+/// What to verify, and where to write it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// Names of experiments; none for all.
+    pub names: Vec<String>,
+    /// All entries, or the fast subset.
+    pub extent: Extent,
+    /// Folder of the report.
+    pub out: PathBuf,
+    /// Whether an earlier report there may be replaced.
+    pub force: bool,
+}
+
+/// Why a verification is not a success.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum VerifyError {
+    /// There is no such experiment.
+    #[error("no experiment `{name}`{}", hint(name, known, "experiments", '`'))]
+    UnknownExperiment {
+        /// The name given.
+        name: String,
+        /// The names that there are.
+        known: Vec<String>,
+    },
+    /// Entries that should agree do not.
+    #[error("{failed} of {entries} entries fail: those marked {} above", Verdict::Failed.words())]
+    EntriesFail {
+        /// Entries that fail.
+        failed: usize,
+        /// All entries.
+        entries: usize,
+    },
+}
+
+/// Runs experiments, tells of each as it is done, and writes the report.
+///
+/// # Errors
+///
+/// If a name is not known, the folder cannot be used, an experiment cannot be run, or, with the report written, an entry
+/// fails.
+pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
+    let chosen = select(&request.names)?;
+    let folder = ResultFolder::create_marked(&request.out, files::SUMMARY, request.force)?;
+    let mut summary = files::Summary::create(&folder)?;
+    let mut done = Vec::new();
+    for experiment in chosen {
+        console::announce(screen, experiment)?;
+        let findings = experiment.run(request.extent)?;
+        console::tell(screen, &findings)?;
+        files::write(&folder, &findings)?;
+        summary.append(experiment, &Tally::of(&findings))?;
+        done.push((experiment, findings));
+    }
+    folder.write_text("README.md", &markdown::text(&done, request.extent))?;
+    let all: Tally = done.iter().map(|(_, findings)| Tally::of(findings)).sum();
+    writeln!(screen, "{all}")?;
+    writeln!(
+        screen,
+        "report in {}",
+        folder.path().join("README.md").display()
+    )?;
+    Ok(conclude(&all)?)
+}
+
+/// Whether no entry fails.
+fn conclude(all: &Tally) -> Result<(), VerifyError> {
+    let (failed, entries) = (all.count(Verdict::Failed), all.entries());
+    if failed == 0 {
+        Ok(())
+    } else {
+        Err(VerifyError::EntriesFail { failed, entries })
+    }
+}
+
+/// The experiments of these names, in the order of the report; all without names.
+///
+/// # Errors
+///
+/// If a name is not known.
+pub fn select(names: &[String]) -> Result<Vec<&'static Experiment>, VerifyError> {
+    let known = || {
+        EXPERIMENTS
+            .iter()
+            .map(|experiment| experiment.name.to_owned())
+    };
+    if let Some(name) = names.iter().find(|name| !known().any(|it| it == **name)) {
+        return Err(VerifyError::UnknownExperiment {
+            name: name.clone(),
+            known: known().collect(),
+        });
+    }
+    let is_chosen = |experiment: &&Experiment| {
+        names.is_empty() || names.iter().any(|name| name == experiment.name)
+    };
+    Ok(EXPERIMENTS.iter().filter(is_chosen).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_entry_that_fails_fails_the_verification() {
+        assert_eq!(conclude(&Tally::from([5, 4, 3, 2, 1, 0])), Ok(()));
+        let error = conclude(&Tally::from([5, 4, 3, 2, 1, 2])).unwrap_err();
+        assert_eq!(
+            error,
+            VerifyError::EntriesFail {
+                failed: 2,
+                entries: 17
+            }
+        );
+        assert_eq!(
+            error.to_string(),
+            "2 of 17 entries fail: those marked FAILED above"
+        );
+    }
+
+    #[test]
+    fn experiments_are_chosen_by_name_in_the_order_of_the_report() {
+        let names = |chosen: &[&str]| {
+            let chosen: Vec<String> = chosen.iter().map(|&name| name.to_owned()).collect();
+            select(&chosen).map(|list| list.iter().map(|it| it.name).collect::<Vec<_>>())
+        };
+        assert_eq!(names(&[]).unwrap().len(), EXPERIMENTS.len());
+        assert_eq!(names(&["disk", "poisson"]), Ok(vec!["poisson", "disk"]));
+        let error = names(&["poison"]).unwrap_err().to_string();
+        assert!(
+            error.starts_with("no experiment `poison`; did you mean `poisson`?"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn names_of_experiments_differ() {
+        let mut names: Vec<&str> = EXPERIMENTS
+            .iter()
+            .map(|experiment| experiment.name)
+            .collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), EXPERIMENTS.len());
+    }
+}

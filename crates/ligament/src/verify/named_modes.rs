@@ -1,0 +1,38 @@
+//! The modes of a cantilever by their names.
+
+use anyhow::ensure;
+use ligament_analysis::modal::Mode;
+
+use super::trial::Trial;
+
+/// Frequencies of the three lowest modes of a cantilever, Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Frequencies {
+    /// First flexural mode.
+    pub(super) flexural: f64,
+    /// First axial mode.
+    pub(super) axial: f64,
+    /// Second flexural mode.
+    pub(super) second_flexural: f64,
+}
+
+impl Frequencies {
+    /// Those of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
+    ///
+    /// The axial mode is that with the largest effective mass along the cantilever, wherever it stands among the three: with
+    /// PDS it is below the first flexural one for nu < 0, and equal to it for nu = 0.
+    pub(super) fn of(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
+        let modes = trial.modes()?;
+        ensure!(modes.len() == 3, "{} modes, expected 3", modes.len());
+        let along = |mode: &Mode| mode.participation[axis].powi(2);
+        let largest = modes.iter().map(along).fold(0.0, f64::max);
+        let (axial, flexural): (Vec<&Mode>, Vec<&Mode>) =
+            modes.iter().partition(|mode| along(mode) == largest);
+        ensure!(axial.len() == 1, "no mode is the axial one");
+        Ok(Self {
+            flexural: flexural[0].frequency(),
+            axial: axial[0].frequency(),
+            second_flexural: flexural[1].frequency(),
+        })
+    }
+}

@@ -1,0 +1,338 @@
+//! Curves as SVG.
+
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::{
+    Cartesian2d, Circle, Color, DashedLineSeries, DrawingArea, IntoDrawingArea, IntoTextStyle,
+    LineSeries, PathElement, RGBColor, SVGBackend, ShapeStyle, Text, WHITE,
+};
+
+/// Width and height of a plot, in pixels.
+const SIZE: (u32, u32) = (760, 420);
+
+/// Width of the legend, at the right.
+const LEGEND: i32 = 190;
+
+/// Height of a line of the legend.
+const LINE: i32 = 22;
+
+/// Length of dashes and of the gaps between them.
+const DASH: (i32, i32) = (7, 5);
+
+const GRID: RGBColor = RGBColor(225, 225, 225);
+const AXES: RGBColor = RGBColor(90, 90, 90);
+const TEXT: RGBColor = RGBColor(30, 30, 30);
+
+/// A plot: several curves over one quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    /// Name of its file.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// The quantity along x, with its unit.
+    pub x: String,
+    /// The quantity along y, with its unit.
+    pub y: String,
+    /// The curves.
+    pub series: Vec<Series>,
+}
+
+/// A curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    label: String,
+    mark: Mark,
+    colour: Colour,
+    points: Vec<[f64; 2]>,
+}
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// A line with dots: what the program computes.
+    Line,
+    /// A line alone: the same at many points.
+    Curve,
+    /// Open circles: what is printed.
+    Circles,
+    /// A dashed line: another theory.
+    Dashes,
+}
+
+/// Colours that are told apart with any colour vision (Okabe and Ito).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Colour {
+    /// Black.
+    Black,
+    /// Blue.
+    Blue,
+    /// Vermilion.
+    Vermilion,
+    /// Bluish green.
+    Green,
+    /// Orange.
+    Orange,
+    /// Reddish purple.
+    Purple,
+    /// Sky blue.
+    Sky,
+}
+
+/// A plot that cannot be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlotError {
+    /// No curve has a point.
+    #[error("plot {name} has no points")]
+    Empty {
+        /// Name of the plot.
+        name: String,
+    },
+    /// The drawing library refused.
+    #[error("plot {name} cannot be drawn: {reason}")]
+    Drawing {
+        /// Name of the plot.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl Series {
+    /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or points.
+    pub fn new(label: &str, mark: Mark, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self {
+            label: label.to_owned(),
+            mark,
+            colour,
+            points,
+        }
+    }
+}
+
+impl Plot {
+    /// The plot as the text of an SVG file.
+    ///
+    /// # Errors
+    ///
+    /// If there is no finite point to draw.
+    pub fn to_svg(&self) -> Result<String, PlotError> {
+        let points = || self.series.iter().flat_map(|series| &series.points);
+        let range = |axis: usize| range(points().map(|point| point[axis]));
+        let Some((x, y)) = range(0).zip(range(1)) else {
+            let name = self.name.clone();
+            return Err(PlotError::Empty { name });
+        };
+        let mut text = String::new();
+        self.draw(&mut text, x, y)
+            .map_err(|error| PlotError::Drawing {
+                name: self.name.clone(),
+                reason: error.to_string(),
+            })?;
+        Ok(text)
+    }
+
+    fn draw(&self, out: &mut String, x: [f64; 2], y: [f64; 2]) -> Drawn {
+        let area = SVGBackend::with_string(out, SIZE).into_drawing_area();
+        area.fill(&WHITE)?;
+        let (plane, legend) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
+        let mut chart = ChartBuilder::on(&plane)
+            .margin(14)
+            .caption(&self.title, ("sans-serif", 19, &TEXT))
+            .x_label_area_size(46)
+            .y_label_area_size(68)
+            .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
+        let (x_decimals, y_decimals) = (decimals(x), decimals(y));
+        chart
+            .configure_mesh()
+            .x_desc(&self.x)
+            .y_desc(&self.y)
+            .x_labels(8)
+            .y_labels(7)
+            .x_label_formatter(&|value| tick(*value, x_decimals))
+            .y_label_formatter(&|value| tick(*value, y_decimals))
+            .axis_desc_style(("sans-serif", 17, &TEXT))
+            .label_style(("sans-serif", 15, &TEXT))
+            .light_line_style(WHITE)
+            .bold_line_style(GRID)
+            .axis_style(AXES)
+            .draw()?;
+        for series in &self.series {
+            series.draw(&mut chart)?;
+        }
+        let named = self.series.iter().filter(|series| series.is_named());
+        for (place, series) in named.enumerate() {
+            series.draw_legend(&legend, 52 + LINE * place as i32)?;
+        }
+        area.present()
+    }
+}
+
+type Backend<'a> = SVGBackend<'a>;
+type Chart<'a, 'b> = ChartContext<'a, Backend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+impl Series {
+    fn draw(&self, chart: &mut Chart<'_, '_>) -> Drawn {
+        let points = || {
+            self.points
+                .iter()
+                .map(|&[x, y]| (x, y))
+                .filter(|(x, y)| x.is_finite() && y.is_finite())
+        };
+        match self.mark {
+            Mark::Line => {
+                chart.draw_series(LineSeries::new(points(), self.stroke()))?;
+                chart.draw_series(points().map(|point| Circle::new(point, 3, self.dot())))?;
+            }
+            Mark::Curve => {
+                chart.draw_series(LineSeries::new(points(), self.stroke()))?;
+            }
+            Mark::Circles => {
+                chart.draw_series(points().map(|point| Circle::new(point, 6, self.stroke())))?;
+            }
+            Mark::Dashes => {
+                let dashes = DashedLineSeries::new(points(), DASH.0, DASH.1, self.stroke());
+                chart.draw_series(dashes)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_legend(&self, area: &DrawingArea<Backend<'_>, Shift>, y: i32) -> Drawn {
+        let line = |from: i32, to: i32| PathElement::new([(from, y), (to, y)], self.stroke());
+        match self.mark {
+            Mark::Line => {
+                area.draw(&line(4, 32))?;
+                area.draw(&Circle::new((18, y), 3, self.dot()))?;
+            }
+            Mark::Curve => area.draw(&line(4, 32))?,
+            Mark::Circles => area.draw(&Circle::new((18, y), 6, self.stroke()))?,
+            Mark::Dashes => {
+                for start in [4, 16, 28] {
+                    area.draw(&line(start, start + DASH.0))?;
+                }
+            }
+        }
+        let style = ("sans-serif", 15, &TEXT).into_text_style(area);
+        area.draw(&Text::new(self.label.as_str(), (42, y - 6), style))
+    }
+
+    fn is_named(&self) -> bool {
+        !self.label.is_empty() && !self.points.is_empty()
+    }
+
+    fn stroke(&self) -> ShapeStyle {
+        self.colour.rgb().stroke_width(2)
+    }
+
+    fn dot(&self) -> ShapeStyle {
+        self.colour.rgb().filled()
+    }
+}
+
+impl Colour {
+    fn rgb(self) -> RGBColor {
+        match self {
+            Self::Black => RGBColor(60, 60, 60),
+            Self::Blue => RGBColor(0, 114, 178),
+            Self::Vermilion => RGBColor(213, 94, 0),
+            Self::Green => RGBColor(0, 158, 115),
+            Self::Orange => RGBColor(230, 159, 0),
+            Self::Purple => RGBColor(204, 121, 167),
+            Self::Sky => RGBColor(86, 180, 233),
+        }
+    }
+}
+
+/// What an axis shows: all finite values and a twentieth more at each end; `None` without values.
+fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let finite = values.filter(|value| value.is_finite());
+    let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    });
+    // A curve that is level, or a single point, needs some room as well.
+    let room = 0.05 * (high - low).max(1e-3 * low.abs().max(high.abs()).max(f64::MIN_POSITIVE));
+    (low <= high).then_some([low - room, high + room])
+}
+
+/// Decimals that tell the labels of an axis apart.
+fn decimals([low, high]: [f64; 2]) -> usize {
+    let digits = (8.0 / (high - low)).log10().ceil();
+    digits.clamp(0.0, 9.0) as usize
+}
+
+/// A label of an axis, without the sign of a rounded zero.
+fn tick(value: f64, decimals: usize) -> String {
+    let unit = 10f64.powi(decimals as i32);
+    format!("{:.decimals$}", (value * unit).round() / unit + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plot(series: Vec<Series>) -> Plot {
+        Plot {
+            name: "peak".to_owned(),
+            title: "Peak & strength".to_owned(),
+            x: "lambda".to_owned(),
+            y: "F, N".to_owned(),
+            series,
+        }
+    }
+
+    #[test]
+    fn a_plot_has_its_curves_labels_and_units_as_text() {
+        let points = vec![[2.0, 0.6], [f64::NAN, 1.0], [4.0, 1.4]];
+        let svg = plot(vec![
+            Series::new("printed", Mark::Circles, Colour::Black, points.clone()),
+            Series::new("computed", Mark::Line, Colour::Blue, points),
+            Series::new("left out", Mark::Line, Colour::Orange, Vec::new()),
+        ])
+        .to_svg()
+        .unwrap();
+        for word in [
+            "lambda",
+            "F, N",
+            "printed",
+            "computed",
+            "Peak &amp; strength",
+        ] {
+            assert!(svg.contains(word), "{word}");
+        }
+        assert!(!svg.contains("left out"), "a curve without points");
+        // Two open circles and one in the legend, two dots and one in the legend: no point that is not finite.
+        assert_eq!(svg.matches("<circle").count(), 6);
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    }
+
+    #[test]
+    fn a_level_curve_and_a_single_point_have_room() {
+        for points in [vec![[0.0, 5.0], [1.0, 5.0]], vec![[0.0, 0.0]]] {
+            let svg = plot(vec![Series::new("level", Mark::Line, Colour::Blue, points)]).to_svg();
+            assert!(svg.is_ok_and(|svg| !svg.contains("NaN")));
+        }
+    }
+
+    #[test]
+    fn a_plot_without_points_is_refused() {
+        let empty = plot(vec![Series::new(
+            "none",
+            Mark::Line,
+            Colour::Blue,
+            vec![[f64::NAN, 1.0]],
+        )]);
+        let name = "peak".to_owned();
+        assert_eq!(empty.to_svg(), Err(PlotError::Empty { name }));
+    }
+
+    #[test]
+    fn labels_of_an_axis_differ_and_zero_has_no_sign() {
+        assert_eq!(tick(-1e-9, decimals([-0.5, 0.4])), "0.0");
+        assert_eq!(tick(1250.0, decimals([0.0, 5000.0])), "1250");
+        assert_eq!(tick(0.25, decimals([0.2, 0.3])), "0.25");
+    }
+}

@@ -1,0 +1,194 @@
+//! Numbers as they are printed, and how near another number is to them.
+
+use std::fmt;
+
+/// A number with the digits it was printed with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Printed {
+    text: String,
+    value: f64,
+}
+
+/// How far a computed value may be from the known one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Allowed {
+    /// Half a unit of the last printed digit.
+    Digits,
+    /// A share of the known value.
+    Relative(f64),
+    /// An amount in the unit of the table.
+    Absolute(f64),
+    /// Any distance: the value is shown and not judged.
+    Any,
+}
+
+/// Difference of two values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Difference {
+    /// In the unit of the table.
+    Amount(f64),
+    /// Relative to the known value.
+    Share(f64),
+}
+
+impl Printed {
+    /// A number as it is printed, with or without an exponent; `None` if the text is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+        let text = text.to_owned();
+        Some(Self { text, value })
+    }
+
+    /// A number that is known exactly, shown with so many decimals.
+    pub fn exact(value: f64, decimals: usize) -> Self {
+        let text = format!("{value:.decimals$}");
+        Self { text, value }
+    }
+
+    /// The number.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// Unit of the last printed digit.
+    pub fn last_digit(&self) -> f64 {
+        let (digits, exponent) = self
+            .text
+            .split_once(['e', 'E'])
+            .unwrap_or((&self.text, "0"));
+        let decimals = digits
+            .split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len());
+        10f64.powi(exponent.parse().unwrap_or(0) - decimals as i32)
+    }
+
+    /// Another number with one digit more than this one, four at least.
+    pub fn like(&self, value: f64) -> String {
+        let digits = 1 - self.last_digit().log10().round() as i32;
+        let decimals = match self.value.abs() {
+            0.0 => digits,
+            size => digits.max(3 - size.log10().floor() as i32),
+        };
+        let text = format!("{value:.*}", decimals.clamp(0, 12) as usize);
+        match text.strip_prefix('-') {
+            Some(digits) if digits.chars().all(|digit| matches!(digit, '0' | '.')) => {
+                digits.to_owned()
+            }
+            _ => text,
+        }
+    }
+
+    /// Whether this is another number, rounded to the printed digits.
+    pub fn is_rounded_from(&self, value: f64) -> bool {
+        (value - self.value).abs() <= 0.5 * self.last_digit() * (1.0 + ROUNDING)
+    }
+
+    /// Whether this is another number, cut off after the printed digits.
+    pub fn is_cut_from(&self, value: f64) -> bool {
+        let rest = (value - self.value) * if self.value < 0.0 { -1.0 } else { 1.0 };
+        (-ROUNDING..1.0 + ROUNDING).contains(&(rest / self.last_digit()))
+    }
+}
+
+/// What a comparison of digits leaves to the rounding of the numbers themselves.
+const ROUNDING: f64 = 1e-6;
+
+impl Allowed {
+    /// Whether a computed value is near enough to a known one.
+    pub fn admits(self, known: &Printed, computed: f64) -> bool {
+        let distance = (computed - known.value).abs();
+        match self {
+            Self::Digits => known.is_rounded_from(computed),
+            Self::Relative(share) => distance <= share * known.value.abs(),
+            Self::Absolute(amount) => distance <= amount,
+            Self::Any => true,
+        }
+    }
+}
+
+impl Difference {
+    /// The difference in words with its sign, an amount with one digit more than the known value.
+    pub fn words(self, known: &Printed) -> String {
+        let (digits, unit) = match self {
+            Self::Share(share) => (format!("{:.2}", 100.0 * share), " %"),
+            Self::Amount(amount) => (known.like(amount), ""),
+        };
+        let is_zero = digits.chars().all(|digit| matches!(digit, '-' | '.' | '0'));
+        let digits = if is_zero {
+            digits.trim_start_matches('-')
+        } else {
+            &digits
+        };
+        let sign = if is_zero || digits.starts_with('-') {
+            ""
+        } else {
+            "+"
+        };
+        format!("{sign}{digits}{unit}")
+    }
+}
+
+impl fmt::Display for Printed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl fmt::Display for Allowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Digits => f.write_str("digits"),
+            Self::Relative(share) => write!(f, "{} %", 1e-6 * (1e8 * share).round()),
+            Self::Absolute(amount) => write!(f, "{amount}"),
+            Self::Any => f.write_str("-"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_digit_is_that_of_the_text() {
+        for (text, digit) in [
+            ("2294.9", 0.1),
+            ("0.02150", 1e-5),
+            ("70", 1.0),
+            ("7.0e10", 1e9),
+            ("-3e-2", 0.01),
+        ] {
+            let found = Printed::parse(text).unwrap().last_digit();
+            assert!((found / digit - 1.0).abs() < 1e-12, "{text}: {found}");
+        }
+        for text in ["", "n/a", "nan", "inf", "1,5"] {
+            assert_eq!(Printed::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn computed_values_are_shown_with_a_digit_more() {
+        for (known, computed, shown) in [
+            ("2294.9", 2294.861, "2294.86"),
+            ("0.02142", 0.0214237, "0.021424"),
+            ("0.00000", -1e-12, "0.000000"),
+            ("70", 69.98, "69.98"),
+            ("2053", 2053.16, "2053.2"),
+        ] {
+            assert_eq!(Printed::parse(known).unwrap().like(computed), shown);
+        }
+    }
+
+    #[test]
+    fn tolerances_and_differences_in_words() {
+        assert_eq!(Allowed::Relative(0.03).to_string(), "3 %");
+        assert_eq!(Allowed::Relative(0.003).to_string(), "0.3 %");
+        assert_eq!(Allowed::Absolute(0.04).to_string(), "0.04");
+        let known = Printed::parse("0.3800").unwrap();
+        assert_eq!(Difference::Share(-0.01234).words(&known), "-1.23 %");
+        assert_eq!(Difference::Share(-1e-6).words(&known), "0.00 %");
+        assert_eq!(Difference::Amount(-1e-6).words(&known), "0.00000");
+        assert_eq!(Difference::Amount(0.0191).words(&known), "+0.01910");
+        assert_eq!(Difference::Amount(-0.0191).words(&known), "-0.01910");
+    }
+}

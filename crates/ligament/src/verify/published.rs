@@ -1,0 +1,378 @@
+//! Reads a table of known values from CSV.
+//!
+//! ```text
+//! # title: First flexural frequency
+//! # source: Author 2019, Table 4
+//! # quantity: f, Hz
+//! # known: printed
+//! # tolerance: why the tolerances are what they are
+//! nu,law,known,allowed,subset,standing,instead,reason
+//! 0,pds,2294.9,digits,fast,,,
+//! 0.1,pds,2025.5,digits,full,misprint,2053,"why it is one"
+//! ```
+//!
+//! What stands before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the
+//! unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint` or `open`.
+
+use super::entry::{Entry, Standing};
+use super::printed::{Allowed, Printed};
+use super::table::{Heading, Known};
+
+/// Columns that every table has, after those of its labels.
+const COLUMNS: [&str; 6] = [
+    "known", "allowed", "subset", "standing", "instead", "reason",
+];
+
+/// What is wrong with a table, and where.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("published table {name}, line {line}: {fault}")]
+pub struct TableError {
+    /// Name of the table.
+    pub name: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// What is wrong.
+    pub fault: TableFault,
+}
+
+/// What is wrong with a table.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TableFault {
+    /// A line of the heading is not there.
+    #[error("no line `# {key}: ...` stands above the columns")]
+    NoHeading {
+        /// What it should tell.
+        key: &'static str,
+    },
+    /// The columns are not those of a table of known values.
+    #[error("the columns should be labels, then {}", COLUMNS.join(","))]
+    Columns,
+    /// There is no entry.
+    #[error("the table has no entries")]
+    Empty,
+    /// A row has another number of cells than there are columns.
+    #[error("{found} cells, expected {expected}")]
+    Cells {
+        /// Columns.
+        expected: usize,
+        /// Cells.
+        found: usize,
+    },
+    /// A cell of a table of numbers holds something else.
+    #[error("`{found}` is not a number")]
+    NotANumber {
+        /// What stands there.
+        found: String,
+    },
+    /// A cell does not hold what its column takes.
+    #[error("`{found}` in column `{column}`, expected {expected}")]
+    Cell {
+        /// Column.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+}
+
+impl Known {
+    /// Reads a table; `name` is that of its file.
+    ///
+    /// # Errors
+    ///
+    /// If a line of the heading is missing, or a cell does not hold what its column takes; with the line.
+    pub fn parse(name: &str, text: &str) -> Result<Self, TableError> {
+        let at = |line: usize| {
+            move |fault| TableError {
+                name: name.to_owned(),
+                line: line + 1,
+                fault,
+            }
+        };
+        let is_note = |(_, line): &(usize, &str)| line.starts_with('#');
+        let mut lines = text.lines().enumerate().skip_while(is_note);
+        let (line, columns) = lines.next().ok_or_else(|| at(0)(TableFault::Columns))?;
+        let columns = cells(columns);
+        let n_keys = columns.len().saturating_sub(COLUMNS.len());
+        if columns[n_keys..] != COLUMNS || n_keys == 0 {
+            return Err(at(line)(TableFault::Columns));
+        }
+        let heading = heading(name, text, &columns[..n_keys]).map_err(at(line))?;
+        let entries = lines
+            .map(|(line, row)| entry(&cells(row), n_keys).map_err(at(line)))
+            .collect::<Result<Vec<_>, _>>()?;
+        if entries.is_empty() {
+            return Err(at(line)(TableFault::Empty));
+        }
+        Ok(Self { heading, entries })
+    }
+}
+
+/// The rows of a table of numbers below a line of `N` column names.
+///
+/// # Errors
+///
+/// If a row has another number of cells, or a cell is no number; with the line.
+pub(super) fn numbers<const N: usize>(name: &str, text: &str) -> Result<Vec<[f64; N]>, TableError> {
+    let row = |(line, row): (usize, &str)| {
+        let read = || {
+            let cells: Vec<&str> = row.split(',').collect();
+            let found = cells.len();
+            let cells: [&str; N] = cells
+                .try_into()
+                .map_err(|_| TableFault::Cells { expected: N, found })?;
+            let mut numbers = [0.0; N];
+            for (number, cell) in numbers.iter_mut().zip(cells) {
+                *number = cell.parse().map_err(|_| TableFault::NotANumber {
+                    found: cell.to_owned(),
+                })?;
+            }
+            Ok(numbers)
+        };
+        read().map_err(|fault| TableError {
+            name: name.to_owned(),
+            line: line + 1,
+            fault,
+        })
+    };
+    text.lines().enumerate().skip(1).map(row).collect()
+}
+
+fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, TableFault> {
+    let notes = || text.lines().map_while(|line| line.strip_prefix('#'));
+    let told = |key: &'static str| {
+        notes()
+            .filter_map(|note| note.split_once(':'))
+            .find(|(word, _)| word.trim() == key)
+            .map(|(_, told)| told.trim().to_owned())
+            .ok_or(TableFault::NoHeading { key })
+    };
+    Ok(Heading {
+        name: name.to_owned(),
+        title: told("title")?,
+        source: told("source")?,
+        quantity: told("quantity")?,
+        known: told("known")?,
+        tolerance: told("tolerance")?,
+        keys: keys.to_vec(),
+    })
+}
+
+fn entry(cells: &[String], n_keys: usize) -> Result<Entry, TableFault> {
+    let expected = n_keys + COLUMNS.len();
+    let (labels, rest) = cells.split_at_checked(n_keys).unwrap_or((cells, &[]));
+    let [known, allowed, subset, standing, instead, reason] = rest else {
+        let found = cells.len();
+        return Err(TableFault::Cells { expected, found });
+    };
+    Ok(Entry {
+        labels: labels.to_vec(),
+        known: number("known", known)?,
+        allowed: read_allowed(allowed)?,
+        is_fast: match subset.as_str() {
+            "fast" => true,
+            "full" => false,
+            _ => return Err(fault("subset", subset, "fast or full")),
+        },
+        standing: read_standing(standing, instead, reason)?,
+    })
+}
+
+fn read_allowed(text: &str) -> Result<Allowed, TableFault> {
+    let expected = "digits, a share such as 3 %, an amount, or any";
+    let positive = |text: &str| text.trim().parse().ok().filter(|value: &f64| *value > 0.0);
+    let read = match (text, text.strip_suffix('%')) {
+        ("digits", _) => Some(Allowed::Digits),
+        ("any", _) => Some(Allowed::Any),
+        (_, Some(share)) => positive(share).map(|percent| Allowed::Relative(0.01 * percent)),
+        (amount, None) => positive(amount).map(Allowed::Absolute),
+    };
+    read.ok_or_else(|| fault("allowed", text, expected))
+}
+
+fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing, TableFault> {
+    if standing.is_empty() {
+        let unused = [("instead", instead), ("reason", reason)];
+        return match unused.iter().find(|(_, text)| !text.is_empty()) {
+            Some((column, text)) => Err(fault(column, text, "nothing, without a standing")),
+            None => Ok(Standing::Sound),
+        };
+    }
+    if reason.is_empty() {
+        return Err(fault("reason", reason, "what shows the standing"));
+    }
+    let reason = reason.to_owned();
+    match standing {
+        "truncated" => Ok(Standing::Truncated { reason }),
+        "misprint" => Ok(Standing::Misprint {
+            instead: number("instead", instead)?,
+            reason,
+        }),
+        "open" => Ok(Standing::Open {
+            instead: number("instead", instead)?,
+            reason,
+        }),
+        _ => Err(fault(
+            "standing",
+            standing,
+            "nothing, truncated, misprint or open",
+        )),
+    }
+}
+
+fn number(column: &'static str, text: &str) -> Result<Printed, TableFault> {
+    Printed::parse(text).ok_or_else(|| fault(column, text, "a number"))
+}
+
+fn fault(column: &'static str, found: &str, expected: &'static str) -> TableFault {
+    TableFault::Cell {
+        column,
+        found: found.to_owned(),
+        expected,
+    }
+}
+
+/// The cells of a line of CSV (RFC 4180, no line breaks in quotes).
+pub fn cells(line: &str) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut is_quoted = false;
+    let mut characters = line.chars().peekable();
+    while let Some(character) = characters.next() {
+        let last = cells.len() - 1;
+        match character {
+            '"' if is_quoted && characters.next_if_eq(&'"').is_some() => cells[last].push('"'),
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => cells.push(String::new()),
+            _ => cells[last].push(character),
+        }
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::entry::Verdict;
+    use super::super::table::{Extent, LabelError};
+    use super::*;
+
+    const HEAD: &str = "\
+# title: First mode
+# source: Author 2019, Table 4
+# quantity: f, Hz
+# known: printed
+# tolerance: because
+nu,law,known,allowed,subset,standing,instead,reason
+";
+
+    fn parse(rows: &str) -> Result<Known, TableError> {
+        Known::parse("t4", &format!("{HEAD}{rows}"))
+    }
+
+    #[test]
+    fn a_table_has_heading_labels_values_and_standings() {
+        let known = parse("1/3,pds,982.2,digits,fast,,,\n0.1,pds,2025.5,3 %,full,misprint,2053,\"not \"\"f\"\", g\"\n").unwrap();
+        assert_eq!(known.heading.source, "Author 2019, Table 4");
+        assert_eq!(known.heading.keys, ["nu", "law"]);
+        assert_eq!(known.entries[1].allowed, Allowed::Relative(0.03));
+        assert_eq!(known.entries[1].standing.reason(), Some("not \"f\", g"));
+        let compute = |labels: super::super::table::Labels<'_>| Ok(1000.0 * labels.number("nu")?);
+        let table = known.judge(Extent::Full, compute).unwrap();
+        assert_eq!(table.rows[0].computed, 1000.0 / 3.0);
+        assert_eq!(table.rows[1].verdict, Verdict::Failed);
+        assert_eq!(
+            table.known("nu", &[("law", "pds")]),
+            Ok(vec![[1.0 / 3.0, 982.2], [0.1, 2025.5]])
+        );
+        assert_eq!(table.computed("nu", &[("law", "bbpd")]), Ok(vec![]));
+        assert_eq!(known.judge(Extent::Fast, compute).unwrap().rows.len(), 1);
+    }
+
+    #[test]
+    fn tables_of_numbers_are_read_and_their_faults_told() {
+        assert_eq!(
+            numbers::<2>("edge", "x,u\n1,-2e-3\n"),
+            Ok(vec![[1.0, -2e-3]])
+        );
+        for (text, message) in [
+            (
+                "x,u\n1\n",
+                "published table edge, line 2: 1 cells, expected 2",
+            ),
+            (
+                "x,u\n1,2\n1,b\n",
+                "published table edge, line 3: `b` is not a number",
+            ),
+        ] {
+            assert_eq!(numbers::<2>("edge", text).unwrap_err().to_string(), message);
+        }
+    }
+
+    #[test]
+    fn an_experiment_that_asks_for_the_wrong_label_is_told() {
+        let known = parse("0,pds,1,digits,fast,,,\n").unwrap();
+        let error = known
+            .judge(Extent::Full, |labels| Ok(labels.number("law")?))
+            .unwrap_err();
+        let shown = format!("{error:#}");
+        assert_eq!(
+            shown,
+            "t4, nu 0, law pds: `pds` of key `law` is neither a number nor a fraction such as 1/3"
+        );
+        let error = known
+            .judge(Extent::Full, |labels| Ok(labels.number("mu")?))
+            .unwrap_err();
+        assert!(matches!(error.downcast_ref(), Some(LabelError::NoKey { key, .. }) if key == "mu"));
+    }
+
+    #[test]
+    fn faults_are_told_with_their_line() {
+        for (row, message) in [
+            ("0,pds,1,digits,fast", "line 7: 5 cells, expected 8"),
+            (
+                "0,pds,one,digits,fast,,,",
+                "line 7: `one` in column `known`, expected a number",
+            ),
+            ("0,pds,1,-2 %,fast,,,", "line 7: `-2 %` in column `allowed`"),
+            (
+                "0,pds,1,digits,slow,,,",
+                "line 7: `slow` in column `subset`, expected fast or full",
+            ),
+            (
+                "0,pds,1,digits,fast,misprint,,x",
+                "line 7: `` in column `instead`, expected a number",
+            ),
+            (
+                "0,pds,1,digits,fast,misprint,2,",
+                "line 7: `` in column `reason`",
+            ),
+            (
+                "0,pds,1,digits,fast,wrong,2,x",
+                "line 7: `wrong` in column `standing`",
+            ),
+            (
+                "0,pds,1,digits,fast,,2,",
+                "line 7: `2` in column `instead`, expected nothing",
+            ),
+            ("", "line 6: the table has no entries"),
+        ] {
+            let error = parse(row).unwrap_err().to_string();
+            assert!(
+                error.starts_with(&format!("published table t4, {message}")),
+                "{error}"
+            );
+        }
+        let text = HEAD.replace("# known: printed\n", "");
+        let error = Known::parse("t4", &text).unwrap_err();
+        assert_eq!(error.fault, TableFault::NoHeading { key: "known" });
+        let text = HEAD.replace("nu,law,known", "nu,law,value");
+        assert_eq!(
+            Known::parse("t4", &text).unwrap_err().fault,
+            TableFault::Columns
+        );
+        assert_eq!(
+            Known::parse("t4", "").unwrap_err().fault,
+            TableFault::Columns
+        );
+    }
+}

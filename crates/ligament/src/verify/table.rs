@@ -1,0 +1,241 @@
+//! A table of known values, and what becomes of them.
+
+use std::fmt;
+
+use anyhow::Context;
+
+use super::entry::{Entry, Verdict};
+use super::printed::{Allowed, Difference};
+
+/// How much of the tables is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// What the tests compute.
+    Fast,
+    /// Everything.
+    Full,
+}
+
+/// A table before it is computed: what is known, and where from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Known {
+    /// What the table is.
+    pub heading: Heading,
+    /// Its values, in their order.
+    pub entries: Vec<Entry>,
+}
+
+/// What stands above a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    /// Name of its file.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// Where the values are from.
+    pub source: String,
+    /// The quantity and its unit.
+    pub quantity: String,
+    /// What the known values are called: `printed`, `eq. 22`, `closed form`.
+    pub known: String,
+    /// Why the tolerances are what they are.
+    pub tolerance: String,
+    /// What the labels of an entry are called.
+    pub keys: Vec<String>,
+}
+
+/// A table with its computed values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What stands above it.
+    pub heading: Heading,
+    /// Its rows.
+    pub rows: Vec<Row>,
+}
+
+/// An entry and what the program makes of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What is known.
+    pub entry: Entry,
+    /// What was computed.
+    pub computed: f64,
+    /// How the two go together.
+    pub verdict: Verdict,
+}
+
+/// The labels of an entry, by their keys.
+#[derive(Debug, Clone, Copy)]
+pub struct Labels<'a> {
+    keys: &'a [String],
+    labels: &'a [String],
+}
+
+/// A label that an experiment asks for and its table does not have.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LabelError {
+    /// The table has no such key.
+    #[error("no key `{key}`; keys: {}", keys.join(", "))]
+    NoKey {
+        /// The key asked for.
+        key: String,
+        /// The keys of the table.
+        keys: Vec<String>,
+    },
+    /// The label is no number.
+    #[error("`{label}` of key `{key}` is neither a number nor a fraction such as 1/3")]
+    NotANumber {
+        /// The key.
+        key: String,
+        /// The label.
+        label: String,
+    },
+}
+
+impl Known {
+    /// Computes the entries of the table, or of its fast subset, and judges them.
+    ///
+    /// # Errors
+    ///
+    /// Those of `compute`, with the labels of the entry.
+    pub fn judge(
+        &self,
+        extent: Extent,
+        mut compute: impl FnMut(Labels<'_>) -> anyhow::Result<f64>,
+    ) -> anyhow::Result<Table> {
+        let mut rows = Vec::new();
+        for entry in (self.entries.iter()).filter(|entry| entry.is_fast || extent == Extent::Full) {
+            let labels = Labels {
+                keys: &self.heading.keys,
+                labels: &entry.labels,
+            };
+            let computed =
+                compute(labels).with_context(|| format!("{}, {labels}", self.heading.name))?;
+            rows.push(Row {
+                computed,
+                verdict: entry.verdict(computed),
+                entry: entry.clone(),
+            });
+        }
+        Ok(Table {
+            heading: self.heading.clone(),
+            rows,
+        })
+    }
+}
+
+impl Table {
+    /// Number of rows with a verdict.
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.rows
+            .iter()
+            .filter(|row| row.verdict == verdict)
+            .count()
+    }
+
+    /// Computed values over the numbers of a key, from the rows that have all these labels, shape (n, 2).
+    ///
+    /// # Errors
+    ///
+    /// If the table has no such key, or a label of it is no number.
+    pub fn computed(&self, x: &str, of: &[(&str, &str)]) -> Result<Vec<[f64; 2]>, LabelError> {
+        self.points(x, of, |row| row.computed)
+    }
+
+    /// Known values over the numbers of a key, from the rows that have all these labels, shape (n, 2).
+    ///
+    /// # Errors
+    ///
+    /// If the table has no such key, or a label of it is no number.
+    pub fn known(&self, x: &str, of: &[(&str, &str)]) -> Result<Vec<[f64; 2]>, LabelError> {
+        self.points(x, of, |row| row.entry.known.value())
+    }
+
+    fn points(
+        &self,
+        x: &str,
+        of: &[(&str, &str)],
+        y: impl Fn(&Row) -> f64,
+    ) -> Result<Vec<[f64; 2]>, LabelError> {
+        let mut points = Vec::new();
+        for row in &self.rows {
+            let labels = self.labels(row);
+            let mut belongs = true;
+            for (key, label) in of {
+                belongs &= labels.text(key)? == *label;
+            }
+            if belongs {
+                points.push([labels.number(x)?, y(row)]);
+            }
+        }
+        Ok(points)
+    }
+
+    /// Computed less known value of a row: an amount in a table that allows amounts and where the known value is 0, a share
+    /// of the known value elsewhere.
+    pub fn difference(&self, row: &Row) -> Difference {
+        let is_amount = |row: &Row| matches!(row.entry.allowed, Allowed::Absolute(_));
+        let known = row.entry.known.value();
+        let amount = row.computed - known;
+        if known == 0.0 || self.rows.iter().any(is_amount) {
+            Difference::Amount(amount)
+        } else {
+            Difference::Share(amount / known.abs())
+        }
+    }
+
+    /// The labels of a row.
+    pub fn labels<'a>(&'a self, row: &'a Row) -> Labels<'a> {
+        Labels {
+            keys: &self.heading.keys,
+            labels: &row.entry.labels,
+        }
+    }
+}
+
+impl<'a> Labels<'a> {
+    /// The label of a key.
+    ///
+    /// # Errors
+    ///
+    /// If the table has no such key.
+    pub fn text(&self, key: &str) -> Result<&'a str, LabelError> {
+        let place = self.keys.iter().position(|name| name == key);
+        let label = place.and_then(|place| self.labels.get(place));
+        label.map(String::as_str).ok_or_else(|| LabelError::NoKey {
+            key: key.to_owned(),
+            keys: self.keys.to_vec(),
+        })
+    }
+
+    /// The label of a key as a number; `1/3` is one.
+    ///
+    /// # Errors
+    ///
+    /// If the table has no such key, or its label is no number.
+    pub fn number(&self, key: &str) -> Result<f64, LabelError> {
+        let label = self.text(key)?;
+        let number = match label.split_once('/') {
+            None => label.parse().ok(),
+            Some((above, below)) => above
+                .parse()
+                .ok()
+                .zip(below.parse().ok())
+                .map(|(above, below): (f64, f64)| above / below),
+        };
+        number.ok_or_else(|| LabelError::NotANumber {
+            key: key.to_owned(),
+            label: label.to_owned(),
+        })
+    }
+}
+
+impl fmt::Display for Labels<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, (key, label)) in self.keys.iter().zip(self.labels).enumerate() {
+            let comma = if index > 0 { ", " } else { "" };
+            write!(f, "{comma}{key} {label}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,71 @@
+//! How many entries got which verdict.
+
+use std::fmt;
+use std::iter::Sum;
+
+use super::Findings;
+use super::entry::Verdict;
+
+/// How many entries got each verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally([usize; Verdict::ALL.len()]);
+
+impl Tally {
+    /// The verdicts of an experiment.
+    pub fn of(findings: &Findings) -> Self {
+        let count = |verdict: Verdict| {
+            findings
+                .tables
+                .iter()
+                .map(|table| table.count(verdict))
+                .sum()
+        };
+        Self(Verdict::ALL.map(count))
+    }
+
+    /// Entries with a verdict.
+    pub fn count(&self, verdict: Verdict) -> usize {
+        let place = Verdict::ALL.iter().position(|it| *it == verdict);
+        place.map_or(0, |place| self.0[place])
+    }
+
+    /// The counts in the order of [`Verdict::ALL`].
+    pub fn counts(&self) -> [usize; Verdict::ALL.len()] {
+        self.0
+    }
+
+    /// All entries.
+    pub fn entries(&self) -> usize {
+        self.0.iter().sum()
+    }
+}
+
+impl From<[usize; Verdict::ALL.len()]> for Tally {
+    /// Counts in the order of [`Verdict::ALL`].
+    fn from(counts: [usize; Verdict::ALL.len()]) -> Self {
+        Self(counts)
+    }
+}
+
+impl Sum for Tally {
+    fn sum<I: Iterator<Item = Self>>(tallies: I) -> Self {
+        tallies.fold(Self::default(), |sum, tally| {
+            Self(std::array::from_fn(|place| sum.0[place] + tally.0[place]))
+        })
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} entries:", self.entries())?;
+        let counted = Verdict::ALL
+            .iter()
+            .zip(self.0)
+            .filter(|(_, count)| *count > 0);
+        for (place, (verdict, count)) in counted.enumerate() {
+            let comma = if place > 0 { "," } else { "" };
+            write!(f, "{comma} {count} {}", verdict.words())?;
+        }
+        Ok(())
+    }
+}

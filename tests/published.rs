@@ -1,0 +1,96 @@
+//! The fast subset of `ligament verify`: values of the papers, computed by the functions of `ligament run`.
+#![allow(clippy::unwrap_used)]
+
+use ligament::verify::entry::Verdict;
+use ligament::verify::published::cells;
+use ligament::verify::table::{Extent, Table};
+use ligament::verify::tally::Tally;
+use ligament::verify::{EXPERIMENTS, Experiment};
+use verification::numbers::largest;
+use verification::repository;
+
+/// Runs the fast subset of an experiment: every entry is met, within its tolerance, or a declared misprint or open question
+/// whose independent value is met.
+fn passes(experiment: &Experiment) {
+    let findings = experiment.run(Extent::Fast).unwrap();
+    assert!(!findings.tables.is_empty(), "{}", experiment.name);
+    for table in &findings.tables {
+        let name = &table.heading.name;
+        assert!(!table.rows.is_empty(), "{name} has no fast entries");
+        for row in &table.rows {
+            assert!(
+                row.verdict != Verdict::Failed,
+                "{name}, {}: known {}, computed {}, allowed {}",
+                table.labels(row),
+                row.entry.known,
+                row.computed,
+                row.entry.allowed
+            );
+        }
+        is_stored(experiment, table);
+    }
+    for case in experiment.cases {
+        assert!(repository().join(case).is_file(), "{case}");
+    }
+    let tally = Tally::of(&findings);
+    assert!(
+        tally.count(Verdict::Shown) < tally.entries(),
+        "{} judges nothing",
+        experiment.name
+    );
+    for plot in &findings.plots {
+        plot.to_svg().unwrap();
+    }
+}
+
+/// The stored report, `cases/verification`, is what the program computes: labels, verdicts, and values to 1e-6 of the largest in
+/// their table. The order of breaking amplifies rounding, which processors do differently: peaks may differ by 1 %.
+fn is_stored(experiment: &Experiment, table: &Table) {
+    let tolerance = if experiment.name == "disk" {
+        1e-2
+    } else {
+        1e-6
+    };
+    let size = largest(table.rows.iter().map(|row| row.computed));
+    let file = format!("cases/verification/{}.csv", table.heading.name);
+    let text = std::fs::read_to_string(repository().join(&file)).unwrap();
+    let stored: Vec<Vec<String>> = text.lines().map(cells).collect();
+    let n_keys = table.heading.keys.len();
+    for row in &table.rows {
+        let place = format!("{file}, {}", table.labels(row));
+        let line = stored
+            .iter()
+            .find(|line| line[..n_keys] == row.entry.labels);
+        let [known, computed, _, verdict, ..] = &line.expect(&place)[n_keys..] else {
+            panic!("{place}: too few cells");
+        };
+        assert_eq!(*known, row.entry.known.to_string(), "{place}");
+        assert_eq!(verdict, row.verdict.words(), "{place}");
+        let computed: f64 = computed.parse().unwrap();
+        let difference = (computed - row.computed).abs();
+        assert!(
+            difference <= tolerance * size,
+            "{place}: stored {computed}, now {}",
+            row.computed
+        );
+    }
+}
+
+/// Every experiment has a test of its own below, so that they run side by side and fail one by one.
+macro_rules! experiments {
+    ($($name:ident),*) => {
+        $(#[test]
+        fn $name() {
+            let name = stringify!($name);
+            passes(EXPERIMENTS.iter().find(|experiment| experiment.name == name).unwrap());
+        })*
+
+        #[test]
+        fn all_experiments_are_tested() {
+            let tested = [$(stringify!($name)),*];
+            assert!(EXPERIMENTS.iter().map(|experiment| experiment.name).eq(tested));
+        }
+    };
+}
+
+experiments!(frequencies, statics, lamina, tension, moduli, poisson, disk);
