@@ -9,6 +9,7 @@
 
 pub mod bench;
 pub mod meshes;
+pub mod modal;
 pub mod numbers;
 pub mod problems;
 pub mod table;

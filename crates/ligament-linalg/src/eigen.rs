@@ -7,9 +7,11 @@
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Mat, Par, Spec};
 
 /// Vectors that go through the operator together.
 const BLOCK: usize = 2;
@@ -19,9 +21,6 @@ const ROOM: usize = 20;
 
 /// A vector whose part outside of the basis is smaller than this lies in it, but for rounding.
 const DEPENDENT: f64 = 1e-13;
-
-/// A residual smaller than this times the largest eigenvalue is rounding.
-const ROUNDING: f64 = 1e-14;
 
 /// Eigenpairs of an operator of dimension n.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +65,8 @@ pub fn largest_eigenpairs(
     let mut products = 0;
     loop {
         products += basis.extend(&mut product, &mut random);
-        let is_full = basis.n_projected + BLOCK > limit_of_basis || basis.n_next == 0;
+        let spans_all = basis.n_next == 0;
+        let is_full = spans_all || limit_of_basis < n && basis.n_projected + BLOCK > limit_of_basis;
         let is_due = basis.n_projected >= count && products % (4 * BLOCK) < BLOCK;
         if !is_full && !is_due {
             continue;
@@ -80,13 +80,10 @@ pub fn largest_eigenpairs(
             };
         };
         let found = count.min(ritz.values.len());
-        let largest = ritz.values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let converged = found == count
-            && (0..found).all(|pair| {
-                let bound = search.tolerance * ritz.values[pair].abs();
-                ritz.residuals[pair] <= bound.max(ROUNDING * largest)
-            });
-        if converged || products >= search.limit || basis.n_next == 0 {
+            && (0..found)
+                .all(|pair| ritz.residuals[pair] <= search.tolerance * ritz.values[pair].abs());
+        if converged || products >= search.limit || spans_all {
             let vectors = basis.combine(&ritz.vectors, found);
             return Eigenpairs {
                 values: ritz.values[..found].to_vec(),
@@ -267,7 +264,9 @@ impl Basis {
         }
         let mut values = Diag::<f64>::zeros(m);
         let mut vectors = Mat::<f64>::zeros(m, m);
-        let parameters = Default::default();
+        // By divide and conquer, faer's choice from 128 on, small last entries of the vectors come out wrong: the residuals.
+        let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
+        parameters.recursion_threshold = usize::MAX;
         let request =
             self_adjoint_evd_scratch::<f64>(m, ComputeEigenvectors::Yes, Par::Seq, parameters);
         let mut memory = MemBuffer::new(request);

@@ -85,6 +85,27 @@ fn simple_and_double_eigenvalues() {
     );
 }
 
+/// A basis of more than 128 vectors over eigenvalues of 1 to 1e-6, with restarts: the small ones must be as exact, relative
+/// to themselves, as the large ones.
+#[test]
+fn many_eigenvalues_of_a_wide_range() {
+    let values: Vec<f64> = (1..=3000)
+        .map(|k| {
+            let weak = if k > 5 { 1e-3 } else { 1.0 };
+            weak / f64::from(k).powf(0.7)
+        })
+        .collect();
+    let search = Search {
+        count: 50,
+        ..SEARCH
+    };
+    check(
+        &values,
+        &largest_eigenpairs(3000, search, reflected(&values)),
+        50,
+    );
+}
+
 /// Largest means largest with its sign: large negative eigenvalues are passed over.
 #[test]
 fn negative_eigenvalues_come_last() {

@@ -36,10 +36,11 @@ pub(crate) fn find_modes(
         ModalAnalysis::of(problem, resolve::modal(modal))
     })?;
 
-    // Nothing is written, and nothing replaced, before all input was found good.
+    let outcome = stages.time("modes", || analysis.find())?;
+
+    // Nothing is written, and nothing replaced, before the modes are there.
     let folder = ResultFolder::create(out, force)?;
     folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    let outcome = stages.time("modes", || analysis.find())?;
     stages.time("output", || {
         let (cloud, fixed) = (&model.system.cloud, &model.fixed);
         write_modes(

@@ -201,7 +201,7 @@ impl<'a> ModalAnalysis<'a> {
         let factor = kind.factorise(self.stiffness.symbolic(), matrix);
         self.stiffness.costs.factorisation += start.elapsed();
         self.stiffness.costs.factorisations += 1;
-        Ok(factor?)
+        factor.map_err(|reason| ModalError::NoFactor { reason })
     }
 
     /// The lowest modes at right angles to known shapes.

@@ -214,6 +214,16 @@ pub enum ModalError {
     #[error(transparent)]
     Setup(#[from] SetupError),
     /// The stiffness could not be factorised.
-    #[error("the stiffness has no factor: {0}")]
-    NoFactor(#[from] FactorError),
+    #[error(
+        "the stiffness has no factor: {reason}{}",
+        if matches!(reason, FactorError::NotPositiveDefinite { .. }) {
+            ", as L L^T needs; let the factorisation be \"auto\" or \"ldlt\""
+        } else {
+            ""
+        }
+    )]
+    NoFactor {
+        /// What went wrong.
+        reason: FactorError,
+    },
 }

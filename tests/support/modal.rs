@@ -1,0 +1,81 @@
+//! A modal bench: a case with its model, supports and masses, and its modes.
+
+use ligament::case::CaseFile;
+use ligament::progress::{Progress, ProgressMode};
+use ligament::resolve;
+use ligament::run::{self, Model};
+use ligament::stages::Stages;
+use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
+use ligament_analysis::{Supports, Unknowns};
+use ligament_mesh::Mesh;
+use ligament_model::LumpedMass;
+use tempfile::TempDir;
+
+use crate::bench::{case, mesh_setting};
+
+/// Everything about a modal case up to its modes.
+pub struct ModalBench {
+    /// The case.
+    pub case: CaseFile,
+    /// Its model.
+    pub model: Model,
+    /// Its supports.
+    pub supports: Supports,
+    /// The masses of its points.
+    pub mass: LumpedMass,
+}
+
+impl ModalBench {
+    /// A bench for a case on a mesh of the repository (named relative to `tests/`).
+    pub fn new(text: &str, settings: &[&str]) -> Self {
+        Self::from_case(case(text, settings))
+    }
+
+    /// A bench for a case on another mesh than its own.
+    pub fn on(mesh: &Mesh, text: &str, settings: &[&str]) -> Self {
+        let folder = TempDir::new().unwrap();
+        let file = mesh_setting(mesh, folder.path());
+        let settings: Vec<&str> = settings.iter().copied().chain([file.as_str()]).collect();
+        Self::new(text, &settings)
+    }
+
+    fn from_case(case: CaseFile) -> Self {
+        let progress = Progress::new(ProgressMode::Quiet);
+        let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
+        let cloud = &model.system.cloud;
+        Self {
+            supports: resolve::supports(&case, &*model.body, cloud).unwrap(),
+            mass: resolve::mass(&case, cloud),
+            model,
+            case,
+        }
+    }
+
+    /// Finds its modes.
+    pub fn find(&self) -> ModalOutcome {
+        let problem = ModalProblem {
+            system: &self.model.system,
+            mass: &self.mass,
+            supports: &self.supports,
+            solver: resolve::solver(&self.case),
+        };
+        let settings = resolve::modal(self.case.case.modal.as_ref().unwrap());
+        ModalAnalysis::of(problem, settings)
+            .unwrap()
+            .find()
+            .unwrap()
+    }
+
+    /// The degrees of freedom that are unknown, and their masses.
+    pub fn unknown_masses(&self, rotations: Rotations) -> Vec<(usize, f64)> {
+        let unknowns = Unknowns::all_but(&self.model.system, |dof| self.supports.held[dof]);
+        let mass_of = |dof: usize| match (dof % 3, rotations) {
+            (2, Rotations::Massless) => 0.0,
+            (2, Rotations::Inertia) => self.mass.inertia[dof / 3],
+            _ => self.mass.mass[dof / 3],
+        };
+        let dofs = unknowns.degrees_of_freedom().iter();
+        dofs.map(|&dof| (dof as usize, mass_of(dof as usize)))
+            .collect()
+    }
+}
