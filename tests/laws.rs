@@ -61,6 +61,11 @@ static LAWS: [Entry; 6] = [
     },
 ];
 
+#[test]
+fn every_law_is_in_the_table() {
+    assert_eq!(LAWS.each_ref().map(|entry| entry.law), Law::ALL);
+}
+
 /// Poisson's ratio of central forces in plane stress.
 const CENTRAL: &str = "0.333333333333333333";
 
@@ -69,7 +74,7 @@ const LAMINA: &str = "material = { young_1 = 15e9, young_2 = 5e9, poisson_12 = 0
 
 /// The square elastic under a law; `settings` as with `--set`.
 fn square(law: Law, settings: &[&str]) -> Bench {
-    Bench::new(&elastic(SQUARE), &with_law(law, settings))
+    bench(law, &elastic(SQUARE), settings)
 }
 
 /// A problem without its fracture.
@@ -78,16 +83,17 @@ fn elastic(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn with_law<'a>(law: Law, settings: &[&'a str]) -> Vec<&'a str> {
-    let word = match law {
-        Law::Nhpd => "model.law=nhpd",
-        Law::Bbpd => "model.law=bbpd",
-        Law::Pds => "model.law=pds",
-        Law::Mppd => "model.law=mppd",
-        Law::MppdBeam => "model.law=mppd-beam",
-        Law::Orthotropic => "model.law=orthotropic",
-    };
-    settings.iter().copied().chain([word]).collect()
+fn with_law(law: Law, settings: &[&str]) -> Vec<String> {
+    let word = format!("model.law={}", law.word());
+    let settings = settings.iter().map(|&setting| setting.to_owned());
+    settings.chain([word]).collect()
+}
+
+/// A bench under a law.
+fn bench(law: Law, text: &str, settings: &[&str]) -> Bench {
+    let settings = with_law(law, settings);
+    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    Bench::new(text, &settings)
 }
 
 /// Every law with every Poisson's ratio in both planes (0.38 only in plane stress: above 1/4 plane strain soon loses stability).
@@ -229,12 +235,7 @@ fn central_forces_are_common_to_all() {
 #[test]
 fn isotropy_is_a_case_of_orthotropy() {
     for plane in ["mesh.plane=stress", "mesh.plane=strain"] {
-        let of = |law: Law, text: &str| {
-            Bench::new(text, &with_law(law, &[plane]))
-                .solve()
-                .displacement()
-                .to_vec()
-        };
+        let of = |law: Law, text: &str| bench(law, text, &[plane]).solve().displacement().to_vec();
         let isotropic = elastic(SQUARE);
         let reference = of(Law::Mppd, &isotropic);
         assert!(largest(reference.iter().copied()) > 1e-5);
@@ -264,9 +265,7 @@ fn axes_turn_with_the_material() {
     let text = elastic(SQUARE).replace(given, LAMINA);
     let of = |angle: f64| {
         let angle = format!("material.angle={angle:?}");
-        Bench::new(&text, &with_law(Law::Orthotropic, &[&angle]))
-            .model
-            .system
+        bench(Law::Orthotropic, &text, &[&angle]).model.system
     };
     let quarter = std::f64::consts::FRAC_PI_2;
     let (straight, turned, half) = (of(0.0), of(quarter), of(2.0 * quarter));

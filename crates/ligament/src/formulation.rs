@@ -52,12 +52,13 @@ pub fn stiffness(
     };
     match case.case.model.calibration {
         Some(Calibration::Discrete) => {
-            let effective: Vec<Isotropic> = match case.case.model.law {
-                Law::Bbpd => isotropic
+            let effective: Vec<Isotropic> = if case.case.model.law.fixes_poisson() {
+                isotropic
                     .iter()
                     .map(|it| bbpd::central(it, plane))
-                    .collect(),
-                _ => isotropic,
+                    .collect()
+            } else {
+                isotropic
             };
             calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, plane)
         }

@@ -68,6 +68,16 @@ pub enum RotationalStiffness {
 }
 
 impl Law {
+    /// All laws.
+    pub const ALL: [Self; 6] = [
+        Self::Nhpd,
+        Self::Bbpd,
+        Self::Pds,
+        Self::Mppd,
+        Self::MppdBeam,
+        Self::Orthotropic,
+    ];
+
     /// Its word in a case file.
     pub fn word(self) -> &'static str {
         match self {
@@ -77,6 +87,14 @@ impl Law {
             Self::Mppd => "mppd",
             Self::MppdBeam => "mppd-beam",
             Self::Orthotropic => "orthotropic",
+        }
+    }
+
+    /// Whether Poisson's ratio follows from the law, whatever that of the materials.
+    pub fn fixes_poisson(self) -> bool {
+        match self {
+            Self::Bbpd => true,
+            Self::Nhpd | Self::Pds | Self::Mppd | Self::MppdBeam | Self::Orthotropic => false,
         }
     }
 
