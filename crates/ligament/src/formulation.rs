@@ -3,7 +3,7 @@
 use ligament_model::bonds::BondSet;
 use ligament_model::correction::{Correction, domain, length, partial_volume, surface};
 use ligament_model::law::rotational::RotationalStiffness;
-use ligament_model::law::{bbpd, beam, calibration, mppd, orthotropic, pds};
+use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mppd, orthotropic, pds};
 use ligament_model::{BondStiffness, Elasticity, ElementKind, Horizons, Isotropic, PointCloud};
 
 use crate::case::{self, Alpha, Calibration, CaseFile, Law, Surface};
@@ -13,7 +13,7 @@ use crate::resolve;
 pub fn element(law: Law) -> ElementKind {
     match law {
         Law::Nhpd | Law::Mppd | Law::MppdBeam | Law::Orthotropic => ElementKind::Beam,
-        Law::Bbpd | Law::Pds => ElementKind::Spring,
+        Law::Bbpd | Law::BbpdConical | Law::Pds => ElementKind::Spring,
     }
 }
 
@@ -46,6 +46,7 @@ pub fn stiffness(
     let stiffness = match case.case.model.law {
         Law::Nhpd | Law::MppdBeam => beam::stiffness(bonds, cloud, &isotropic, plane),
         Law::Bbpd => bbpd::stiffness(bonds, cloud, &isotropic, plane),
+        Law::BbpdConical => bbpd_conical::stiffness(bonds, cloud, &isotropic, plane),
         Law::Pds => pds::stiffness(bonds, cloud, &isotropic, plane),
         Law::Mppd => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational),
         Law::Orthotropic => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational),
