@@ -37,6 +37,16 @@ const ATTEMPTS: u64 = 4;
 /// Solutions for each mode, and on top, after which a search is given up. Some tens a mode are usual.
 const SOLUTIONS: [usize; 2] = [200, 1000];
 
+/// What was found so far.
+struct Found {
+    /// Rigid motions, then elastic modes, orthonormal with the masses, each of shape (3 n_points).
+    shapes: Vec<Vec<f64>>,
+    /// Inertia of the stiffness, where it may be indefinite.
+    stability: Option<Stability>,
+    /// Whether the last count found no mode missing.
+    complete: Option<bool>,
+}
+
 /// The equations of a body whose modes are wanted.
 pub struct ModalAnalysis<'a> {
     problem: ModalProblem<'a>,
@@ -102,87 +112,100 @@ impl<'a> ModalAnalysis<'a> {
     /// the end the eigenvalues below the highest mode are counted by the signs of the pivots of K - tau M (Sylvester's law of
     /// inertia), and if there are more than were found, those are sought.
     pub fn find(mut self) -> Result<ModalOutcome, ModalError> {
-        let state = State::fresh(self.problem.system);
         let start = Instant::now();
-        let mut matrix = self.stiffness.assemble(&state);
+        let matrix = self.stiffness.assemble(&State::fresh(self.problem.system));
         self.stiffness.costs.assembly += start.elapsed();
         let largest = self.largest_ratio(&matrix);
-        let (shift, rigid_below) = (SHIFT * largest, RIGID * largest);
+        let rigid_below = RIGID * largest;
         let wanted = self.settings.modes.min(self.massive.len());
         let mut notices = self.notices_before(wanted);
 
-        let motions = {
-            let ModalProblem {
-                system, supports, ..
-            } = self.problem;
-            rigid::motions(system, supports, &self.masses, wanted)
-        };
-        let mut shapes: Vec<Vec<f64>> = motions.shapes;
-        shapes.retain(|shape| shape::eigenvalue(self.problem.system, shape) <= rigid_below);
-        let (mut stability, mut complete) = (None, None);
-        if shapes.len() < wanted {
-            matrix.add_diagonal(shift, &self.of_unknown);
-            let mut factor = self.factor(&matrix, self.stiffness.choice().factorisation)?;
-            let negative = factor.inertia().negative;
-            stability = self.stability(&state, negative)?;
-            let (mut at, mut missing) = (shift, wanted - shapes.len());
-            for seed in 1..=ATTEMPTS {
-                let pairs = self.search(factor.as_mut(), &shapes, missing, seed);
-                if !pairs.converged {
-                    let products = pairs.products;
-                    notices.push(ModalNotice::NotConverged { products });
-                }
-                for vector in &pairs.vectors {
-                    let shape = self.shape(factor.as_mut(), vector, &shapes);
-                    shapes.push(shape);
-                }
-                drop(factor);
-                let mut values: Vec<f64> = self.eigenvalues(&shapes);
-                values.sort_by(f64::total_cmp);
-                values.truncate(wanted);
-                let Some(bound) = below_last_cluster(&values, rigid_below) else {
-                    break;
-                };
-                matrix.add_diagonal(-bound - at, &self.of_unknown);
-                at = -bound;
-                let Ok(counting) = self.factor(&matrix, FactorKind::Ldlt) else {
-                    break;
-                };
-                let below = counting.inertia().negative.saturating_sub(negative);
-                let found = values.iter().filter(|value| **value < bound).count();
-                drop(counting);
-                missing = below.saturating_sub(found);
-                complete = Some(missing == 0);
-                if missing == 0 || seed == ATTEMPTS {
-                    break;
-                }
-                matrix.add_diagonal(shift - at, &self.of_unknown);
-                at = shift;
-                factor = self.factor(&matrix, self.stiffness.choice().factorisation)?;
-            }
-            if complete == Some(false) {
-                notices.push(ModalNotice::Missing { missing });
-            }
-        }
         let ModalProblem {
-            system: &ligament_model::BondSystem { ref cloud, .. },
+            system,
             mass,
+            supports,
             ..
         } = self.problem;
-        let moving = Moving::new(cloud, mass, &self.masses);
-        let modes = self.modes(shapes, wanted, &moving, rigid_below);
-        notices.extend(notices_after(&modes, motions.count, stability));
+        let motions = rigid::motions(system, supports, &self.masses, wanted);
+        let mut found = Found {
+            shapes: motions.shapes,
+            stability: None,
+            complete: None,
+        };
+        let is_rigid = |shape: &Vec<f64>| shape::eigenvalue(system, shape) <= rigid_below;
+        found.shapes.retain(is_rigid);
+        if found.shapes.len() < wanted {
+            self.find_elastic(&mut found, matrix, largest, wanted, &mut notices)?;
+        }
+        let moving = Moving::new(&system.cloud, mass, &self.masses);
+        let modes = self.modes(found.shapes, wanted, &moving, rigid_below);
+        notices.extend(notices_after(&modes, motions.count, found.stability));
         Ok(ModalOutcome {
             modes,
             rotations: self.rotations,
             rigid_motions: motions.count,
             moving,
-            complete,
-            stability,
+            complete: found.complete,
+            stability: found.stability,
             notices,
             costs: self.stiffness.costs,
             solver: *self.stiffness.choice(),
         })
+    }
+
+    /// Adds the elastic modes to the rigid ones that were found, up to `wanted` in all: searches and counts by turns until none
+    /// is missing.
+    fn find_elastic(
+        &mut self,
+        found: &mut Found,
+        mut matrix: SymmetricMatrix,
+        largest: f64,
+        wanted: usize,
+        notices: &mut Vec<ModalNotice>,
+    ) -> Result<(), ModalError> {
+        let (shift, rigid_below) = (SHIFT * largest, RIGID * largest);
+        let kind = self.stiffness.choice().factorisation;
+        let (mut at, mut missing) = (0.0, wanted - found.shapes.len());
+        for seed in 1..=ATTEMPTS {
+            matrix.add_diagonal(shift - at, &self.of_unknown);
+            let mut factor = self.factor(&matrix, kind)?;
+            let negative = factor.inertia().negative;
+            if seed == 1 {
+                found.stability = self.stability(negative)?;
+            }
+            let pairs = self.search(factor.as_mut(), &found.shapes, missing, seed);
+            if !pairs.converged {
+                let products = pairs.products;
+                notices.push(ModalNotice::NotConverged { products });
+            }
+            for vector in &pairs.vectors {
+                let shape = self.shape(factor.as_mut(), vector, &found.shapes);
+                found.shapes.push(shape);
+            }
+            drop(factor);
+
+            let mut values = self.eigenvalues(&found.shapes);
+            values.sort_by(f64::total_cmp);
+            values.truncate(wanted);
+            let Some(bound) = below_last_cluster(&values, rigid_below) else {
+                return Ok(());
+            };
+            at = -bound;
+            matrix.add_diagonal(at - shift, &self.of_unknown);
+            // Without a factor there is no count, and the modes stay as they are.
+            let Ok(counting) = self.factor(&matrix, FactorKind::Ldlt) else {
+                return Ok(());
+            };
+            let below = counting.inertia().negative.saturating_sub(negative);
+            let known = values.iter().filter(|value| **value < bound).count();
+            missing = below.saturating_sub(known);
+            found.complete = Some(missing == 0);
+            if missing == 0 {
+                return Ok(());
+            }
+        }
+        notices.push(ModalNotice::Missing { missing });
+        Ok(())
     }
 
     /// Largest K_ii/M_ii.
@@ -314,11 +337,12 @@ impl<'a> ModalAnalysis<'a> {
         modes
     }
 
-    fn stability(&self, state: &State, negative: usize) -> Result<Option<Stability>, ModalError> {
-        if !self.problem.system.has_negative_stiffness() {
+    fn stability(&self, negative: usize) -> Result<Option<Stability>, ModalError> {
+        let system = self.problem.system;
+        if !system.has_negative_stiffness() {
             return Ok(None);
         }
-        let expected = self.stiffness.negative_rotations(state)?;
+        let expected = self.stiffness.negative_rotations(&State::fresh(system))?;
         Ok(Some(Stability { negative, expected }))
     }
 
@@ -363,7 +387,7 @@ fn notices_after(
         });
     }
     let inexact = modes.iter().enumerate();
-    let inexact = inexact.filter(|(_, mode)| !(mode.residual <= RESIDUAL_TOLERANCE));
+    let inexact = inexact.filter(|(_, mode)| mode.residual > RESIDUAL_TOLERANCE);
     notices.extend(inexact.map(|(index, mode)| ModalNotice::Residual {
         mode: index + 1,
         residual: mode.residual,
