@@ -163,8 +163,11 @@ pub enum ModalNotice {
         /// Rigid motions that supports and connectivity leave.
         expected: usize,
     },
-    /// All modes asked for are rigid.
-    #[error("all {modes} modes are rigid motions, of {expected} in all: ask for more modes")]
+    /// All modes asked for cost no energy.
+    #[error(
+        "all {modes} modes cost no energy, and the body has {expected} rigid motions: {}",
+        if modes > expected { "it has mechanisms" } else { "ask for more modes" }
+    )]
     OnlyRigid {
         /// Modes asked for.
         modes: usize,

@@ -92,7 +92,7 @@ impl Analysis {
             return Err(KeyFault::new(KeyPath::default().child("analysis"), reason));
         }
         let why_no_modes =
-            "it says which modes are wanted: set analysis = \"modal\" above all sections, or";
+            "it says which modes are wanted, and only analysis = \"modal\" finds any";
         let misfit = match analysis {
             Self::Static if given.fracture => Some((
                 "fracture",

@@ -16,7 +16,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             (shear), along x on left and right and proportional to y (bending). PDS, and MPPD with constant k_t and \
             k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface correction by volumes. Displacements \
             are the largest of all points; those of shear are u_x at (0, 300) mm and u_y at (300, 0) mm, turned \
-            until they are equal.",
+            until they are equal; the last table is read at (270, 270) mm.",
     cases: &[
         "cases/verification/square-traction.toml",
         "cases/verification/square-shear.toml",
@@ -43,7 +43,7 @@ static BENDING: Template = Template {
 /// Half-width of the plate between its outermost points, m.
 const HALF_WIDTH: f64 = 0.3;
 
-/// Distance from the middle at which Poisson's ratio is read, m (MPPD eq. 59).
+/// Distance from the middle, a horizon inside the sides, at which Poisson's ratio is read (MPPD eq. 59), m.
 const INSIDE: f64 = 0.27;
 
 const MILLIMETRES: f64 = 1e3;
@@ -55,6 +55,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let bending = known("mppd-table-3", include_str!("published/mppd-table-3.csv"))?;
     let poisson = include_str!("published/mppd-table-1-poisson.csv");
     let closed_form = include_str!("published/bending-closed-form.csv");
+    let inside = include_str!("published/bending-inside.csv");
     let mut bent = Memory::default();
     let tables = vec![
         judge(
@@ -75,6 +76,13 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             &mut bent,
             &BENDING,
             largest_displacements,
+        )?,
+        judge(
+            &known("bending-inside", inside)?,
+            extent,
+            &mut Memory::default(),
+            &BENDING,
+            |it| Ok(displacement_at(it, [INSIDE; 2]).map(f64::abs)),
         )?,
     ];
     let plots = vec![
