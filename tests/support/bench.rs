@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ligament::case::CaseFile;
 use ligament::progress::{Progress, ProgressMode};
-use ligament::resolve;
+use ligament::resolve::{self, Loading};
 use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Model, Report};
 use ligament::stages::Stages;
 use ligament::summary::Summary;
@@ -87,8 +87,9 @@ impl Bench {
     fn from_case(case: CaseFile, folder: Option<TempDir>) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let boundary = resolve::boundary(&case, &*model.body, &model.system.cloud).unwrap();
-        let probes = resolve::probes(&case, &model.system);
+        let Loading {
+            boundary, probes, ..
+        } = Loading::of(&case, &*model.body, &model.system).unwrap();
         Self {
             case,
             model,

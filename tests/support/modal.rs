@@ -2,7 +2,7 @@
 
 use ligament::case::CaseFile;
 use ligament::progress::{Progress, ProgressMode};
-use ligament::resolve;
+use ligament::resolve::{self, Vibration};
 use ligament::run::{self, Model};
 use ligament::stages::Stages;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
@@ -42,10 +42,10 @@ impl ModalBench {
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let cloud = &model.system.cloud;
+        let vibration = Vibration::of(&case, &*model.body, &model.system.cloud).unwrap();
         Self {
-            supports: resolve::supports(&case, &*model.body, cloud).unwrap(),
-            mass: resolve::mass(&case, cloud),
+            supports: vibration.supports,
+            mass: vibration.mass,
             model,
             case,
         }

@@ -7,7 +7,6 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
-use ligament_analysis::driver::Problem;
 use ligament_analysis::gauges;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::{Boundary, Equilibrium};
@@ -18,7 +17,7 @@ use crate::body::Body;
 use crate::case::{CaseFile, Control, Steps};
 use crate::gauges::words;
 use crate::progress::{Progress, ProgressMode};
-use crate::resolve;
+use crate::resolve::{self, Loading};
 use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
 use crate::stages::{Stage, Stages};
 use crate::summary::{Spread, correction_line, family, formulation_line};
@@ -92,15 +91,8 @@ fn check_loading(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
-    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
-    let probes = resolve::probes(case, &model.system);
-    let problem = Problem {
-        system: &model.system,
-        boundary: &boundary,
-        solver: resolve::solver(case),
-        probes: &probes,
-    };
+    let loading = Loading::of(case, &*model.body, &model.system)?;
+    let problem = loading.problem(&model.system);
     let equilibrium = match extent {
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || {
@@ -109,8 +101,8 @@ fn check_loading(
     };
 
     write_model(out, case, model)?;
-    write_boundary(out, &*model.body, &boundary, &probes)?;
-    for free in gauges::of_intact_body(&model.system, &boundary) {
+    write_boundary(out, &*model.body, &loading.boundary, &loading.probes)?;
+    for free in gauges::of_intact_body(&model.system, &loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, &*model.body))?;
     }
     write_loading(out, case)?;

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use anyhow::Context;
-use ligament_analysis::modal::{ModalAnalysis, ModalProblem};
+use ligament_analysis::modal::ModalAnalysis;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::write_modes;
 
 use crate::case::{CaseFile, Modal};
 use crate::modal_summary::ModalSummary;
 use crate::progress::Progress;
-use crate::resolve;
+use crate::resolve::{self, Vibration};
 use crate::run::Model;
 use crate::stages::Stages;
 
@@ -24,14 +24,8 @@ pub(crate) fn find_modes(
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<ModalSummary> {
-    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
-    let mass = resolve::mass(case, &model.system.cloud);
-    let problem = ModalProblem {
-        system: &model.system,
-        mass: &mass,
-        supports: &supports,
-        solver: resolve::solver(case),
-    };
+    let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
+    let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || {
         ModalAnalysis::of(problem, resolve::modal(modal))
     })?;

@@ -20,7 +20,7 @@ use crate::formulation;
 use crate::modal_summary::ModalSummary;
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
-use crate::resolve;
+use crate::resolve::{self, Loading};
 use crate::stages::Stages;
 use crate::summary::{self, Summary};
 use crate::warnings;
@@ -268,15 +268,8 @@ fn follow_loads(
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
-    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
-    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
-    let probes = resolve::probes(case, &model.system);
-    let problem = Problem {
-        system: &model.system,
-        boundary: &boundary,
-        solver: resolve::solver(case),
-        probes: &probes,
-    };
+    let loading = Loading::of(case, &*model.body, &model.system)?;
+    let problem = loading.problem(&model.system);
 
     // Nothing is written, and nothing replaced, before all input was found good.
     let folder = ResultFolder::create(out, force)?;
@@ -293,7 +286,15 @@ fn follow_loads(
         },
     };
     let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
-    let writer = ResultWriter::new(&folder, &grid, ends, fixed, rule, &boundary, &probes)?;
+    let writer = ResultWriter::new(
+        &folder,
+        &grid,
+        ends,
+        fixed,
+        rule,
+        &loading.boundary,
+        &loading.probes,
+    )?;
     let mut watch = Watch::new(
         writer,
         &mut progress,

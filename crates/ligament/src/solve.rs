@@ -2,15 +2,15 @@
 
 use anyhow::Context;
 use ligament_analysis::Observer;
-use ligament_analysis::driver::{Outcome, Problem};
+use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::{ObserverError, StepRecord, View};
-use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem};
+use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
 use ligament_analysis::probe::Probe;
 
 use crate::body::Body;
 use crate::case::CaseFile;
 use crate::progress::{Progress, ProgressMode};
-use crate::resolve;
+use crate::resolve::{self, Loading, Vibration};
 use crate::run::{Model, build_model, follow, model_of};
 use crate::stages::Stages;
 
@@ -43,19 +43,12 @@ fn solve_here(case: &CaseFile, body: Option<Box<dyn Body>>) -> anyhow::Result<So
         None => build_model(case, &mut stages, &progress)?,
         Some(body) => model_of(case, body, &mut stages, &progress)?,
     };
-    let boundary = resolve::boundary(case, &*model.body, &model.system.cloud)?;
-    resolve::couples_have_stiffness(case, &boundary, &model.system)?;
-    let probes = resolve::probes(case, &model.system);
-    let problem = Problem {
-        system: &model.system,
-        boundary: &boundary,
-        solver: resolve::solver(case),
-        probes: &probes,
-    };
+    let loading = Loading::of(case, &*model.body, &model.system)?;
+    let problem = loading.problem(&model.system);
     let outcome = follow(case, &problem, &model.critical_stretch, &mut Unobserved)?;
     Ok(Solution {
         model,
-        probes,
+        probes: loading.probes,
         outcome,
     })
 }
@@ -79,15 +72,8 @@ fn modes_here(case: &CaseFile) -> anyhow::Result<ModalOutcome> {
         .context("the case has no modal analysis")?;
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &progress)?;
-    let mass = resolve::mass(case, &model.system.cloud);
-    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
-    let problem = ModalProblem {
-        system: &model.system,
-        mass: &mass,
-        supports: &supports,
-        solver: resolve::solver(case),
-    };
-    let analysis = ModalAnalysis::of(problem, resolve::modal(modal))?;
+    let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
+    let analysis = ModalAnalysis::of(vibration.problem(&model.system), resolve::modal(modal))?;
     Ok(analysis.find()?)
 }
 

@@ -54,7 +54,7 @@ pub(super) fn axial_constant(material: &Isotropic, plane: Plane, thickness: f64)
 }
 
 /// d H, N/m^3.
-fn bending_constant(material: &Isotropic, plane: Plane, thickness: f64) -> f64 {
+pub(super) fn bending_constant(material: &Isotropic, plane: Plane, thickness: f64) -> f64 {
     let Isotropic { young, poisson } = *material;
     let (distance_to_central, reduction) = match plane {
         Plane::Stress => (1.0 - 3.0 * poisson, 1.0 - poisson * poisson),

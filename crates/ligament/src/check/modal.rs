@@ -2,11 +2,11 @@
 
 use std::io::Write;
 
-use ligament_analysis::modal::{ModalAnalysis, ModalProblem, Rotations};
+use ligament_analysis::modal::{ModalAnalysis, Rotations};
 
 use super::{Extent, equations, write_group, write_model};
 use crate::case::{self, CaseFile, Modal};
-use crate::resolve;
+use crate::resolve::{self, Vibration};
 use crate::run::Model;
 use crate::stages::Stages;
 
@@ -19,14 +19,8 @@ pub(super) fn check(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let supports = resolve::supports(case, &*model.body, &model.system.cloud)?;
-    let mass = resolve::mass(case, &model.system.cloud);
-    let problem = ModalProblem {
-        system: &model.system,
-        mass: &mass,
-        supports: &supports,
-        solver: resolve::solver(case),
-    };
+    let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
+    let problem = vibration.problem(&model.system);
     let analysis = match extent {
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || {
@@ -35,10 +29,10 @@ pub(super) fn check(
     };
     write_model(out, case, model)?;
     writeln!(out, "supports")?;
-    for group in &supports.groups {
+    for group in &vibration.supports.groups {
         write_group(out, &*model.body, &group.name, &group.points)?;
     }
-    if supports.groups.is_empty() {
+    if vibration.supports.groups.is_empty() {
         writeln!(out, "  none: the body is free")?;
     }
     writeln!(out, "modes")?;

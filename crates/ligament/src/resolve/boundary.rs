@@ -54,7 +54,7 @@ pub fn boundary(
 }
 
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
-pub fn couples_have_stiffness(
+pub(super) fn couples_have_stiffness(
     case: &CaseFile,
     boundary: &Boundary,
     system: &BondSystem,

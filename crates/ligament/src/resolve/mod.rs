@@ -3,6 +3,7 @@
 //! Names are looked up in the body here; what is not there is reported at its place in the case file.
 
 mod boundary;
+mod loading;
 mod modal;
 mod places;
 
@@ -20,8 +21,9 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
 
-pub use boundary::{boundary, couples_have_stiffness};
-pub use modal::{mass, modal, supports};
+pub use boundary::boundary;
+pub use loading::Loading;
+pub use modal::{Vibration, modal};
 pub use places::{material_of_cell, no_fail};
 
 /// State of the plane.
@@ -178,7 +180,7 @@ pub fn on_threads<T: Send>(
 }
 
 /// The probes.
-pub fn probes(case: &CaseFile, system: &BondSystem) -> Vec<Probe> {
+fn probes(case: &CaseFile, system: &BondSystem) -> Vec<Probe> {
     let nearest = |position: [f64; 2]| system.cloud.nearest_point(position);
     let probe = |probe: &case::Probe| Probe {
         name: probe.name.clone(),

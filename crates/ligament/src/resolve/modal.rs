@@ -1,20 +1,18 @@
 //! What a modal case asks for.
 
-use ligament_analysis::modal::{ModalSettings, Rotations};
+use ligament_analysis::modal::{ModalProblem, ModalSettings, Rotations};
+use ligament_analysis::stiffness::SolverSettings;
 use ligament_analysis::{Component, Supports};
-use ligament_model::{LumpedMass, PointCloud};
+use ligament_model::{BondSystem, LumpedMass, PointCloud};
 
 use super::boundary::place_name;
 use super::places::Places;
+use super::solver;
 use crate::body::Body;
 use crate::case::{self, CaseError, CaseFile, Modal};
 
 /// The supports on the points.
-pub fn supports(
-    case: &CaseFile,
-    body: &dyn Body,
-    cloud: &PointCloud,
-) -> Result<Supports, CaseError> {
+fn supports(case: &CaseFile, body: &dyn Body, cloud: &PointCloud) -> Result<Supports, CaseError> {
     let places = Places { case, body, cloud };
     let mut supports = Supports::none(cloud.len());
     for (index, support) in case.case.supports.iter().enumerate() {
@@ -34,10 +32,46 @@ pub fn supports(
 }
 
 /// The masses of the points; every material of a modal case has a density.
-pub fn mass(case: &CaseFile, cloud: &PointCloud) -> LumpedMass {
+fn mass(case: &CaseFile, cloud: &PointCloud) -> LumpedMass {
     let materials = case.case.materials.iter();
     let densities: Vec<f64> = materials.filter_map(|material| material.density).collect();
     LumpedMass::new(cloud, &densities)
+}
+
+/// What a modal case makes of its model.
+#[derive(Debug)]
+pub struct Vibration {
+    /// Supports.
+    pub supports: Supports,
+    /// Masses of the points.
+    pub mass: LumpedMass,
+    /// How the equations are solved.
+    pub solver: SolverSettings,
+}
+
+impl Vibration {
+    /// That of a case on the points of its body.
+    ///
+    /// # Errors
+    ///
+    /// If a name of the case is not in the body.
+    pub fn of(case: &CaseFile, body: &dyn Body, cloud: &PointCloud) -> Result<Self, CaseError> {
+        Ok(Self {
+            supports: supports(case, body, cloud)?,
+            mass: mass(case, cloud),
+            solver: solver(case),
+        })
+    }
+
+    /// The problem that it makes of the bonds.
+    pub fn problem<'a>(&'a self, system: &'a BondSystem) -> ModalProblem<'a> {
+        ModalProblem {
+            system,
+            mass: &self.mass,
+            supports: &self.supports,
+            solver: self.solver,
+        }
+    }
 }
 
 /// Which modes, and how.

@@ -1,0 +1,50 @@
+//! Supports, loads and probes of a case on its model.
+
+use ligament_analysis::Boundary;
+use ligament_analysis::driver::Problem;
+use ligament_analysis::probe::Probe;
+use ligament_analysis::stiffness::SolverSettings;
+use ligament_model::BondSystem;
+
+use super::boundary::{boundary, couples_have_stiffness};
+use super::{probes, solver};
+use crate::body::Body;
+use crate::case::{CaseError, CaseFile};
+
+/// What a case does to its model, and what it reads off.
+#[derive(Debug)]
+pub struct Loading {
+    /// Supports and loads.
+    pub boundary: Boundary,
+    /// Probes.
+    pub probes: Vec<Probe>,
+    /// How the equations are solved.
+    pub solver: SolverSettings,
+}
+
+impl Loading {
+    /// That of a case on the points and bonds of its body.
+    ///
+    /// # Errors
+    ///
+    /// If a name of the case is not in the body, supports and loads contradict each other, or a couple acts on nothing.
+    pub fn of(case: &CaseFile, body: &dyn Body, system: &BondSystem) -> Result<Self, CaseError> {
+        let boundary = boundary(case, body, &system.cloud)?;
+        couples_have_stiffness(case, &boundary, system)?;
+        Ok(Self {
+            boundary,
+            probes: probes(case, system),
+            solver: solver(case),
+        })
+    }
+
+    /// The problem that it makes of the bonds.
+    pub fn problem<'a>(&'a self, system: &'a BondSystem) -> Problem<'a> {
+        Problem {
+            system,
+            boundary: &self.boundary,
+            solver: self.solver,
+            probes: &self.probes,
+        }
+    }
+}
