@@ -9,8 +9,8 @@ use ligament::verify::{EXPERIMENTS, Experiment};
 use verification::numbers::largest;
 use verification::repository;
 
-/// Runs the fast subset of an experiment: every entry is met, within its tolerance, or a declared misprint or open question
-/// whose independent value is met.
+/// Runs the fast subset of an experiment: every entry is met, within its tolerance, or a declared misprint or open
+/// question whose independent value is met.
 fn passes(experiment: &Experiment) {
     let findings = experiment.run(Extent::Fast).unwrap();
     assert!(!findings.tables.is_empty(), "{}", experiment.name);
@@ -43,8 +43,9 @@ fn passes(experiment: &Experiment) {
     }
 }
 
-/// The stored report, `cases/verification`, is what the program computes: labels, verdicts, and values to 1e-6 of the largest in
-/// their table. The order of breaking amplifies rounding, which processors do differently: peaks may differ by 1 %.
+/// The stored report, `cases/verification`, is what the program computes: labels, verdicts, and values to 1e-6 of the
+/// largest in their table. The order of breaking amplifies rounding, which processors do differently: peaks may differ
+/// by 1 %.
 fn is_stored(experiment: &Experiment, table: &Table) {
     let tolerance = if experiment.name == "disk" {
         1e-2

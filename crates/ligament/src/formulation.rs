@@ -3,7 +3,7 @@
 use ligament_model::bonds::BondSet;
 use ligament_model::correction::{Correction, domain, length, partial_volume, surface};
 use ligament_model::law::rotational::RotationalStiffness;
-use ligament_model::law::{bbpd, beam, calibration, mppd, orthotropic, pds};
+use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mppd, orthotropic, pds};
 use ligament_model::{BondStiffness, Elasticity, ElementKind, Horizons, Isotropic, PointCloud};
 
 use crate::case::{self, Alpha, Calibration, CaseFile, Law, Surface};
@@ -13,7 +13,7 @@ use crate::resolve;
 pub fn element(law: Law) -> ElementKind {
     match law {
         Law::Nhpd | Law::Mppd | Law::MppdBeam | Law::Orthotropic => ElementKind::Beam,
-        Law::Bbpd | Law::Pds => ElementKind::Spring,
+        Law::Bbpd | Law::BbpdConical | Law::Pds => ElementKind::Spring,
     }
 }
 
@@ -46,18 +46,20 @@ pub fn stiffness(
     let stiffness = match case.case.model.law {
         Law::Nhpd | Law::MppdBeam => beam::stiffness(bonds, cloud, &isotropic, plane),
         Law::Bbpd => bbpd::stiffness(bonds, cloud, &isotropic, plane),
+        Law::BbpdConical => bbpd_conical::stiffness(bonds, cloud, &isotropic, plane),
         Law::Pds => pds::stiffness(bonds, cloud, &isotropic, plane),
         Law::Mppd => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational),
         Law::Orthotropic => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational),
     };
     match case.case.model.calibration {
         Some(Calibration::Discrete) => {
-            let effective: Vec<Isotropic> = match case.case.model.law {
-                Law::Bbpd => isotropic
+            let effective: Vec<Isotropic> = if case.case.model.law.fixes_poisson() {
+                isotropic
                     .iter()
                     .map(|it| bbpd::central(it, plane))
-                    .collect(),
-                _ => isotropic,
+                    .collect()
+            } else {
+                isotropic
             };
             calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, plane)
         }

@@ -29,7 +29,8 @@ pub struct Solution {
 ///
 /// # Errors
 ///
-/// If the body cannot be read, a name of the case is not in it, or the problem cannot be set up. How the run ends is in the outcome.
+/// If the body cannot be read, a name of the case is not in it, or the problem cannot be set up. How the run ends is in
+/// the outcome.
 pub fn solve(case: &CaseFile, body: Option<Box<dyn Body>>) -> anyhow::Result<Solution> {
     resolve::on_threads(case, || solve_here(case, body))?
 }
@@ -63,7 +64,8 @@ fn solve_here(case: &CaseFile, body: Option<Box<dyn Body>>) -> anyhow::Result<So
 ///
 /// # Errors
 ///
-/// If the case is not modal, the body cannot be read, a name of the case is not in it, or the equations cannot be set up.
+/// If the case is not modal, the body cannot be read, a name of the case is not in it, or the equations cannot be set
+/// up.
 pub fn modes(case: &CaseFile) -> anyhow::Result<ModalOutcome> {
     resolve::on_threads(case, || modes_here(case))?
 }

@@ -1,11 +1,12 @@
 //! What a user should know about a model before trusting its results.
 
 use ligament_model::correction::CorrectionReport;
-use ligament_model::{Isotropic, Plane};
+use ligament_model::{ElementKind, Isotropic, Plane};
 use ligament_output::results::FixedFields;
 
 use crate::body::Body;
 use crate::case::{CaseFile, Law};
+use crate::formulation;
 use crate::resolve;
 
 /// Below this the domain correction is not known to have a fixed point.
@@ -96,19 +97,19 @@ fn correction_warning(
 
 fn poisson_warning(law: Law, material: &Isotropic, plane: Plane) -> Option<String> {
     let (poisson, limit) = (material.poisson, Isotropic::central_force_poisson(plane));
-    match law {
-        Law::Bbpd if (poisson - limit).abs() > POISSON_TOLERANCE => Some(format!(
-            "Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}"
-        )),
-        Law::Bbpd => None,
-        Law::Pds if poisson > limit => Some(format!(
-            "Poisson's ratio {poisson} is greater than {limit:.4}: the shear stiffness of the bonds is negative, the stability \
-             of the intact model is checked"
-        )),
-        _ if poisson > limit => Some(format!(
-            "Poisson's ratio {poisson} is greater than {limit:.4}: shear and rotational stiffness of the bonds are negative, \
-             the stability of the intact model is checked"
-        )),
-        _ => None,
+    if law.fixes_poisson() {
+        let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
+        return differs.then(|| {
+            format!("Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}")
+        });
     }
+    let negative = match formulation::element(law) {
+        ElementKind::Beam => "shear and rotational stiffness of the bonds are negative",
+        ElementKind::Spring => "the shear stiffness of the bonds is negative",
+    };
+    (poisson > limit).then(|| {
+        format!(
+            "Poisson's ratio {poisson} is greater than {limit:.4}: {negative}, the stability of the intact model is checked"
+        )
+    })
 }

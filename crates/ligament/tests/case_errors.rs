@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use ligament::case::{CaseError, CaseFile, Fault, Location};
+use ligament::case::{CaseError, CaseFile, Fault, Law, Location};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -21,6 +21,11 @@ fn error_of(text: &str) -> String {
         .strip_prefix("case.toml:")
         .unwrap_or_else(|| panic!("no path in: {message}"))
         .to_owned()
+}
+
+/// The words of all laws.
+fn laws() -> String {
+    Law::ALL.map(|law| format!("\"{}\"", law.word())).join(", ")
 }
 
 /// The text of the case without the lines from the one that starts with `from` to the next blank one.
@@ -146,7 +151,10 @@ fn wrong_types_say_what_is_expected_and_in_which_unit() {
     );
     assert_eq!(
         error_with("\"nhpd\"", "3"),
-        "13:7: model.law: expected one of \"nhpd\", \"bbpd\", \"pds\", \"mppd\", \"mppd-beam\", \"orthotropic\", found the number 3"
+        format!(
+            "13:7: model.law: expected one of {}, found the number 3",
+            laws()
+        )
     );
     assert_eq!(
         error_with("[[load]]", "[load]"),
@@ -177,7 +185,10 @@ fn lists_must_have_their_length() {
 fn wrong_words_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("\"nhpd\"", "\"nhdp\""),
-        "13:7: model.law: unknown value \"nhdp\"; did you mean \"nhpd\"? valid values: \"nhpd\", \"bbpd\", \"pds\", \"mppd\", \"mppd-beam\", \"orthotropic\""
+        format!(
+            "13:7: model.law: unknown value \"nhdp\"; did you mean \"nhpd\"? valid values: {}",
+            laws()
+        )
     );
     assert_eq!(
         error_with("thickness = 0.02", "plane = \"strian\""),
@@ -255,8 +266,8 @@ fn missing_sections_are_named_with_their_purpose() {
     );
     assert_eq!(
         error_of(&without_section("[[load]]")),
-        " load: the case has no [[load]] section; it needs one or more, or nothing would happen \
-         (natural modes need none: analysis = \"modal\")"
+        " load: the case has no [[load]] section; it needs one or more, or nothing would happen (natural \
+         modes need none: analysis = \"modal\")"
     );
 }
 

@@ -3,6 +3,7 @@
 //! | law | densities | element |
 //! |---|---|---|
 //! | [`bbpd`] | k_n | spring |
+//! | [`bbpd_conical`] | k_n that falls with the length | spring |
 //! | [`pds`] | k_n, constant k_t | spring |
 //! | [`mppd`] | those of [`pds`] and k_theta | beam |
 //! | [`beam`] | k_n, k_t = 12 d/l^2, k_theta = d/l: MPPD's beam form, and NHPD's law | beam |
@@ -11,6 +12,7 @@
 //! They come from integrals over a full circle; [`calibration`] puts sums over the families of the points in their place.
 
 pub mod bbpd;
+pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
 pub mod mppd;

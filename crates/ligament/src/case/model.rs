@@ -33,6 +33,8 @@ pub enum Law {
     Nhpd,
     /// Central forces alone; Poisson's ratio 1/3, or 1/4 in plane strain.
     Bbpd,
+    /// The same with a stiffness that falls with the length.
+    BbpdConical,
     /// Normal and constant shear stiffness, no rotations of the points.
     Pds,
     /// Normal and constant shear stiffness, rotations.
@@ -68,11 +70,23 @@ pub enum RotationalStiffness {
 }
 
 impl Law {
+    /// All laws.
+    pub const ALL: [Self; 7] = [
+        Self::Nhpd,
+        Self::Bbpd,
+        Self::BbpdConical,
+        Self::Pds,
+        Self::Mppd,
+        Self::MppdBeam,
+        Self::Orthotropic,
+    ];
+
     /// Its word in a case file.
     pub fn word(self) -> &'static str {
         match self {
             Self::Nhpd => "nhpd",
             Self::Bbpd => "bbpd",
+            Self::BbpdConical => "bbpd-conical",
             Self::Pds => "pds",
             Self::Mppd => "mppd",
             Self::MppdBeam => "mppd-beam",
@@ -80,11 +94,19 @@ impl Law {
         }
     }
 
+    /// Whether Poisson's ratio follows from the law, whatever that of the materials.
+    pub fn fixes_poisson(self) -> bool {
+        match self {
+            Self::Bbpd | Self::BbpdConical => true,
+            Self::Nhpd | Self::Pds | Self::Mppd | Self::MppdBeam | Self::Orthotropic => false,
+        }
+    }
+
     /// The calibration unless one is named; none where the paper's is the only one.
     fn calibration(self) -> Option<Calibration> {
         match self {
             Self::Nhpd | Self::Orthotropic => None,
-            Self::Bbpd | Self::Pds | Self::Mppd => Some(Calibration::Integral),
+            Self::Bbpd | Self::BbpdConical | Self::Pds | Self::Mppd => Some(Calibration::Integral),
             // The integrals leave it 7.5 % off at nu = 0 with m = 3.
             Self::MppdBeam => Some(Calibration::Discrete),
         }
@@ -94,7 +116,7 @@ impl Law {
     fn rotational_stiffness(self) -> Option<RotationalStiffness> {
         match self {
             Self::Mppd | Self::Orthotropic => Some(RotationalStiffness::Decaying),
-            Self::Nhpd | Self::Bbpd | Self::Pds | Self::MppdBeam => None,
+            Self::Nhpd | Self::Bbpd | Self::BbpdConical | Self::Pds | Self::MppdBeam => None,
         }
     }
 }

@@ -15,9 +15,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "disk",
     title: "Brazilian disk: strength and horizon factor",
     source: "Zhang, Yang and Zhuang (NHPD), eq. 22",
-    setup: "Disk of diameter 0.1 m, t = 1 m, E = 15 GPa, nu = 0.21, F_t = 3.81 MPa, plane stress, NHPD on triangle meshes of \
-            3 mm (1,440 points) and 2 mm (2,948 points). The platens are the nodes of the rim with |x| <= 1.5 mm, moved \
-            together in steps of 4 um, five bonds an iteration. The peak is the largest load before the load first falls.",
+    setup: "Disk of diameter 0.1 m, t = 1 m, E = 15 GPa, nu = 0.21, F_t = 3.81 MPa, plane stress, NHPD on triangle \
+            meshes of 3 mm (1,440 points) and 2 mm (2,948 points). The platens are the nodes of the rim with |x| <= \
+            1.5 mm, moved together in steps of 4 um, five bonds an iteration. The peak is the largest load before \
+            the load first falls.",
     cases: &["cases/brazilian-disk/case.toml"],
     compute,
 };

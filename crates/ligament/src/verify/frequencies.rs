@@ -11,10 +11,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "frequencies",
     title: "Natural frequencies of a square lamina",
     source: "Diana and Casolo (MPPD), Tables 4 to 6",
-    setup: "60 x 60 points 10 mm apart, m = 3, E = 70 GPa, 2500 kg/m^3, plane stress, the three rows at the base held in all \
-            unknowns. PDS, and MPPD with constant k_t and k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface \
-            correction by volumes. Modes are told by their shape, as in the paper: with PDS the axial one is the lowest for \
-            nu < 0.",
+    setup: "60 x 60 points 10 mm apart, m = 3, E = 70 GPa, 2500 kg/m^3, plane stress, the three rows at the base \
+            held in all unknowns. PDS, and MPPD with constant k_t and k_theta = k_t l (1 - l/delta)/2; partial \
+            volumes and the surface correction by volumes. Modes are told by their shape, as in the paper: with PDS \
+            the axial one is the lowest for nu < 0.",
     cases: &["cases/verification/square-modes.toml"],
     compute,
 };

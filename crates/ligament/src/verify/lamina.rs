@@ -11,11 +11,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "lamina",
     title: "Natural frequencies of an orthotropic lamina with a hole",
     source: "Diana and Casolo (OMPPD), Tables 3 to 5 and Fig. 18",
-    setup: "400 x 200 mm with a central hole of radius 40 mm, 80 x 40 cells of 5 mm less those whose centre lies in the hole \
-            (2,992 points), no bonds across the hole, m = 3.2. E_1 = 15 GPa, E_2 = 5 GPa, nu_12 = 0.25, G = 4.8 GPa, \
-            2500 kg/m^3, plane stress, axis 1 turned by the angle (degrees). The two columns at the left end are held in all \
-            unknowns. k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface correction by volumes. The coarse and \
-            the fine lattice have 748 and 11,988 points (cells of 10 and 2.5 mm).",
+    setup: "400 x 200 mm with a central hole of radius 40 mm, 80 x 40 cells of 5 mm less those whose centre lies in \
+            the hole (2,992 points), no bonds across the hole, m = 3.2. E_1 = 15 GPa, E_2 = 5 GPa, nu_12 = 0.25, G \
+            = 4.8 GPa, 2500 kg/m^3, plane stress, axis 1 turned by the angle (degrees). The two columns at the left \
+            end are held in all unknowns. k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface \
+            correction by volumes. The coarse and the fine lattice have 748 and 11,988 points (cells of 10 and 2.5 \
+            mm).",
     cases: &["cases/verification/lamina-modes.toml"],
     compute,
 };

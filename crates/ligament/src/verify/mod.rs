@@ -2,7 +2,7 @@
 //!
 //! | Module | Holds |
 //! |--------|-------|
-//! | [`published`] | the reader of the tables in `published/*.csv`: known values, tolerances, misprints with their reasons |
+//! | [`published`] | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
 //! | [`table`], [`entry`], [`printed`] | a table, the verdict on an entry, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, a file each |
@@ -128,8 +128,8 @@ pub enum VerifyError {
 ///
 /// # Errors
 ///
-/// If a name is not known, the folder cannot be used, an experiment cannot be run, or, with the report written, an entry
-/// fails.
+/// If a name is not known, the folder cannot be used, an experiment cannot be run, or, with the report written, an
+/// entry fails.
 pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     let chosen = select(&request.names)?;
     let folder = ResultFolder::create_marked(&request.out, files::SUMMARY, request.force)?;

@@ -14,11 +14,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "moduli",
     title: "Elastic constants of lattices",
     source: "closed form, independent calculation",
-    setup: "The middle point of 37 x 37 points, far from the sides: stiffness of its family under uniform strains, from it E, \
-            nu and G along the lattice. E = 70 GPa, plane stress; horizons of m = 2 to 8 spacings, partial volumes and the \
-            surface correction by volumes (none with discrete calibration, which sums over the family). PDS and MPPD are the same here. How \
-            much of a family lies inside its partial volumes decides what other horizons miss; the beam form (MPPD eqs 42, 43) \
-            weighs short bonds more, and sums over the family in place of integrals halve what E and nu miss and overshoot G.",
+    setup: "The middle point of 37 x 37 points, far from the sides: stiffness of its family under uniform strains, \
+            from it E, nu and G along the lattice. E = 70 GPa, plane stress; horizons of m = 2 to 8 spacings, \
+            partial volumes and the surface correction by volumes (none with discrete calibration, which sums over \
+            the family). PDS and MPPD are the same here. How much of a family lies inside its partial volumes \
+            decides what other horizons miss; the beam form (MPPD eqs 42, 43) weighs short bonds more, and sums \
+            over the family in place of integrals halve what E and nu miss and overshoot G.",
     cases: &["cases/verification/lattice.toml"],
     compute,
 };

@@ -19,8 +19,8 @@ pub(super) struct Frequencies {
 impl Frequencies {
     /// Those of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
-    /// The axial mode is that with the largest effective mass along the cantilever, wherever it stands among the three: with
-    /// PDS it is below the first flexural one for nu < 0, and equal to it for nu = 0.
+    /// The axial mode is that with the largest effective mass along the cantilever, wherever it stands among the three:
+    /// with PDS it is below the first flexural one for nu < 0, and equal to it for nu = 0.
     pub(super) fn of(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
         let modes = trial.modes()?;
         ensure!(modes.len() == 3, "{} modes, expected 3", modes.len());

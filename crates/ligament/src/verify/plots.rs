@@ -101,7 +101,8 @@ pub enum PlotError {
 }
 
 impl Series {
-    /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or points.
+    /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or
+    /// points.
     pub fn new(label: &str, mark: Mark, colour: Colour, points: Vec<[f64; 2]>) -> Self {
         Self {
             label: label.to_owned(),

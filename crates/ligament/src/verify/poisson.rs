@@ -11,9 +11,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "poisson",
     title: "Poisson's ratio from uniaxial tension",
     source: "closed form",
-    setup: "On a lattice: plate 0.2 x 0.1 m of 80 x 40 points, m = 3, E = 15 GPa, plane stress, PDS and MPPD (constant k_t); \
-            gauges in the middle, 97.5 mm along and 47.5 mm across. On a mesh: plate 0.2 x 0.1 m on an irregular mesh of 4 mm (1,543 points), E = 15 GPa, plane stress, NHPD; pulled along x, \
-            free to contract. Two strain gauges in the middle, 100 mm along and 55.4 mm across, give nu.",
+    setup: "On a lattice: plate 0.2 x 0.1 m of 80 x 40 points, m = 3, E = 15 GPa, plane stress, PDS and MPPD \
+            (constant k_t); gauges in the middle, 97.5 mm along and 47.5 mm across. On a mesh: plate 0.2 x 0.1 m on \
+            an irregular mesh of 4 mm (1,543 points), E = 15 GPa, plane stress, NHPD; pulled along x, free to \
+            contract. Two strain gauges in the middle, 100 mm along and 55.4 mm across, give nu.",
     cases: &[
         "cases/verification/lattice-tension.toml",
         "cases/plate-tension/case.toml",

@@ -11,8 +11,9 @@
 //! 0.1,pds,2025.5,digits,full,misprint,2053,"why it is one"
 //! ```
 //!
-//! What stands before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the
-//! unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint` or `open`.
+//! What stands before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in
+//! the unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint` or
+//! `open`.
 
 use super::entry::{Entry, Standing};
 use super::printed::{Allowed, Printed};
@@ -271,7 +272,9 @@ nu,law,known,allowed,subset,standing,instead,reason
 
     #[test]
     fn a_table_has_heading_labels_values_and_standings() {
-        let known = parse("1/3,pds,982.2,digits,fast,,,\n0.1,pds,2025.5,3 %,full,misprint,2053,\"not \"\"f\"\", g\"\n").unwrap();
+        let sound = "1/3,pds,982.2,digits,fast,,,";
+        let misprint = "0.1,pds,2025.5,3 %,full,misprint,2053,\"not \"\"f\"\", g\"";
+        let known = parse(&format!("{sound}\n{misprint}\n")).unwrap();
         assert_eq!(known.heading.source, "Author 2019, Table 4");
         assert_eq!(known.heading.keys, ["nu", "law"]);
         assert_eq!(known.entries[1].allowed, Allowed::Relative(0.03));

@@ -11,11 +11,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "statics",
     title: "Square plate in traction, shear and bending",
     source: "Diana and Casolo (MPPD), Tables 1 to 3",
-    setup: "61 x 61 points 10 mm apart, half-width 300 mm, m = 3, E = 70 GPa, plane stress, 10 MPa on the outermost row of \
-            points: along y on top and bottom (traction), along the four sides without their corners (shear), along x on left \
-            and right and proportional to y (bending). PDS, and MPPD with constant k_t and k_theta = k_t l (1 - l/delta)/2; \
-            partial volumes and the surface correction by volumes. Displacements are the largest of all points; those of \
-            shear are u_x at (0, 300) mm and u_y at (300, 0) mm, turned until they are equal.",
+    setup: "61 x 61 points 10 mm apart, half-width 300 mm, m = 3, E = 70 GPa, plane stress, 10 MPa on the outermost \
+            row of points: along y on top and bottom (traction), along the four sides without their corners \
+            (shear), along x on left and right and proportional to y (bending). PDS, and MPPD with constant k_t and \
+            k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface correction by volumes. Displacements \
+            are the largest of all points; those of shear are u_x at (0, 300) mm and u_y at (300, 0) mm, turned \
+            until they are equal.",
     cases: &[
         "cases/verification/square-traction.toml",
         "cases/verification/square-shear.toml",
@@ -115,7 +116,8 @@ fn judge(
     })
 }
 
-/// Mean of u_x at the middle of the upper side and u_y at the middle of the right side: what a rigid rotation leaves of them, m.
+/// Mean of u_x at the middle of the upper side and u_y at the middle of the right side: what a rigid rotation leaves of
+/// them, m.
 fn shear_displacement(solution: &Solution) -> anyhow::Result<f64> {
     let [along_x, _] = displacement_at(solution, [0.0, HALF_WIDTH]);
     let [_, along_y] = displacement_at(solution, [HALF_WIDTH, 0.0]);

@@ -171,8 +171,8 @@ impl Table {
         Ok(points)
     }
 
-    /// Computed less known value of a row: an amount in a table that allows amounts and where the known value is 0, a share
-    /// of the known value elsewhere.
+    /// Computed less known value of a row: an amount in a table that allows amounts and where the known value is 0, a
+    /// share of the known value elsewhere.
     pub fn difference(&self, row: &Row) -> Difference {
         let is_amount = |row: &Row| matches!(row.entry.allowed, Allowed::Absolute(_));
         let known = row.entry.known.value();

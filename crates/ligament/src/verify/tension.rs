@@ -12,9 +12,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "tension",
     title: "Orthotropic lamina with a hole in tension",
     source: "finite elements, as in Diana and Casolo (OMPPD), Figs 16 and 17",
-    setup: "The lamina of the natural frequencies (2,992 points, m = 3.2), u_x = -0.5 and 0.5 mm in the three columns at its \
-            ends, free along y (u_y is given less its mean over all points). Displacements of the upper row of cells against an independent \
-            solution by finite elements at the same points.",
+    setup: "The lamina of the natural frequencies (2,992 points, m = 3.2), u_x = -0.5 and 0.5 mm in the three \
+            columns at its ends, free along y (u_y is given less its mean over all points). Displacements of the \
+            upper row of cells against an independent solution by finite elements at the same points.",
     cases: &["cases/verification/lamina-tension.toml"],
     compute,
 };

@@ -56,11 +56,11 @@ pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
 const INTRODUCTION: &str = "\
 # Verification
 
-Written by `ligament verify`: published values, and what this version of the program computes for them by the functions of
-`ligament run`. Each table is also a CSV file here, with all digits. The cases named below can be run by themselves; what an
-entry changes in them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
+Written by `ligament verify`: published values, and what this version of the program computes for them by the functions
+of `ligament run`. Each table is also a CSV file here, with all digits. The cases named below can be run by themselves;
+what an entry changes in them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
 
-- **met**: the computed value, rounded, is the known one. **within tolerance**: it is as near as the column *allowed* asks.
+- **met**: the computed value, rounded, is the known one. **within tolerance**: it is as near as *allowed*.
 - **misprint**: the known value is a misprint, and the computed one is what should stand there. **not reproduced**: no
   set-up is known that leads to the known value, and the computed one is that of an independent calculation. Notes give
   the reasons; an entry that misses what it is compared with instead fails as any other.
