@@ -24,7 +24,7 @@ pub fn stress(
 /// Virial stress of one point, Pa: sigma_i = 1/(2 V_i) sum_j f_ij (x) xi_ij over its intact bonds, with the force f_ij that
 /// point j exerts on i and xi_ij = X_j - X_i.
 ///
-/// Factor and sign follow from equilibrium. For forces F_i on a body, V <sigma> = sum_i F_i (x) X_i (the mean stress theorem);
+/// Factor and sign follow from equilibrium. For forces F_i on a body, V \<sigma\> = sum_i F_i (x) X_i (the mean stress theorem);
 /// with F_i = -sum_j f_ij and f_ji = -f_ij a bond gives f_ij (x) xi_ij once, half of it to each end as of its energy. So
 /// sum_i V_i sigma_i is the mean stress of any body in equilibrium, exactly. The derivative of the point's energy density for
 /// a uniform strain is the same, so that the stress is as good as the energies of the correction are.
