@@ -52,15 +52,17 @@ pub fn sweep(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> Bond
 
 fn sweep_of<E: Element>(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
     let n_bonds = system.bonds.len();
-    let deformations: Vec<BondDeformation> = (0..n_bonds)
-        .into_par_iter()
-        .with_min_len(TASK)
-        .map(|bond| {
-            let [a, b] = system.bonds.ends[bond].map(|end| COMPONENTS * end as usize);
-            let ends = [a, b].map(|end| &displacement[end..end + COMPONENTS]);
-            E::of(system, bond).deformation(ends[0], ends[1])
-        })
-        .collect();
+    let mut deformations = vec![BondDeformation::default(); n_bonds];
+    deformations
+        .par_chunks_mut(TASK)
+        .enumerate()
+        .for_each(|(task, deformations)| {
+            for (bond, deformation) in (task * TASK..).zip(deformations) {
+                let [a, b] = system.bonds.ends[bond].map(|end| COMPONENTS * end as usize);
+                let [at_a, at_b] = [a, b].map(|end| &displacement[end..end + COMPONENTS]);
+                *deformation = E::of(system, bond).deformation(at_a, at_b);
+            }
+        });
     let parts: Vec<Part> = (0..PARTS)
         .into_par_iter()
         .map(|part| {
