@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use ligament::case::CaseFile;
+use ligament::model::{Model, build_model};
 use ligament::progress::{Progress, ProgressMode};
 use ligament::resolve::{self, Loading};
-use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Model, Report};
+use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Report};
 use ligament::stages::Stages;
 use ligament::summary::Summary;
 use ligament_analysis::driver::{self, Outcome, Problem};
@@ -86,7 +87,7 @@ impl Bench {
 
     fn from_case(case: CaseFile, folder: Option<TempDir>) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
-        let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
+        let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
         let Loading {
             boundary, probes, ..
         } = Loading::of(&case, &*model.body, &model.system).unwrap();

@@ -1,9 +1,9 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
 use ligament::case::CaseFile;
+use ligament::model::{Model, build_model};
 use ligament::progress::{Progress, ProgressMode};
 use ligament::resolve::{self, Vibration};
-use ligament::run::{self, Model};
 use ligament::stages::Stages;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
@@ -41,7 +41,7 @@ impl ModalBench {
 
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
-        let model = run::build_model(&case, &mut Stages::default(), &progress).unwrap();
+        let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
         let vibration = Vibration::of(&case, &*model.body, &model.system.cloud).unwrap();
         Self {
             supports: vibration.supports,

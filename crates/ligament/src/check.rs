@@ -16,11 +16,12 @@ use ligament_output::results::point_grid;
 use crate::body::Body;
 use crate::case::{CaseFile, Control, Steps};
 use crate::gauges::words;
+use crate::model::{Model, build_model};
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve::{self, Loading};
-use crate::run::{ELASTIC_ENERGY_TOLERANCE, Model, build_model};
+use crate::run::ELASTIC_ENERGY_TOLERANCE;
 use crate::stages::{Stage, Stages};
-use crate::summary::{Spread, correction_line, family, formulation_line};
+use crate::summary::{Spread, correction_line, family, formulation_line, heading};
 
 /// How far a check goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,15 +115,7 @@ fn check_loading(
 
 /// Writes what is known before supports and loads.
 fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
-    writeln!(
-        out,
-        "{}",
-        if case.case.title.is_empty() {
-            "untitled case"
-        } else {
-            &case.case.title
-        }
-    )?;
+    writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.cloud.volumes.iter().sum();
     model.body.write(out, volume)?;
     write_materials(out, case, model)?;

@@ -12,7 +12,7 @@ pub mod formulation;
 pub mod gauges;
 pub mod inspect;
 pub mod mesh_command;
-pub mod modal_summary;
+pub mod model;
 mod modes;
 pub mod progress;
 pub mod resolve;

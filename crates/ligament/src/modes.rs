@@ -8,11 +8,11 @@ use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::write_modes;
 
 use crate::case::{CaseFile, Modal};
-use crate::modal_summary::ModalSummary;
+use crate::model::Model;
 use crate::progress::Progress;
 use crate::resolve::{self, Vibration};
-use crate::run::Model;
 use crate::stages::Stages;
+use crate::summary::ModalSummary;
 
 /// Finds the modes of a model and writes them into a new folder.
 pub(crate) fn find_modes(

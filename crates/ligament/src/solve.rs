@@ -9,9 +9,10 @@ use ligament_analysis::probe::Probe;
 
 use crate::body::Body;
 use crate::case::CaseFile;
+use crate::model::{Model, build_model, model_of};
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve::{self, Loading, Vibration};
-use crate::run::{Model, build_model, follow, model_of};
+use crate::run::follow;
 use crate::stages::Stages;
 
 /// What a case comes to.

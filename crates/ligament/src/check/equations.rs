@@ -9,7 +9,7 @@ use ligament_analysis::stiffness::{
 };
 
 use crate::case::{self, CaseFile, Factorisation};
-use crate::run::Model;
+use crate::model::Model;
 
 /// Bytes that a stored value of the factor takes.
 const FACTOR_VALUE: usize = size_of::<f64>();

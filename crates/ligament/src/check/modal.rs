@@ -6,8 +6,8 @@ use ligament_analysis::modal::{ModalAnalysis, Rotations};
 
 use super::{Extent, equations, write_group, write_model};
 use crate::case::{self, CaseFile, Modal};
+use crate::model::Model;
 use crate::resolve::{self, Vibration};
-use crate::run::Model;
 use crate::stages::Stages;
 
 /// Checks supports, masses and equations.

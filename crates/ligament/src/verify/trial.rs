@@ -10,8 +10,8 @@ use ligament_mesh::gmsh;
 
 use crate::body::{self, Body};
 use crate::case::{CaseError, CaseFile};
+use crate::model::{Model, build_model};
 use crate::progress::{Progress, ProgressMode};
-use crate::run::{Model, build_model};
 use crate::solve::{Solution, modes, solve};
 use crate::stages::Stages;
 

@@ -6,35 +6,16 @@ use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
 use serde::Serialize;
 
 use crate::case::CaseFile;
-use crate::run::Model;
+use crate::model::Model;
 use crate::stages::Stage;
-use crate::summary::{
-    CorrectionSummary, SolverSummary, Spread, StabilitySummary, family, formulation_words,
-};
+use crate::summary::{ModelSummary, SolverSummary, StabilitySummary, heading};
 
 /// All numbers of a modal analysis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModalSummary {
-    /// Title of the case.
-    pub title: String,
-    /// Version of the program.
-    pub version: &'static str,
-    /// Law and corrections of the bonds, in words.
-    pub formulation: String,
-    /// Number of points.
-    pub points: usize,
-    /// Number of bonds, without those that pre-cracks cut.
-    pub bonds: usize,
-    /// Number of bonds that pre-cracks cut.
-    pub cut_bonds: usize,
-    /// Sum of the points' volumes, m^3.
-    pub volume: f64,
-    /// Smallest, mean and largest horizon, m.
-    pub horizon: Spread,
-    /// Smallest, mean and largest number of bonds of a point.
-    pub family: Spread,
-    /// The corrections of the bonds.
-    pub correction: CorrectionSummary,
+    /// The model.
+    #[serde(flatten)]
+    pub model: ModelSummary,
     /// Mass of the body, kg.
     pub mass: f64,
     /// Its centre, m.
@@ -91,16 +72,7 @@ impl ModalSummary {
         let mut warnings = model.warnings.clone();
         warnings.extend(outcome.notices.iter().map(ToString::to_string));
         Self {
-            title: case.case.title.clone(),
-            version: env!("CARGO_PKG_VERSION"),
-            formulation: formulation_words(case, model),
-            points: model.system.cloud.len(),
-            bonds: model.system.bonds.len(),
-            cut_bonds: model.cut_bonds,
-            volume: model.system.cloud.volumes.iter().sum(),
-            horizon: Spread::of(model.fixed.horizon.iter().copied()),
-            family: family(model),
-            correction: CorrectionSummary::new(case, model),
+            model: ModelSummary::new(case, model),
             mass: moving.total,
             centre_of_mass: moving.centre,
             moving: moving.free,
@@ -122,19 +94,19 @@ impl ModalSummary {
 
     /// The lines that a user sees at the end of a run.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Self {
+        let ModelSummary {
             title,
+            formulation,
             points,
             bonds,
-            mass,
             ..
-        } = self;
-        writeln!(out, "{title}")?;
-        writeln!(out, "  {}", self.formulation)?;
+        } = &self.model;
+        writeln!(out, "{}", heading(title))?;
+        writeln!(out, "  {formulation}")?;
         writeln!(
             out,
-            "  points {points}, bonds {bonds}, mass {mass:.6e} kg, rotations: {}",
-            self.rotations
+            "  points {points}, bonds {bonds}, mass {:.6e} kg, rotations: {}",
+            self.mass, self.rotations
         )?;
         writeln!(
             out,
