@@ -68,7 +68,7 @@ fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> 
     let why = match (is_named, choice.factorisation) {
         (true, _) => "as the case says",
         (false, FactorKind::Llt) => {
-            "the shear stiffness of every bond is positive, and so is the stiffness of the body"
+            "the axial and shear stiffness of every bond is positive, and so is the stiffness of the body"
         }
         (false, FactorKind::Ldlt) => {
             "not every bond has a positive shear stiffness: the stiffness may be indefinite"
