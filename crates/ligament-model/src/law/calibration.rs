@@ -2,6 +2,10 @@
 //!
 //! The integrals know neither the lattice nor the surface. Here the energies of uniform strains decide, as the bonds of a point
 //! give them: that of equal strains along x and y, and that of a shear in the mean over its directions.
+//!
+//! A lattice is not isotropic, and stays so: the beam form with m = 3 and nu = 0 has E, nu and G/G_0 of 0.964, 0.036
+//! and 1.07 along the axes and 1.034, -0.034 and 0.93 between them (by integrals with the surface correction 0.925, 0.071
+//! and 0.98, and 0.989, 0.006 and 0.86).
 
 use rayon::prelude::*;
 
