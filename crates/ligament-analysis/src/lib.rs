@@ -2,7 +2,8 @@
 //!
 //! A [`Boundary`] on a bond system makes a problem; [`driver::elastic`] solves it once, [`driver::stepped`] follows the
 //! loading while bonds break, one ordered handful after another, and [`driver::event`] the exact equilibrium path from
-//! breakage to breakage. [`modal`] finds the natural modes of a body that [`Supports`] hold. What happens on the way goes to an [`Observer`]; how it ended is a [`Termination`], never an error.
+//! breakage to breakage. [`modal`] finds the natural modes of a body that [`Supports`] hold. What happens on the way goes to an
+//! [`Observer`]; how it ended is a [`Termination`], never an error.
 //! No files and no printing here.
 
 pub mod assembly;

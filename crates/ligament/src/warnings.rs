@@ -18,8 +18,8 @@ const ENERGY_TOLERANCE: f64 = 1e-4;
 /// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
 
-/// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction, pre-cracks (`touched`: bonds that only touch an end of
-/// one) and the materials.
+/// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction,
+/// pre-cracks (`touched`: bonds that only touch an end of one) and the materials.
 pub fn of_model(
     case: &CaseFile,
     body: &dyn Body,

@@ -73,8 +73,8 @@ impl StrainMode {
 ///
 /// Omega <- Omega / sqrt((a/p_x)^2 + (b/p_y)^2), p_x = (e_A/etil_A,x + e_B/etil_B,x)/2, p_y alike,
 ///
-/// from given length factors alpha (n_bonds), with the trial energy density etil_A = (1/4) sum over B of Omega alpha V_B (k_n s^2 + k_t gamma^2) l (eq. 12). At an
-/// interface e_A is the volume-weighted mean of the materials'.
+/// from given length factors alpha (n_bonds), with the trial energy density etil_A = (1/4) sum over B of
+/// Omega alpha V_B (k_n s^2 + k_t gamma^2) l (eq. 12). At an interface e_A is the volume-weighted mean of the materials'.
 pub fn iterate(
     bonds: &BondSet,
     cloud: &PointCloud,

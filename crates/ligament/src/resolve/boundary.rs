@@ -205,7 +205,8 @@ impl Places<'_> {
     /// Forces and couples of a load on its points; none where it prescribes a displacement.
     ///
     /// A total force is spread over a group that has a length by the length that each point stands for, over other places
-    /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each point's share is then multiplied by the profile.
+    /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each
+    /// point's share is then multiplied by the profile.
     fn forces(&self, key: &str, load: &Load, points: &[u32]) -> Result<Given, CaseError> {
         let curve = match &load.place {
             Some(Place::Group(group)) => self.body.lengths_of(group),
