@@ -6,6 +6,8 @@
 
 use ligament_model::element::BondDeformation;
 use ligament_model::{BondSystem, PointCloud};
+use rstar::primitives::GeomWithData;
+use rstar::{AABB, RTree};
 
 use super::force_on_first;
 
@@ -33,8 +35,8 @@ pub fn stress(
     intact: &[bool],
     deformations: &[BondDeformation],
 ) -> Vec<Tractions> {
-    let grid = Grid::of(&system.cloud);
-    let on_planes = |normal: usize| through_planes(system, intact, deformations, &grid, normal);
+    let squares = Squares::of(&system.cloud);
+    let on_planes = |normal: usize| through_planes(system, intact, deformations, &squares, normal);
     let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
     let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
     with_x.into_iter().zip(with_y).map(of_point).collect()
@@ -45,7 +47,7 @@ fn through_planes(
     system: &BondSystem,
     intact: &[bool],
     deformations: &[BondDeformation],
-    grid: &Grid,
+    squares: &Squares,
     normal: usize,
 ) -> Vec<[f64; 2]> {
     let cloud = &system.cloud;
@@ -56,15 +58,15 @@ fn through_planes(
         let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
         let band = Band {
             ends: [cloud.positions[a], cloud.positions[b]],
-            width: 0.5 * (grid.width[a] + grid.width[b]),
+            width: 0.5 * (squares.width[a] + squares.width[b]),
             normal,
         };
-        grid.visit(band.reach(grid.largest_width), |point| {
-            let area = band.area_within(cloud.positions[point], grid.width[point]);
+        for point in squares.within(band.reach(squares.largest_width)) {
+            let area = band.area_within(cloud.positions[point], squares.width[point]);
             if area > 0.0 {
                 crossed.push((point, area));
             }
-        });
+        }
         let area: f64 = crossed.iter().map(|(_, area)| area).sum();
         // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
         let force = force_on_first(system, bond, &deformations[bond]);
@@ -141,86 +143,35 @@ impl Band {
     }
 }
 
-/// The points in the cells of a grid, to find those near a bond.
-struct Grid {
-    /// Width sqrt(V/t) of each point's square, shape (n_points), m.
+/// The squares of the points, and a tree to find those near a bond.
+struct Squares {
+    /// Width sqrt(V/t) of each, shape (n_points), m.
     width: Vec<f64>,
     largest_width: f64,
-    lower: [f64; 2],
-    cell: f64,
-    n_cells: [usize; 2],
-    /// Where the points of each cell start, row by row.
-    starts: Vec<usize>,
-    points: Vec<u32>,
+    middles: RTree<GeomWithData<[f64; 2], u32>>,
 }
 
-impl Grid {
+impl Squares {
     fn of(cloud: &PointCloud) -> Self {
         let width: Vec<f64> = cloud
             .volumes
             .iter()
             .map(|volume| (volume / cloud.thickness).sqrt())
             .collect();
-        let bound = |pick: fn(f64, f64) -> f64, start: f64| {
-            let least = |axis: usize| cloud.positions.iter().map(|p| p[axis]).fold(start, pick);
-            [least(0), least(1)]
-        };
-        let (lower, upper) = (
-            bound(f64::min, f64::INFINITY),
-            bound(f64::max, f64::NEG_INFINITY),
-        );
-        // A cell has a point or two in the mean.
-        let area: f64 = width.iter().map(|width| width * width).sum();
-        let cell = (2.0 * area / width.len() as f64).sqrt();
-        let mut grid = Self {
+        let numbered = (0..).zip(&cloud.positions);
+        let middles = numbered.map(|(point, &position)| GeomWithData::new(position, point));
+        Self {
             largest_width: width.iter().copied().fold(0.0, f64::max),
             width,
-            lower,
-            cell,
-            n_cells: [0, 1].map(|axis| ((upper[axis] - lower[axis]) / cell) as usize + 1),
-            starts: Vec::new(),
-            points: vec![0; cloud.len()],
-        };
-        let cells: Vec<usize> = cloud
-            .positions
-            .iter()
-            .map(|&p| grid.number(grid.place(p)))
-            .collect();
-        let mut next = vec![0; grid.n_cells[0] * grid.n_cells[1] + 1];
-        for cell in &cells {
-            next[cell + 1] += 1;
+            middles: RTree::bulk_load(middles.collect()),
         }
-        for cell in 1..next.len() {
-            next[cell] += next[cell - 1];
-        }
-        grid.starts.clone_from(&next);
-        for (point, cell) in cells.into_iter().enumerate() {
-            grid.points[next[cell]] = point as u32;
-            next[cell] += 1;
-        }
-        grid
     }
 
-    /// Column and row of a position; outside of the grid the nearest ones.
-    fn place(&self, position: [f64; 2]) -> [usize; 2] {
-        [0, 1].map(|axis| {
-            let cells = (position[axis] - self.lower[axis]) / self.cell;
-            (cells as usize).min(self.n_cells[axis] - 1)
-        })
-    }
-
-    fn number(&self, [column, row]: [usize; 2]) -> usize {
-        row * self.n_cells[0] + column
-    }
-
-    /// Calls for all points of the cells that a box touches.
-    fn visit(&self, [lower, upper]: [[f64; 2]; 2], mut visit: impl FnMut(usize)) {
-        let (first, last) = (self.place(lower), self.place(upper));
-        for row in first[1]..=last[1] {
-            let (from, to) = (self.number([first[0], row]), self.number([last[0], row]));
-            for &point in &self.points[self.starts[from]..self.starts[to + 1]] {
-                visit(point as usize);
-            }
-        }
+    /// The points in a box, in the order of the tree, which depends on the points alone.
+    fn within(&self, [lower, upper]: [[f64; 2]; 2]) -> impl Iterator<Item = usize> + '_ {
+        let found = self
+            .middles
+            .locate_in_envelope(AABB::from_corners(lower, upper));
+        found.map(|point| point.data as usize)
     }
 }

@@ -123,23 +123,24 @@ mod tests {
 
     const LENGTH: f64 = 0.7;
 
-    fn beam(angle: f64, shear_sign: f64) -> BondElement {
-        BondElement::Beam(BeamBond {
+    fn springs(angle: f64, shear_sign: f64) -> SpringBond {
+        SpringBond {
             length: LENGTH,
             direction: [angle.cos(), angle.sin()],
             axial_rigidity: 5.0,
             shear_rigidity: 3.0 * shear_sign,
+        }
+    }
+
+    fn beam(angle: f64, shear_sign: f64) -> BondElement {
+        BondElement::Beam(BeamBond {
+            springs: springs(angle, shear_sign),
             rotational_rigidity: 0.2 * shear_sign,
         })
     }
 
     fn spring(angle: f64, shear_sign: f64) -> BondElement {
-        BondElement::Spring(SpringBond {
-            length: LENGTH,
-            direction: [angle.cos(), angle.sin()],
-            axial_rigidity: 5.0,
-            shear_rigidity: 3.0 * shear_sign,
-        })
+        BondElement::Spring(springs(angle, shear_sign))
     }
 
     fn deformation(bond: &BondElement, u: &Vector6<f64>) -> BondDeformation {

@@ -10,7 +10,7 @@ use crate::body::Body;
 use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
 
 /// Supports and loads on the points.
-pub fn boundary(
+pub(super) fn boundary(
     case: &CaseFile,
     body: &dyn Body,
     cloud: &PointCloud,

@@ -21,7 +21,6 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
 
-pub use boundary::boundary;
 pub use loading::Loading;
 pub use modal::{Vibration, modal};
 pub use places::{material_of_cell, no_fail};
