@@ -87,7 +87,7 @@ fn bonds_of_the_square() {
             ("horizon", &bonds.horizon, GEOMETRY),
             ("alpha", &length_factor, GEOMETRY),
             ("omega", domain_factor, FACTORS),
-            ("s0", &model.critical_stretch, FACTORS),
+            ("s0", &model.criteria.list[0].limit, FACTORS),
         ];
         for (column, values, tolerance) in columns {
             let wanted = expected.column(column);
@@ -127,8 +127,7 @@ fn solutions_of_the_square() {
         let row = summary.row_where("set", set);
         let system = &bench.model.system;
         let ratios = (0..system.bonds.len()).map(|bond| {
-            system.deformation(bond, run.displacement()).stretch
-                / bench.model.critical_stretch[bond]
+            system.deformation(bond, run.displacement()).stretch / bench.limits()[bond]
         });
         let largest_ratio = ratios.fold(0.0, f64::max);
         for (name, value, column) in [

@@ -104,6 +104,7 @@ impl Bench {
     pub fn problem(&self) -> Problem<'_> {
         Problem {
             system: &self.model.system,
+            criteria: &self.model.criteria,
             boundary: &self.boundary,
             solver: resolve::solver(&self.case),
             probes: &self.probes,
@@ -120,10 +121,7 @@ impl Bench {
     /// Follows the loading as the fracture section says.
     pub fn break_up(&self) -> Run {
         let fracture = self.case.case.fracture.as_ref().unwrap();
-        self.watched(|watch| {
-            let limits = &self.model.critical_stretch;
-            run::break_bonds(&self.problem(), limits, fracture, watch).unwrap()
-        })
+        self.watched(|watch| run::break_bonds(&self.problem(), fracture, watch).unwrap())
     }
 
     fn watched(&self, run: impl FnOnce(&mut dyn Observer) -> Outcome) -> Run {
@@ -137,6 +135,11 @@ impl Bench {
             largest_residual: watch.largest_residual,
             smallest_part: watch.smallest_part,
         }
+    }
+
+    /// Limits of the first criterion, shape (n_bonds).
+    pub fn limits(&self) -> &[f64] {
+        &self.model.criteria.list[0].limit
     }
 
     /// Number of points.

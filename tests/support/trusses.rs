@@ -5,6 +5,7 @@ use ligament_analysis::boundary::{Boundary, Control, ControlKind};
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::{Outcome, Problem, StopRules, event};
 use ligament_analysis::unknowns::Component;
+use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::{BondSet, BondSystem, ElementKind, Horizons, PointCloud};
 
 use crate::bench::Watch;
@@ -25,7 +26,7 @@ pub struct Truss {
     /// Its points and bonds.
     pub system: BondSystem,
     /// Critical stretches of the bonds.
-    pub critical_stretch: Vec<f64>,
+    pub criteria: Criteria,
     /// Supports and loads.
     pub boundary: Boundary,
     /// The bond that each rod is.
@@ -104,7 +105,13 @@ impl Truss {
                 cloud,
                 bonds,
             },
-            critical_stretch,
+            criteria: Criteria {
+                list: vec![Criterion::brittle(
+                    "stretch",
+                    Measure::Tension,
+                    critical_stretch,
+                )],
+            },
         }
     }
 
@@ -119,6 +126,7 @@ impl Truss {
     pub fn follow(&self, stop: StopRules) -> (Outcome, Watch) {
         let problem = Problem {
             system: &self.system,
+            criteria: &self.criteria,
             boundary: &self.boundary,
             solver: SolverSettings::default(),
             probes: &[],
@@ -127,12 +135,7 @@ impl Truss {
             displacements: Some(Vec::new()),
             ..Watch::default()
         };
-        let outcome = event::run(
-            &problem,
-            &self.critical_stretch,
-            &settings(stop),
-            &mut watch,
-        );
+        let outcome = event::run(&problem, &settings(stop), &mut watch);
         (outcome.unwrap(), watch)
     }
 }

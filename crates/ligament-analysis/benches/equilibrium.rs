@@ -62,7 +62,7 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
     });
     let deformations = internal::sweep(system, intact, displacement).deformations;
     let next = |count: usize| {
-        let limits = &bench.model.critical_stretch;
+        let limits = &bench.model.criteria;
         next_to_break(&rule(count), black_box(&deformations), limits, intact)
     };
     group.bench_function("choice of the next bond", |bencher| {
@@ -107,7 +107,7 @@ fn breakages(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
                             if body.state.broken_bonds() + count > BROKEN {
                                 body = Body::intact(&problem);
                             }
-                            body.break_next(&rule(count), &bench.model.critical_stretch)
+                            body.break_next(&rule(count), &bench.model.criteria)
                         })
                         .sum()
                 });
@@ -141,9 +141,13 @@ impl<'a> Body<'a> {
     }
 
     /// Breaks the bonds whose turn it is, and tells how long that and the new equilibrium took.
-    fn break_next(&mut self, rule: &BreakingRule, critical_stretch: &[f64]) -> Duration {
+    fn break_next(
+        &mut self,
+        rule: &BreakingRule,
+        criteria: &ligament_model::failure::Criteria,
+    ) -> Duration {
         let (deformations, intact) = (&self.balanced.deformations, &self.state.intact);
-        let bonds = next_to_break(rule, deformations, critical_stretch, intact);
+        let bonds = next_to_break(rule, deformations, criteria, intact);
         let start = Instant::now();
         self.equilibrium.break_bonds(&mut self.state, &bonds);
         let balanced = self.equilibrium.balance(&mut self.state, &mut self.watch);

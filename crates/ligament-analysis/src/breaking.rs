@@ -1,17 +1,20 @@
 //! Which bonds break next (NHPD section 2.4, Fig. 5), with an explicit rule for ties.
+//!
+//! A bond is judged by the criterion that brings it nearest to its breakage: measure over limit, s/s_0 for most.
 
 use ligament_model::element::BondDeformation;
+use ligament_model::failure::{Criteria, Verdict};
 use rayon::prelude::*;
 
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
-/// What orders the bonds that exceed their critical stretch.
+/// What orders the bonds that are beyond their limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BreakingOrder {
-    /// Excess s - s_0 (the paper's).
+    /// Excess of measure over limit, s - s_0 (the paper's).
     Excess,
-    /// Ratio s / s_0 (the order in which proportional loading reaches the limits).
+    /// Ratio of measure to limit, s/s_0 (the order in which proportional loading reaches the limits).
     Ratio,
 }
 
@@ -22,11 +25,11 @@ pub struct BreakingRule {
     pub order: BreakingOrder,
     /// Number o of bonds that break before the next equilibrium (NHPD recommends 10 at most).
     pub bonds_per_iteration: usize,
-    /// Bonds whose stretch (order by excess) or ratio is within this relative distance of the leader's are tied with it.
+    /// Bonds whose measure (order by excess) or ratio is within this relative distance of the leader's are tied with it.
     pub tie_tolerance: f64,
 }
 
-/// The bonds to break now, in order; empty where no intact bond has s >= s_0.
+/// The bonds to break now, in order; empty where no intact bond is at its limit.
 ///
 /// The bond that leads the order takes the whole group tied with it along, also members just under their limit, so that
 /// symmetric problems stay symmetric; the group is in the order of the bond numbers and never split. Groups follow until
@@ -34,18 +37,16 @@ pub struct BreakingRule {
 pub fn next_to_break(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
-    critical_stretch: &[f64],
+    criteria: &Criteria,
     intact: &[bool],
 ) -> Vec<u32> {
     let mut ranked: Vec<Candidate> = (0..deformations.len())
         .into_par_iter()
         .with_min_len(TASK)
         .filter(|&bond| intact[bond])
-        .map(|bond| (bond, deformations[bond].stretch, critical_stretch[bond]))
-        .filter(|&(_, stretch, limit)| {
-            stretch > 0.0 && stretch * (1.0 + 2.0 * rule.tie_tolerance) >= limit
-        })
-        .map(|(bond, stretch, limit)| Candidate::new(rule.order, bond as u32, stretch, limit))
+        .filter_map(|bond| Some((bond, criteria.breaking(bond, &deformations[bond])?)))
+        .filter(|(_, verdict)| verdict.measure * (1.0 + 2.0 * rule.tie_tolerance) >= verdict.limit)
+        .map(|(bond, verdict)| Candidate::new(rule.order, bond as u32, &verdict))
         .collect();
     ranked.sort_unstable_by(|one, other| {
         other
@@ -77,25 +78,23 @@ pub fn next_to_break(
 /// The bonds that proportional loading breaks first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FirstToBreak {
-    /// Largest s/s_0; 0 where no intact bond is stretched.
+    /// Largest ratio of measure to limit; 0 where no measure of an intact bond is positive.
     pub ratio: f64,
     /// The bond with this ratio and those tied with it, in the order of their numbers.
     pub bonds: Vec<u32>,
 }
 
-/// The intact bonds with the largest s/s_0 (s > 0), with those within the relative `tie_tolerance` below it.
+/// The intact bonds nearest to breakage, with those within the relative `tie_tolerance` below the largest ratio.
 pub fn first_to_break(
     tie_tolerance: f64,
     deformations: &[BondDeformation],
-    critical_stretch: &[f64],
+    criteria: &Criteria,
     intact: &[bool],
 ) -> FirstToBreak {
     let bonds = || (0..deformations.len()).into_par_iter().with_min_len(TASK);
-    // An infinite limit is never reached: nor is infinity times zero, which is no number.
     let ratio_of = |bond: usize| {
-        let stretch = deformations[bond].stretch;
-        let counts = intact[bond] && stretch > 0.0;
-        counts.then(|| stretch / critical_stretch[bond])
+        let verdict = criteria.breaking(bond, &deformations[bond]);
+        verdict.filter(|_| intact[bond]).map(|it| it.ratio())
     };
     let ratio = bonds().filter_map(ratio_of).reduce(|| 0.0, f64::max);
     let lowest_tied = ratio - tie_tolerance * ratio;
@@ -115,16 +114,16 @@ struct Candidate {
 }
 
 impl Candidate {
-    fn new(order: BreakingOrder, bond: u32, stretch: f64, limit: f64) -> Self {
+    fn new(order: BreakingOrder, bond: u32, verdict: &Verdict) -> Self {
         let (rank, tie_scale) = match order {
-            BreakingOrder::Excess => (stretch - limit, stretch),
-            BreakingOrder::Ratio => (stretch / limit, stretch / limit),
+            BreakingOrder::Excess => (verdict.measure - verdict.limit, verdict.measure),
+            BreakingOrder::Ratio => (verdict.ratio(), verdict.ratio()),
         };
         Self {
             bond,
             rank,
             tie_scale,
-            exceeds: stretch >= limit,
+            exceeds: verdict.measure >= verdict.limit,
         }
     }
 }
@@ -132,6 +131,13 @@ impl Candidate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ligament_model::failure::{Criterion, Measure};
+
+    fn stretch_limits(limit: &[f64]) -> Criteria {
+        Criteria {
+            list: vec![Criterion::brittle("", Measure::Tension, limit.to_vec())],
+        }
+    }
 
     fn chosen(rule: &BreakingRule, stretch: &[f64], limit: &[f64], intact: &[bool]) -> Vec<u32> {
         let deformations: Vec<BondDeformation> = stretch
@@ -142,7 +148,7 @@ mod tests {
                 rotation: 0.0,
             })
             .collect();
-        next_to_break(rule, &deformations, limit, intact)
+        next_to_break(rule, &deformations, &stretch_limits(limit), intact)
     }
 
     fn rule(order: BreakingOrder, bonds_per_iteration: usize) -> BreakingRule {
@@ -182,7 +188,7 @@ mod tests {
                     ..Default::default()
                 })
                 .collect();
-            let first = first_to_break(1e-8, &deformations, limit, intact);
+            let first = first_to_break(1e-8, &deformations, &stretch_limits(limit), intact);
             (first.ratio, first.bonds)
         };
         // Ratios 2 (broken), -3, 0.5, 0.2, 0.5 + 2e-9, 0 (unbreakable), 0.5 - 1e-8.

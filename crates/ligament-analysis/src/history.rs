@@ -1,6 +1,7 @@
 //! What a run reports while it goes on, and how it ends.
 
 use ligament_model::BondSystem;
+use ligament_model::failure::Criteria;
 use thiserror::Error;
 
 use crate::boundary::Boundary;
@@ -33,7 +34,7 @@ pub struct StepRecord {
     pub broken_bonds: usize,
     /// Bonds broken in this step; on the exact path those that break at this load, and are not yet among `broken_bonds`.
     pub broken_in_step: usize,
-    /// Largest s/s_0 of an intact bond.
+    /// Largest utilisation of an intact bond: measure over limit, s/s_0 for most criteria.
     pub largest_ratio: f64,
     /// Rounds of breaking in this step.
     pub rounds: usize,
@@ -80,7 +81,9 @@ pub struct BreakRecord {
     pub reaction: f64,
     /// Bond.
     pub bond: u32,
-    /// s/s_0 when it broke.
+    /// Number of the criterion by which it broke.
+    pub criterion: usize,
+    /// Its measure over the limit, s/s_0 for most, when the bond broke.
     pub ratio: f64,
 }
 
@@ -143,8 +146,8 @@ pub struct View<'a> {
     pub balanced: &'a Balanced,
     /// Supports and loads.
     pub boundary: &'a Boundary,
-    /// Critical stretches, shape (n_bonds); empty in an elastic analysis.
-    pub critical_stretch: &'a [f64],
+    /// Failure criteria; none in an elastic analysis.
+    pub criteria: &'a Criteria,
     /// Connected parts.
     pub fragments: &'a Fragments,
     /// What the equations have cost so far.

@@ -1,4 +1,4 @@
-//! Linear elastic materials, isotropic or orthotropic, with a tensile strength.
+//! Linear elastic materials, isotropic or orthotropic, with their strengths.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -18,8 +18,12 @@ pub struct Material {
     pub name: String,
     /// Its elastic constants.
     pub elasticity: Elasticity,
-    /// Tensile strength F_t, Pa; needed where bonds may break.
+    /// Tensile strength F_t, Pa.
     pub tensile_strength: Option<f64>,
+    /// Compressive strength F_c, Pa, positive.
+    pub compressive_strength: Option<f64>,
+    /// Fracture energy G_c, J/m^2.
+    pub fracture_energy: Option<f64>,
     /// Mass density, kg/m^3.
     pub density: Option<f64>,
 }
@@ -103,6 +107,17 @@ impl Isotropic {
         Matrix3::new(
             normal, coupling, 0.0, coupling, normal, 0.0, 0.0, 0.0, shear,
         )
+    }
+
+    /// The constants that make the equations of plane stress those of this plane: E and nu, or E/(1 - nu^2) and nu/(1 - nu).
+    pub fn in_plane(&self, plane: Plane) -> Self {
+        match plane {
+            Plane::Stress => *self,
+            Plane::Strain => Self {
+                young: self.young / (1.0 - self.poisson * self.poisson),
+                poisson: self.poisson / (1.0 - self.poisson),
+            },
+        }
     }
 
     /// Poisson's ratio at which the bonds' shear stiffness vanishes: 1/3 in plane stress, 1/4 in plane strain.

@@ -93,7 +93,7 @@ fn check_loading(
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let loading = Loading::of(case, &*model.body, &model.system)?;
-    let problem = loading.problem(&model.system);
+    let problem = loading.problem(&model.system, &model.criteria);
     let equilibrium = match extent {
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || {

@@ -3,12 +3,13 @@
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Correction, CorrectionReport, energy_ratios};
-use ligament_model::failure::strength::critical_stretches;
+use ligament_model::failure::Criteria;
 use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
 use ligament_output::results::FixedFields;
 
 use crate::body::{self, Body};
 use crate::case::{CaseError, CaseFile, CorrectionDomain};
+use crate::failure;
 use crate::formulation;
 use crate::progress::Progress;
 use crate::resolve;
@@ -29,8 +30,8 @@ pub struct Model {
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
-    /// Critical stretch of each bond, shape (n_bonds).
-    pub critical_stretch: Vec<f64>,
+    /// When its bonds fail.
+    pub criteria: Criteria,
     /// Number of pairs of points that would be bonded but for a hole between them.
     pub across_holes: usize,
     /// Number of bonds that pre-cracks cut.
@@ -58,12 +59,10 @@ pub(crate) fn model_of(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
-    let plane = resolve::plane(case);
-    let materials = resolve::materials(case);
     let material_of_cell = resolve::material_of_cell(case, &*body)?;
     let thickness = case.case.body.thickness();
     let cloud = stages.time("points", || {
-        body.cloud(thickness, &material_of_cell, materials.len())
+        body.cloud(thickness, &material_of_cell, case.case.materials.len())
     });
     let horizons = resolve::horizons(case, &cloud);
     let (bonds, across_holes) = stages.time("bonds", || {
@@ -99,12 +98,11 @@ pub(crate) fn model_of(
         domain_factor: correction.domain_factor,
     };
     let (alpha, omega) = (correction.length_factor, &fixed.domain_factor);
-    let (system, critical_stretch) = stages.time("rigidities", || {
+    let system = stages.time("rigidities", || {
         let element = formulation::element(case.case.model.law);
-        let system = BondSystem::new(cloud, bonds, element, stiffness, alpha, omega);
-        let critical_stretch = critical_stretches(&system, &materials, plane, &no_fail);
-        (system, critical_stretch)
+        BondSystem::new(cloud, bonds, element, stiffness, alpha, omega)
     });
+    let criteria = stages.time("criteria", || failure::criteria(case, &system, &no_fail))?;
     Ok(Model {
         warnings: warnings::of_model(
             case,
@@ -122,7 +120,7 @@ pub(crate) fn model_of(
         body,
         system,
         fixed,
-        critical_stretch,
+        criteria,
     })
 }
 

@@ -78,7 +78,7 @@ fn follow_loads(
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
     let loading = Loading::of(case, &*model.body, &model.system)?;
-    let problem = loading.problem(&model.system);
+    let problem = loading.problem(&model.system, &model.criteria);
 
     // Nothing is written, and nothing replaced, before all input was found good.
     let folder = ResultFolder::create(out, force)?;
@@ -94,25 +94,14 @@ fn follow_loads(
             Some(Control::Stepped(_)) | None => Time::Load,
         },
     };
-    let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
-    let writer = ResultWriter::new(
-        &folder,
-        &grid,
-        ends,
-        fixed,
-        rule,
-        &loading.boundary,
-        &loading.probes,
-    )?;
+    let writer = ResultWriter::new(&folder, &grid, &model.fixed, rule, &problem)?;
     let mut watch = Watch::new(
         writer,
         &mut progress,
         &*model.body,
         case.case.fracture.as_ref(),
     );
-    let outcome = stages.time("solution", || {
-        follow(case, &problem, &model.critical_stretch, &mut watch)
-    })?;
+    let outcome = stages.time("solution", || follow(case, &problem, &mut watch))?;
 
     let notices = watch.into_notices();
     let summary = Summary::new(case, model, &outcome, notices, stages.done());
@@ -127,30 +116,28 @@ fn follow_loads(
 pub(crate) fn follow(
     case: &CaseFile,
     problem: &Problem<'_>,
-    critical_stretch: &[f64],
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     match &case.case.fracture {
         None => driver::elastic::run(problem, ELASTIC_ENERGY_TOLERANCE, observer),
-        Some(fracture) => break_bonds(problem, critical_stretch, fracture, observer),
+        Some(fracture) => break_bonds(problem, fracture, observer),
     }
 }
 
 /// Follows the loading with the driver that the case chooses.
 pub fn break_bonds(
     problem: &Problem<'_>,
-    critical_stretch: &[f64],
     fracture: &Fracture,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     match &fracture.control {
         Control::Stepped(stepping) => {
             let settings = resolve::stepped(fracture, stepping);
-            driver::stepped::run(problem, critical_stretch, &settings, observer)
+            driver::stepped::run(problem, &settings, observer)
         }
         Control::Event => {
             let settings = resolve::event(fracture);
-            driver::event::run(problem, critical_stretch, &settings, observer)
+            driver::event::run(problem, &settings, observer)
         }
     }
 }

@@ -45,8 +45,8 @@ fn solve_here(case: &CaseFile, body: Option<Box<dyn Body>>) -> anyhow::Result<So
         Some(body) => model_of(case, body, &mut stages, &progress)?,
     };
     let loading = Loading::of(case, &*model.body, &model.system)?;
-    let problem = loading.problem(&model.system);
-    let outcome = follow(case, &problem, &model.critical_stretch, &mut Unobserved)?;
+    let problem = loading.problem(&model.system, &model.criteria);
+    let outcome = follow(case, &problem, &mut Unobserved)?;
     Ok(Solution {
         model,
         probes: loading.probes,

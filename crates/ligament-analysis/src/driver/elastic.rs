@@ -14,7 +14,7 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     let mut equilibrium = Equilibrium::of(problem, energy_tolerance)?;
-    let start = begin(problem, &mut equilibrium, &[], observer)?;
+    let start = begin(problem, &mut equilibrium, observer)?;
     let mut state = start.unloaded;
     let mut history = Vec::new();
     let mut energies = Energies::unloaded(problem.boundary);
@@ -60,7 +60,7 @@ pub fn run(
             state: &state,
             balanced: &balanced,
             boundary: problem.boundary,
-            critical_stretch: &[],
+            criteria: problem.criteria,
             fragments: equilibrium.fragments(),
             costs: equilibrium.costs(),
             is_last: load_factor == 1.0,

@@ -28,23 +28,17 @@ pub struct EventSettings {
     pub stop: StopRules,
 }
 
-/// Follows the path; `critical_stretch` (n_bonds) is infinite where a bond never breaks.
+/// Follows the path; the criteria of the problem must be brittle.
 ///
 /// The history has the unloaded body, then a record an event: the state in which its bonds break, just before they do. The
 /// last record breaks none: it is where the run ended.
 pub fn run(
     problem: &Problem<'_>,
-    critical_stretch: &[f64],
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, at_one) = Path::begin(
-        problem,
-        critical_stretch,
-        settings.energy_tolerance,
-        settings.stop,
-        observer,
-    )?;
+    let (mut path, at_one) =
+        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     let unloaded = match path.balance(0)? {
         Ok(balanced) => balanced,
         Err(reason) => {
@@ -151,7 +145,7 @@ impl Following<'_> {
         let FirstToBreak { ratio, bonds } = first_to_break(
             self.settings.tie_tolerance,
             &line.deformations,
-            self.path.critical_stretch,
+            self.path.problem.criteria,
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);
@@ -228,7 +222,7 @@ impl Following<'_> {
         let counters = StepCounters {
             step,
             at_rest: end == Termination::FellApart,
-            largest_ratio: largest_ratio(&self.path.state, last, self.path.critical_stretch),
+            largest_ratio: largest_ratio(&self.path.state, last, self.path.problem.criteria),
             ..Default::default()
         };
         self.path.record(last, counters, true)?;

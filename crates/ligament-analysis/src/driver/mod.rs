@@ -16,6 +16,8 @@ pub use path::StopRules;
 pub struct Problem<'a> {
     /// The bond system.
     pub system: &'a ligament_model::BondSystem,
+    /// Failure criteria; an elastic analysis has none.
+    pub criteria: &'a ligament_model::failure::Criteria,
     /// Supports and loads.
     pub boundary: &'a crate::boundary::Boundary,
     /// How the equations are solved.

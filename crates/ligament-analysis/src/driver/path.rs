@@ -49,7 +49,6 @@ pub(super) const NO_LOAD: f64 = 1e-9;
 /// A run on its way.
 pub(super) struct Path<'a> {
     pub(super) problem: &'a Problem<'a>,
-    pub(super) critical_stretch: &'a [f64],
     pub(super) observer: &'a mut dyn Observer,
     pub(super) equilibrium: Equilibrium<'a>,
     pub(super) state: State,
@@ -75,7 +74,6 @@ impl<'a> Path<'a> {
     /// Begins with the unloaded body; also gives the equilibrium at load factor one, if there is one.
     pub(super) fn begin(
         problem: &'a Problem<'a>,
-        critical_stretch: &'a [f64],
         energy_tolerance: f64,
         stop: StopRules,
         observer: &'a mut dyn Observer,
@@ -85,11 +83,10 @@ impl<'a> Path<'a> {
             unloaded,
             elastic,
             at_one,
-        } = begin(problem, &mut equilibrium, critical_stretch, observer)?;
+        } = begin(problem, &mut equilibrium, observer)?;
         let solves = [equilibrium.costs().solves; 2];
         let path = Self {
             problem,
-            critical_stretch,
             observer,
             equilibrium,
             state: unloaded,
@@ -166,18 +163,23 @@ impl<'a> Path<'a> {
     ) -> Result<JustBroken, SetupError> {
         let load_factor = self.state.load_factor;
         let [displacement, reaction] = self.control(balanced);
-        let of_bond = |(place, &bond): (usize, &u32)| BreakRecord {
-            order: self.broken + place + 1,
-            step,
-            round,
-            load_factor,
-            displacement,
-            reaction,
-            bond,
-            ratio: balanced.deformations[bond as usize].stretch
-                / self.critical_stretch[bond as usize],
+        let criteria = self.problem.criteria;
+        let of_bond = |(place, &bond): (usize, &u32)| {
+            let verdict =
+                criteria.breaking(bond as usize, &balanced.deformations[bond as usize])?;
+            Some(BreakRecord {
+                order: self.broken + place + 1,
+                step,
+                round,
+                load_factor,
+                displacement,
+                reaction,
+                bond,
+                criterion: verdict.criterion,
+                ratio: verdict.ratio(),
+            })
         };
-        let records: Vec<BreakRecord> = bonds.iter().enumerate().map(of_bond).collect();
+        let records: Vec<BreakRecord> = bonds.iter().enumerate().filter_map(of_bond).collect();
         self.broken += bonds.len();
         self.observer.broke(&records)?;
         let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
@@ -278,7 +280,7 @@ impl<'a> Path<'a> {
             state: &self.state,
             balanced,
             boundary: self.problem.boundary,
-            critical_stretch: self.critical_stretch,
+            criteria: self.problem.criteria,
             fragments: self.equilibrium.fragments(),
             costs: self.equilibrium.costs(),
             is_last,

@@ -1,6 +1,7 @@
 //! Bookkeeping that every driver shares: energies and records.
 
 use ligament_model::element::BondDeformation;
+use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
 use super::Problem;
@@ -153,11 +154,12 @@ fn group_forces(
         .collect()
 }
 
-/// Largest s/s_0 over the intact bonds; 0 without critical stretches.
-pub(super) fn largest_ratio(state: &State, balanced: &Balanced, critical_stretch: &[f64]) -> f64 {
-    (critical_stretch, &state.intact, &balanced.deformations)
+/// Largest utilisation of the intact bonds; 0 without criteria.
+pub(super) fn largest_ratio(state: &State, balanced: &Balanced, criteria: &Criteria) -> f64 {
+    (&state.intact, &balanced.deformations)
         .into_par_iter()
-        .filter(|(_, intact, _)| **intact)
-        .map(|(limit, _, deformation)| deformation.stretch / limit)
+        .enumerate()
+        .filter(|(_, (intact, _))| **intact)
+        .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
         .reduce(|| 0.0, f64::max)
 }

@@ -30,7 +30,6 @@ pub(super) struct ElasticAnswer {
 pub(super) fn begin(
     problem: &Problem<'_>,
     equilibrium: &mut Equilibrium<'_>,
-    critical_stretch: &[f64],
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
     let mut unloaded = State::fresh(problem.system);
@@ -62,13 +61,7 @@ pub(super) fn begin(
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
-        start.read_off(
-            problem,
-            &at_one,
-            &balanced,
-            equilibrium.fragments(),
-            critical_stretch,
-        );
+        start.read_off(problem, &at_one, &balanced, equilibrium.fragments());
         start.at_one = Some(at_one);
     }
     Ok(start)
@@ -82,7 +75,6 @@ impl Start {
         at_one: &State,
         balanced: &Balanced,
         fragments: &Fragments,
-        critical_stretch: &[f64],
     ) {
         let record = step_record(
             problem,
@@ -93,7 +85,7 @@ impl Start {
             StepCounters::default(),
         );
         self.elastic.stiffness = record.reaction / record.displacement;
-        let ratio = largest_ratio(at_one, balanced, critical_stretch);
+        let ratio = largest_ratio(at_one, balanced, problem.criteria);
         self.elastic.first_break = (ratio > 0.0).then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,

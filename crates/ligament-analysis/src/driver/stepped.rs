@@ -30,20 +30,13 @@ pub struct SteppedSettings {
     pub stop: StopRules,
 }
 
-/// Follows the loading; `critical_stretch` (n_bonds) is infinite where a bond never breaks.
+/// Follows the loading.
 pub fn run(
     problem: &Problem<'_>,
-    critical_stretch: &[f64],
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (path, _) = Path::begin(
-        problem,
-        critical_stretch,
-        settings.energy_tolerance,
-        settings.stop,
-        observer,
-    )?;
+    let (path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     let load_factors = refined(settings, path.elastic.first_break);
     let mut stepping = Stepping {
         path,
@@ -150,7 +143,7 @@ impl Stepping<'_> {
         let next = next_to_break(
             &self.settings.rule,
             &balanced.deformations,
-            self.path.critical_stretch,
+            self.path.problem.criteria,
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);
@@ -175,7 +168,7 @@ impl Stepping<'_> {
         interrupted: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         counters.largest_ratio =
-            largest_ratio(&self.path.state, balanced, self.path.critical_stretch);
+            largest_ratio(&self.path.state, balanced, self.path.problem.criteria);
         let end = interrupted.or_else(|| self.path.end_at_rest(balanced));
         let is_last = end.is_some() || counters.step == self.last_step;
         self.path.record(balanced, counters, is_last)?;

@@ -1,3 +1,163 @@
-//! Failure criteria: the stretch at which each bond breaks.
+//! Failure criteria: when a bond fails, and what it does after.
+//!
+//! A criterion compares a [`Measure`] of the bond's deformation with a limit, and says what is [`AfterLimit`]. Its utilisation
+//! is measure over limit; the bond fails where that reaches one. Of several criteria the first that is met decides.
+//!
+//! | criterion | measure | limit |
+//! |---|---|---|
+//! | [`strength`] | tension | from the energy at the tensile strength (NHPD eqs 14 to 16) |
+//! | [`stretch`] | tension, compression | F/E (MPPD eqs 44 to 46) |
+//! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
+//! | [`frictional`] | friction | a, tan(beta) (MPPD eqs 52 to 58) |
+//! | [`fracture_energy`] | tension, energy | from G_c, the horizon and the law |
 
+pub mod fracture_energy;
+pub mod frictional;
+mod measure;
+pub mod sliding;
+pub mod softening;
 pub mod strength;
+pub mod stretch;
+
+pub use measure::{Measure, Weakened};
+pub use softening::{AfterLimit, Softened};
+
+use crate::cloud::PointCloud;
+use crate::element::BondDeformation;
+use crate::system::BondSystem;
+
+/// A failure criterion with its limits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Criterion {
+    /// What results call it.
+    pub name: &'static str,
+    /// What it looks at.
+    pub measure: Measure,
+    /// Limit of each bond; infinite where it never fails, shape (n_bonds).
+    pub limit: Vec<f64>,
+    /// Coefficient q of the measure for each bond; empty where the measure has none, shape (n_bonds).
+    pub coefficient: Vec<f64>,
+    /// What happens after the limit.
+    pub after: AfterLimit,
+}
+
+impl Criterion {
+    /// A criterion of a measure without a coefficient, by which bonds break at their limit (n_bonds).
+    pub fn brittle(name: &'static str, measure: Measure, limit: Vec<f64>) -> Self {
+        Self {
+            name,
+            measure,
+            limit,
+            coefficient: Vec::new(),
+            after: AfterLimit::Brittle,
+        }
+    }
+
+    /// The measure of a deformation of a bond.
+    #[inline]
+    pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
+        let coefficient = self.coefficient.get(bond).copied().unwrap_or(0.0);
+        self.measure.of(deformation, coefficient)
+    }
+
+    /// Measure at which a bond breaks.
+    #[inline]
+    pub fn break_limit(&self, bond: usize) -> f64 {
+        self.limit[bond] * self.after.end(bond)
+    }
+
+    /// Measure over limit, 0 where the measure is not positive.
+    #[inline]
+    pub fn utilisation(&self, bond: usize, deformation: &BondDeformation) -> f64 {
+        let measure = self.measure(bond, deformation);
+        // An infinite limit is never reached: nor is infinity times zero, which is no number.
+        if measure > 0.0 {
+            measure / self.limit[bond]
+        } else {
+            0.0
+        }
+    }
+}
+
+/// How near a bond is to its breakage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// Number of the criterion that decides.
+    pub criterion: usize,
+    /// Its measure.
+    pub measure: f64,
+    /// The measure at which the bond breaks.
+    pub limit: f64,
+}
+
+impl Verdict {
+    /// Measure over limit.
+    #[inline]
+    pub fn ratio(&self) -> f64 {
+        self.measure / self.limit
+    }
+}
+
+/// The criteria of a model: a bond fails by the first that is met.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Criteria {
+    /// They, in the order of the case.
+    pub list: Vec<Criterion>,
+}
+
+impl Criteria {
+    /// Whether bonds may do anything but break at once.
+    pub fn soften(&self) -> bool {
+        self.list.iter().any(|it| !it.after.is_brittle())
+    }
+
+    /// Largest utilisation of a bond over the criteria; 0 without any.
+    #[inline]
+    pub fn utilisation(&self, bond: usize, deformation: &BondDeformation) -> f64 {
+        let of = |it: &Criterion| it.utilisation(bond, deformation);
+        self.list.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// The criterion with the largest measure over the limit at which the bond *breaks*, the first of them where several are;
+    /// None where no measure is positive.
+    #[inline]
+    pub fn breaking(&self, bond: usize, deformation: &BondDeformation) -> Option<Verdict> {
+        let mut worst: Option<Verdict> = None;
+        for (criterion, it) in self.list.iter().enumerate() {
+            let verdict = Verdict {
+                criterion,
+                measure: it.measure(bond, deformation),
+                limit: it.break_limit(bond),
+            };
+            if verdict.measure > 0.0 && worst.is_none_or(|worst| verdict.ratio() > worst.ratio()) {
+                worst = Some(verdict);
+            }
+        }
+        worst
+    }
+}
+
+/// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where an end
+/// is marked in `no_fail` (n_points), shape (n_bonds).
+pub fn weakest(system: &BondSystem, no_fail: &[bool], of_materials: &[f64]) -> Vec<f64> {
+    let at_points: Vec<f64> = (0..system.cloud.len())
+        .map(|point| smallest(&system.cloud, point, of_materials))
+        .collect();
+    let of_bond = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| end as usize);
+        if no_fail[a] || no_fail[b] {
+            f64::INFINITY
+        } else {
+            at_points[a].min(at_points[b])
+        }
+    };
+    system.bonds.ends.iter().map(of_bond).collect()
+}
+
+fn smallest(cloud: &PointCloud, point: usize, of_materials: &[f64]) -> f64 {
+    let shares = cloud.shares(point).iter().zip(of_materials);
+    let present = shares.filter(|(share, _)| **share > 0.0);
+    present
+        .map(|(_, &value)| value)
+        .fold(f64::INFINITY, f64::min)
+}

@@ -16,9 +16,8 @@ mod point_fields;
 mod tables;
 
 use ligament_analysis::ControlKind;
-use ligament_analysis::boundary::Boundary;
+use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::probe::Probe;
 
 use crate::Error;
 use crate::folder::ResultFolder;
@@ -69,23 +68,21 @@ pub struct ResultWriter<'a> {
 }
 
 impl<'a> ResultWriter<'a> {
-    /// Creates the tables of a run over bonds with the given ends (n_bonds) in a result folder.
+    /// Creates the tables of a run in a result folder.
     pub fn new(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        ends: &'a [[u32; 2]],
         fixed: &'a FixedFields,
         rule: WriteRule,
-        boundary: &Boundary,
-        probes: &[Probe],
+        problem: &Problem<'a>,
     ) -> Result<Self, Error> {
         Ok(Self {
             folder,
             grid,
-            ends,
+            ends: &problem.system.bonds.ends,
             fixed,
             rule,
-            tables: Tables::create(folder, boundary, probes, grid.tagged)?,
+            tables: Tables::create(folder, problem, grid.tagged)?,
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
@@ -107,7 +104,6 @@ impl<'a> ResultWriter<'a> {
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let (system, balanced) = (view.system, view.balanced);
-        let bonds = 0..system.bonds.len();
         let stretch: Vec<f64> = balanced
             .deformations
             .iter()
@@ -118,13 +114,8 @@ impl<'a> ResultWriter<'a> {
             .iter()
             .map(|deformation| deformation.shear)
             .collect();
-        let ratio: Vec<f64> = bonds
-            .clone()
-            .map(|bond| {
-                view.critical_stretch
-                    .get(bond)
-                    .map_or(0.0, |limit| stretch[bond] / limit)
-            })
+        let utilisation: Vec<f64> = (0..system.bonds.len())
+            .map(|bond| (view.criteria).utilisation(bond, &balanced.deformations[bond]))
             .collect();
         let state: Vec<i64> = view
             .state
@@ -146,7 +137,7 @@ impl<'a> ResultWriter<'a> {
             cell_fields: &[
                 Field::integer("intact", &state),
                 Field::scalar("stretch", &stretch),
-                Field::scalar("stretch_ratio", &ratio),
+                Field::scalar("utilisation", &utilisation),
                 Field::scalar("shear", &shear),
                 Field::scalar("domain_factor", &self.fixed.domain_factor),
                 Field::integer("step_of_breaking", &self.step_of_breaking),

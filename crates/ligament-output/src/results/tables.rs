@@ -1,8 +1,7 @@
 //! The CSV tables of a run.
 
-use ligament_analysis::boundary::Boundary;
+use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
-use ligament_analysis::probe::Probe;
 use ligament_analysis::stiffness::Costs;
 
 use crate::Error;
@@ -60,6 +59,8 @@ pub(super) struct Tables {
     iterations: Table,
     breaks: Table,
     timings: Table,
+    /// Names of the failure criteria.
+    criteria: Vec<&'static str>,
     step: usize,
     round: usize,
     load_factor: f64,
@@ -71,16 +72,15 @@ impl Tables {
     /// Creates the tables; `tagged` is what the tags of bonds' ends are of: nodes or cells.
     pub(super) fn create(
         folder: &ResultFolder,
-        boundary: &Boundary,
-        probes: &[Probe],
+        problem: &Problem<'_>,
         tagged: &str,
     ) -> Result<Self, Error> {
-        let groups = boundary.groups.iter();
+        let groups = problem.boundary.groups.iter();
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
         let extra: Vec<String> = group_columns
-            .chain(probes.iter().map(|probe| probe.name.clone()))
+            .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
         let history_columns: Vec<&str> = HISTORY
             .into_iter()
@@ -89,13 +89,14 @@ impl Tables {
         let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
         let breaks_columns: Vec<&str> = (BREAKS.into_iter())
             .chain(ends.iter().map(String::as_str))
-            .chain(["stretch_ratio"])
+            .chain(["utilisation", "criterion"])
             .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
             iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
             breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
             timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
+            criteria: problem.criteria.list.iter().map(|it| it.name).collect(),
             step: 0,
             round: 0,
             load_factor: 0.0,
@@ -149,6 +150,7 @@ impl Tables {
                 a.into(),
                 b.into(),
                 record.ratio.into(),
+                self.criteria[record.criterion].into(),
             ])?;
         }
         Ok(())

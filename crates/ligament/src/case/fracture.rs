@@ -5,6 +5,7 @@ use std::fmt;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::criterion::Criterion;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{require, require_at_least_one, require_positive};
@@ -21,6 +22,9 @@ pub struct Fracture {
     pub energy_tolerance: f64,
     /// When to stop before the end of the loading.
     pub stop: Stop,
+    /// When bonds fail; the first criterion that is met decides.
+    #[serde(rename = "criterion")]
+    pub criteria: Vec<Criterion>,
 }
 
 /// What drives the load.
@@ -217,6 +221,7 @@ impl RawFracture {
             tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
             energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
             stop: self.stop,
+            criteria: vec![Criterion::DEFAULT],
         };
         require_positive(key, "tie_tolerance", fracture.tie_tolerance)?;
         require_positive(key, "energy_tolerance", fracture.energy_tolerance)?;

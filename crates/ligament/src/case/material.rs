@@ -11,7 +11,7 @@ use super::mesh_section::Plane;
 use super::model::Law;
 use super::values::{require, require_positive, require_unique};
 
-/// A linear elastic material with a tensile strength.
+/// A linear elastic material with its strengths.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Material {
     /// Its name, NAME of `[material.NAME]`; none for the one `[material]` of the whole body.
@@ -26,6 +26,12 @@ pub struct Material {
     /// Tensile strength, Pa; always there if the case has a `[fracture]` section.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tensile_strength: Option<f64>,
+    /// Compressive strength, Pa, positive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compressive_strength: Option<f64>,
+    /// Fracture energy, J/m^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fracture_energy: Option<f64>,
     /// Mass density, kg/m^3; always there in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
@@ -109,11 +115,16 @@ impl Material {
             }
             Elasticity::Orthotropic(constants) => constants.check(&key)?,
         }
-        if let Some(strength) = self.tensile_strength {
-            require_positive(&key, "tensile_strength", strength)?;
-        }
-        if let Some(density) = self.density {
-            require_positive(&key, "density", density)?;
+        let positive = [
+            ("tensile_strength", self.tensile_strength),
+            ("compressive_strength", self.compressive_strength),
+            ("fracture_energy", self.fracture_energy),
+            ("density", self.density),
+        ];
+        for (name, value) in positive {
+            if let Some(value) = value {
+                require_positive(&key, name, value)?;
+            }
         }
         Ok(self)
     }
@@ -185,6 +196,8 @@ struct RawIsotropic {
     young: f64,
     poisson: f64,
     tensile_strength: Option<f64>,
+    compressive_strength: Option<f64>,
+    fracture_energy: Option<f64>,
     density: Option<f64>,
 }
 
@@ -202,6 +215,8 @@ struct RawOrthotropic {
     poisson_13: Option<f64>,
     poisson_23: Option<f64>,
     tensile_strength: Option<f64>,
+    compressive_strength: Option<f64>,
+    fracture_energy: Option<f64>,
     density: Option<f64>,
 }
 
@@ -262,6 +277,8 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
                 poisson_23: raw.poisson_23,
             }),
             tensile_strength: raw.tensile_strength,
+            compressive_strength: raw.compressive_strength,
+            fracture_energy: raw.fracture_energy,
             density: raw.density,
         }
     } else {
@@ -274,6 +291,8 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
                 poisson: raw.poisson,
             },
             tensile_strength: raw.tensile_strength,
+            compressive_strength: raw.compressive_strength,
+            fracture_energy: raw.fracture_energy,
             density: raw.density,
         }
     };

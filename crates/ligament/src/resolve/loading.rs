@@ -5,6 +5,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::Probe;
 use ligament_analysis::stiffness::SolverSettings;
 use ligament_model::BondSystem;
+use ligament_model::failure::Criteria;
 
 use super::boundary::{boundary, couples_have_stiffness};
 use super::{probes, solver};
@@ -38,10 +39,11 @@ impl Loading {
         })
     }
 
-    /// The problem that it makes of the bonds.
-    pub fn problem<'a>(&'a self, system: &'a BondSystem) -> Problem<'a> {
+    /// The problem that it makes of the bonds and their failure criteria.
+    pub fn problem<'a>(&'a self, system: &'a BondSystem, criteria: &'a Criteria) -> Problem<'a> {
         Problem {
             system,
+            criteria,
             boundary: &self.boundary,
             solver: self.solver,
             probes: &self.probes,

@@ -44,6 +44,8 @@ pub fn materials(case: &CaseFile) -> Vec<Material> {
             case::Elasticity::Orthotropic(constants) => Elasticity::Orthotropic(constants.into()),
         },
         tensile_strength: material.tensile_strength,
+        compressive_strength: material.compressive_strength,
+        fracture_energy: material.fracture_energy,
         density: material.density,
     };
     case.case.materials.iter().map(material).collect()

@@ -1,0 +1,130 @@
+//! Sliding that compression makes harder (MPPD eqs 52 to 58).
+
+use super::stretch;
+use crate::material::{Isotropic, Plane};
+
+/// How the cohesion and the friction of bonds come from two strengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Calibration {
+    /// As printed: the stress of the bar is put in as E s of the bond (MPPD eqs 55, 56). Exact for nu = 0 alone.
+    Printed,
+    /// From the strains of the bar in tension and in compression; possible where nu < F_t/F_c.
+    TwoPoint,
+}
+
+/// Condition of a bond: |gamma| + s tan(beta) <= a (MPPD eq. 58).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// a: limit sliding without stretch.
+    pub cohesion: f64,
+    /// tan(beta).
+    pub slope: f64,
+}
+
+/// The condition for the strengths F_t and F_c > F_t of a bar (Pa, both positive), with sin(phi) = (F_c - F_t)/(F_c + F_t) (MPPD
+/// eq. 57):
+///
+/// | calibration | tan(beta) or sin(beta) | a/s_0t |
+/// |---|---|---|
+/// | printed, eqs 56, 55 | tan(beta) = (1 + nu) tan(phi) | (1 + nu)(1 + sin(phi))/(2 cos(phi)) |
+/// | two points | sin(beta) = sin(phi) (1 + nu)/(1 - nu) | (1 - nu) tan(beta)/2 + (1 + nu)/(2 cos(beta)) |
+///
+/// None where the two strengths leave no angle: with two points if nu >= F_t/F_c, in plane strain with nu/(1 - nu) for nu.
+pub fn condition(
+    material: &Isotropic,
+    [tensile, compressive]: [f64; 2],
+    plane: Plane,
+    calibration: Calibration,
+) -> Option<Friction> {
+    let poisson = material.in_plane(plane).poisson;
+    let limit = stretch::limit(material, tensile, plane);
+    let sin_phi = (compressive - tensile) / (compressive + tensile);
+    match calibration {
+        Calibration::Printed => {
+            let cos_phi = (1.0 - sin_phi * sin_phi).sqrt();
+            Some(Friction {
+                cohesion: 0.5 * limit * (1.0 + poisson) * (1.0 + sin_phi) / cos_phi,
+                slope: (1.0 + poisson) * sin_phi / cos_phi,
+            })
+        }
+        Calibration::TwoPoint => {
+            let sin_beta = (1.0 + poisson) / (1.0 - poisson) * sin_phi;
+            if sin_beta >= 1.0 {
+                return None;
+            }
+            let cos_beta = (1.0 - sin_beta * sin_beta).sqrt();
+            let slope = sin_beta / cos_beta;
+            Some(Friction {
+                cohesion: 0.5 * limit * ((1.0 - poisson) * slope + (1.0 + poisson) / cos_beta),
+                slope,
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Largest |gamma| + s tan(beta) over the directions of bonds, relative to a, for the strains (axial, lateral) of a bar:
+    /// s = s_m + s_d cos 2x and gamma = s_d sin 2x make it s_m tan(beta) + |s_d|/cos(beta).
+    fn utilisation(friction: Friction, [axial, lateral]: [f64; 2]) -> f64 {
+        let (mean, deviator) = (0.5 * (axial + lateral), 0.5 * (axial - lateral).abs());
+        let per_cosine = (1.0 + friction.slope.powi(2)).sqrt();
+        (mean * friction.slope + deviator * per_cosine) / friction.cohesion
+    }
+
+    /// Stresses of a bar at which it yields in tension and in compression, over its tensile strength.
+    fn yields(poisson: f64, plane: Plane, calibration: Calibration) -> Option<[f64; 2]> {
+        let material = Isotropic {
+            young: 2e10,
+            poisson,
+        };
+        let in_plane = material.in_plane(plane);
+        let friction = condition(&material, [5e6, 15e6], plane, calibration)?;
+        let strain = 5e6 / in_plane.young;
+        let of_sign = |sign: f64| {
+            let strains = [sign * strain, -in_plane.poisson * sign * strain];
+            1.0 / utilisation(friction, strains)
+        };
+        Some([of_sign(1.0), of_sign(-1.0)])
+    }
+
+    /// Deviations of the printed calibration for F_c = 3 F_t, from an independent calculation; printed to 3 digits.
+    #[test]
+    fn the_printed_calibration_is_exact_without_lateral_strain_only() {
+        let known = [
+            (0.0, 1.0, 3.0),
+            (0.1, 1.016, 2.605),
+            (0.25, 1.040, 2.165),
+            (1.0 / 3.0, 1.052, 1.975),
+            (-0.5, 0.908, 9.91),
+        ];
+        for (poisson, tension, compression) in known {
+            let [t, c] = yields(poisson, Plane::Stress, Calibration::Printed).unwrap();
+            assert!((t - tension).abs() < 6e-4, "{poisson}: {t}");
+            assert!(
+                (c - compression).abs() < 6e-4 * compression,
+                "{poisson}: {c}"
+            );
+        }
+    }
+
+    #[test]
+    fn two_points_are_met_where_that_is_possible() {
+        for (poisson, plane) in [
+            (0.0, Plane::Stress),
+            (0.25, Plane::Stress),
+            (-0.5, Plane::Stress),
+            (0.2, Plane::Strain),
+        ] {
+            let [t, c] = yields(poisson, plane, Calibration::TwoPoint).unwrap();
+            assert!(
+                (t - 1.0).abs() < 1e-12 && (c - 3.0).abs() < 1e-12,
+                "{poisson}"
+            );
+        }
+        assert_eq!(yields(0.34, Plane::Stress, Calibration::TwoPoint), None);
+        assert_eq!(yields(0.26, Plane::Strain, Calibration::TwoPoint), None);
+    }
+}

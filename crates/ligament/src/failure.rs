@@ -1,0 +1,275 @@
+//! The failure criteria that a case chooses, with the limits of its bonds.
+
+use ligament_model::failure::{
+    AfterLimit, Criteria, Criterion, Measure, fracture_energy, frictional, sliding,
+    softening::{bilinear, exponential},
+    strength, stretch, weakest,
+};
+use ligament_model::law::{bbpd, bbpd_conical, beam};
+use ligament_model::{BondSystem, Isotropic, Material, Plane};
+
+use crate::case::{self, After, CaseError, CaseFile, CriterionKind, FrictionCalibration, Law};
+use crate::resolve;
+
+/// The criteria of a case on its bonds; none without a fracture section. Bonds of points marked in `no_fail` (n_points) never fail.
+///
+/// # Errors
+///
+/// If the strengths of a material leave a criterion without a limit, or its fracture energy leaves nothing after the limit.
+pub fn criteria(
+    case: &CaseFile,
+    system: &BondSystem,
+    no_fail: &[bool],
+) -> Result<Criteria, CaseError> {
+    let Some(fracture) = &case.case.fracture else {
+        return Ok(Criteria::default());
+    };
+    let limits = Limits {
+        case,
+        system,
+        no_fail,
+        plane: resolve::plane(case),
+        materials: resolve::materials(case),
+    };
+    let list = fracture.criteria.iter().enumerate();
+    let list = list.map(|(place, criterion)| limits.criterion(place, criterion));
+    Ok(Criteria {
+        list: list.collect::<Result<_, _>>()?,
+    })
+}
+
+/// What limits are made from.
+struct Limits<'a> {
+    case: &'a CaseFile,
+    system: &'a BondSystem,
+    no_fail: &'a [bool],
+    plane: Plane,
+    materials: Vec<Material>,
+}
+
+impl Limits<'_> {
+    fn criterion(&self, place: usize, wanted: &case::Criterion) -> Result<Criterion, CaseError> {
+        let key = format!("fracture.criterion.{place}");
+        let (name, plane) = (wanted.kind.word(), self.plane);
+        let given_or = |given: Option<f64>, of: &dyn Fn(&Isotropic, &Material) -> Option<f64>| {
+            let of_materials =
+                self.each(|constants, material| given.or_else(|| of(constants, material)));
+            weakest(self.system, self.no_fail, &of_materials)
+        };
+        let tension = |constants: &Isotropic, material: &Material| {
+            Some(stretch::limit(constants, material.tensile_strength?, plane))
+        };
+        let compression = |constants: &Isotropic, material: &Material| {
+            Some(stretch::limit(
+                constants,
+                material.compressive_strength?,
+                plane,
+            ))
+        };
+        let slide = |constants: &Isotropic, material: &Material| {
+            Some(sliding::limit(constants, material.tensile_strength?, plane))
+        };
+        let mut criterion = match wanted.kind {
+            CriterionKind::Strength => Criterion::brittle(name, Measure::Tension, self.strength()),
+            CriterionKind::Tension { limit } => {
+                Criterion::brittle(name, Measure::Tension, given_or(limit, &tension))
+            }
+            CriterionKind::Compression { limit } => {
+                Criterion::brittle(name, Measure::Compression, given_or(limit, &compression))
+            }
+            CriterionKind::Sliding { limit } => {
+                Criterion::brittle(name, Measure::Sliding, given_or(limit, &slide))
+            }
+            CriterionKind::Frictional { calibration } => self.friction(&key, name, calibration)?,
+            CriterionKind::CriticalStretch => {
+                Criterion::brittle(name, Measure::Tension, self.critical_stretch())
+            }
+            CriterionKind::BondEnergy => Criterion {
+                coefficient: self.shear_ratio(),
+                ..Criterion::brittle(name, Measure::Energy, self.critical_stretch())
+            },
+        };
+        criterion.after = self.after(&key, &criterion, wanted.after)?;
+        Ok(criterion)
+    }
+
+    /// A value of each material, with the constants that the law makes of its own; infinite where it has none.
+    fn each(&self, of: impl Fn(&Isotropic, &Material) -> Option<f64>) -> Vec<f64> {
+        let of = |material: &Material| {
+            let given = material.elasticity.isotropic()?;
+            let constants = if self.case.case.model.law.fixes_poisson() {
+                bbpd::central(&given, self.plane)
+            } else {
+                given
+            };
+            of(&constants, material)
+        };
+        (self.materials.iter())
+            .map(|it| of(it).unwrap_or(f64::INFINITY))
+            .collect()
+    }
+
+    fn strength(&self) -> Vec<f64> {
+        let energies = self.each(|constants, material| {
+            let tensile_strength = material.tensile_strength?;
+            Some(strength::critical_energy(
+                constants,
+                tensile_strength,
+                self.plane,
+            ))
+        });
+        strength::critical_stretches(self.system, &energies, self.no_fail)
+    }
+
+    /// Limits a and coefficients tan(beta); a bond between materials takes those of the one with the smaller a.
+    fn friction(
+        &self,
+        key: &str,
+        name: &'static str,
+        calibration: FrictionCalibration,
+    ) -> Result<Criterion, CaseError> {
+        let calibration = match calibration {
+            FrictionCalibration::Printed => frictional::Calibration::Printed,
+            FrictionCalibration::TwoPoint => frictional::Calibration::TwoPoint,
+        };
+        let mut impossible = None;
+        let conditions: Vec<Option<frictional::Friction>> = (self.materials.iter())
+            .map(|material| {
+                let constants = material.elasticity.isotropic()?;
+                let strengths = [material.tensile_strength?, material.compressive_strength?];
+                let condition =
+                    frictional::condition(&constants, strengths, self.plane, calibration);
+                if condition.is_none() {
+                    impossible.get_or_insert((constants.in_plane(self.plane).poisson, strengths));
+                }
+                condition
+            })
+            .collect();
+        if let Some((poisson, [tensile, compressive])) = impossible {
+            let reason = format!(
+                "a bar with Poisson's ratio {poisson:.4} (in the plane) and strengths {tensile:.4e} and {compressive:.4e} Pa fits no \
+                 friction: calibration = \"two-point\" needs poisson < tensile_strength/compressive_strength = {:.4}; take \
+                 \"printed\", or strengths that lie closer together",
+                tensile / compressive
+            );
+            return Err(self.case.error(key, reason));
+        }
+        let of = |value: fn(&frictional::Friction) -> f64| -> Vec<f64> {
+            let or_never =
+                |it: &Option<frictional::Friction>| it.as_ref().map_or(f64::INFINITY, value);
+            conditions.iter().map(or_never).collect()
+        };
+        let (cohesion, slope) = (of(|it| it.cohesion), of(|it| it.slope));
+        let limit = weakest(self.system, self.no_fail, &cohesion);
+        let slope_of = |limit: &f64| {
+            let place = cohesion.iter().position(|it| it == limit);
+            place.map_or(0.0, |place| slope[place])
+        };
+        Ok(Criterion {
+            coefficient: limit.iter().map(slope_of).collect(),
+            ..Criterion::brittle(name, Measure::Friction, limit)
+        })
+    }
+
+    /// Critical stretches from the fracture energy.
+    fn critical_stretch(&self) -> Vec<f64> {
+        let energies = self.each(|_, material| material.fracture_energy);
+        let energy = weakest(self.system, self.no_fail, &energies);
+        let modulus = self.opening_modulus();
+        (energy
+            .into_iter()
+            .zip(modulus)
+            .zip(&self.system.bonds.horizon))
+        .map(|((energy, modulus), &horizon)| {
+            fracture_energy::critical_stretch(energy, modulus, horizon)
+        })
+        .collect()
+    }
+
+    /// Opening modulus of each bond: the mean of its ends'.
+    fn opening_modulus(&self) -> Vec<f64> {
+        let of_law = match self.case.case.model.law {
+            Law::Bbpd => bbpd::opening_modulus,
+            Law::BbpdConical => bbpd_conical::opening_modulus,
+            Law::Nhpd | Law::Pds | Law::Mppd | Law::MppdBeam | Law::Orthotropic => {
+                beam::opening_modulus
+            }
+        };
+        let of_materials = self.each(|constants, _| Some(of_law(constants, self.plane)));
+        let cloud = &self.system.cloud;
+        let at = |end: u32| cloud.mean_property(end as usize, &of_materials);
+        (self.system.bonds.ends.iter())
+            .map(|&[a, b]| 0.5 * (at(a) + at(b)))
+            .collect()
+    }
+
+    /// k_t/k_n of each bond; 0 where the bond has no stiffness at all.
+    fn shear_ratio(&self) -> Vec<f64> {
+        (self
+            .system
+            .axial_rigidity
+            .iter()
+            .zip(&self.system.shear_rigidity))
+        .map(|(&axial, &shear)| if axial == 0.0 { 0.0 } else { shear / axial })
+        .collect()
+    }
+
+    fn after(
+        &self,
+        key: &str,
+        criterion: &Criterion,
+        wanted: After,
+    ) -> Result<AfterLimit, CaseError> {
+        let n_bonds = self.system.bonds.len();
+        Ok(match wanted {
+            After::Brittle => AfterLimit::Brittle,
+            After::Plastic => AfterLimit::Plastic,
+            After::Bilinear { end: Some(end) } => AfterLimit::Bilinear {
+                end: vec![end; n_bonds],
+            },
+            After::Exponential { scale: Some(scale) } => AfterLimit::Exponential {
+                scale: vec![scale; n_bonds],
+            },
+            After::Bilinear { end: None } => AfterLimit::Bilinear {
+                end: self.spending_fracture_energy(key, criterion, bilinear::end_for)?,
+            },
+            After::Exponential { scale: None } => AfterLimit::Exponential {
+                scale: self.spending_fracture_energy(key, criterion, exponential::scale_for)?,
+            },
+        })
+    }
+
+    /// What makes the lives of the bonds take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the
+    /// critical stretch of a brittle bond with that fracture energy.
+    fn spending_fracture_energy(
+        &self,
+        key: &str,
+        criterion: &Criterion,
+        solve: fn(f64) -> Option<f64>,
+    ) -> Result<Vec<f64>, CaseError> {
+        let brittle = self.critical_stretch();
+        let of_bond = |(bond, (&limit, &brittle)): (usize, (&f64, &f64))| {
+            // Bonds that never fail need no end.
+            if limit.is_infinite() || brittle.is_infinite() {
+                return Ok(f64::INFINITY);
+            }
+            solve((brittle / limit).powi(2)).ok_or_else(|| {
+                let horizon = self.system.bonds.horizon[bond];
+                let reason = format!(
+                    "nothing is left of the fracture energy after the limit: a bond of horizon {horizon:.3e} m stores all of it at \
+                     the limit {limit:.3e} (it would break at {brittle:.3e}); take a horizon below {:.3e} m, a larger \
+                     fracture_energy or a smaller strength",
+                    horizon * (brittle / limit).powi(2)
+                );
+                self.case.error(key, reason)
+            })
+        };
+        criterion
+            .limit
+            .iter()
+            .zip(&brittle)
+            .enumerate()
+            .map(of_bond)
+            .collect()
+    }
+}
