@@ -1,10 +1,13 @@
 //! Equilibrium of the intact bonds by Newton-Raphson (NHPD eqs 19 to 21).
 
+mod secant;
+
 use std::time::Instant;
 
 use ligament_linalg::{FactorError, FactorKind, PatternError};
 use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
+use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -40,6 +43,7 @@ const ITERATION_LIMIT: usize = 25;
 /// The equations of a problem, kept up while its bonds break.
 pub struct Equilibrium<'a> {
     system: &'a BondSystem,
+    criteria: &'a Criteria,
     boundary: &'a Boundary,
     stiffness: Stiffness<'a>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
@@ -145,6 +149,11 @@ pub enum SetupError {
     /// The symbolic analysis failed.
     #[error(transparent)]
     Analysis(#[from] FactorError),
+    /// The exact path was asked for with bonds that soften.
+    #[error(
+        "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
+    )]
+    Softening,
     /// An observer could not do its part.
     #[error(transparent)]
     Observer(#[from] ObserverError),
@@ -163,10 +172,14 @@ impl<'a> Equilibrium<'a> {
     /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
     pub fn of(problem: &Problem<'a>, energy_tolerance: f64) -> Result<Self, SetupError> {
         let Problem {
-            system, boundary, ..
+            system,
+            criteria,
+            boundary,
+            ..
         } = *problem;
         Ok(Self {
             system,
+            criteria,
             boundary,
             stiffness: Stiffness::new(
                 system,
@@ -248,6 +261,9 @@ impl<'a> Equilibrium<'a> {
         state: &mut State,
         observer: &mut dyn Observer,
     ) -> Result<Result<Balanced, Unbalanced>, ObserverError> {
+        if !state.softening.remaining.is_empty() {
+            return self.balance_secants(state, observer);
+        }
         self.prescribe(state);
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
@@ -305,11 +321,19 @@ impl<'a> Equilibrium<'a> {
     /// Deformations, forces, residual and energy of a state.
     fn measure(&mut self, state: &State) -> Balanced {
         let start = Instant::now();
+        let deformations = internal::deformations(self.system, &state.displacement);
+        self.count_bond_work(start);
+        self.measure_deformed(state, deformations)
+    }
+
+    /// Forces, residual and energy of a state with deformations (n_bonds).
+    fn measure_deformed(&mut self, state: &State, deformations: Vec<BondDeformation>) -> Balanced {
+        let start = Instant::now();
         let BondSweep {
             deformations,
             internal,
             stored_energy,
-        } = internal::sweep(self.system, &state.intact, &state.displacement);
+        } = internal::forces(self.system, state.bonds(), deformations);
         let residual_forces = self.residual_forces(state, &internal);
         let residual = self.relative_residual(state, &residual_forces, &internal);
         self.count_bond_work(start);

@@ -6,6 +6,7 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::stress::{traction, virial};
+use ligament_model::failure::Weakened;
 
 use super::WriteRule;
 use crate::Error;
@@ -76,6 +77,13 @@ pub fn point_grid(
     grid.write(path, None, &fields)
 }
 
+/// Names of the damage by each way in which bonds fail.
+const WAYS: [(&str, Weakened); 3] = [
+    ("damage_tension", Weakened::Opening),
+    ("damage_compression", Weakened::Crushing),
+    ("damage_sliding", Weakened::Sliding),
+];
+
 /// Writes the fields of a state.
 pub(super) fn write(
     path: &Path,
@@ -84,7 +92,8 @@ pub(super) fn write(
     rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {
-    let (system, state, balanced) = (view.system, view.state, view.balanced);
+    let (system, criteria, state, balanced) =
+        (view.system, view.criteria, view.state, view.balanced);
     let displacement = displacements(view);
     let rotation: Vec<f64> = state
         .displacement
@@ -92,7 +101,7 @@ pub(super) fn write(
         .map(|motion| motion[2])
         .collect();
     let damage = fields::damage(system, &state.intact);
-    let density = fields::strain_energy_density(system, &state.intact, &balanced.deformations);
+    let density = fields::strain_energy_density(system, state.bonds(), &balanced.deformations);
     let reactions = view
         .boundary
         .reactions(state.load_factor, &balanced.internal.values);
@@ -117,9 +126,23 @@ pub(super) fn write(
         Field::integer("held", &held),
         Field::integer(grid.tagged, &grid.tags),
     ];
+    let ways: Vec<(&str, Vec<f64>)> = WAYS
+        .into_iter()
+        .filter(|&(_, way)| criteria.list.iter().any(|it| it.measure.weakens() == way))
+        .map(|(name, way)| (name, fields::damage_by(system, criteria, state, way)))
+        .collect();
+    fields.extend(
+        ways.iter()
+            .map(|(name, values)| Field::scalar(name, values)),
+    );
+    let dissipated = (!criteria.list.is_empty())
+        .then(|| fields::dissipated_energy_density(system, &state.dissipated));
+    if let Some(values) = &dissipated {
+        fields.push(Field::scalar("dissipated_energy_density", values));
+    }
     let stress_virial = rule
         .virial
-        .then(|| virial::stress(system, &state.intact, &balanced.deformations));
+        .then(|| virial::stress(system, state.bonds(), &balanced.deformations));
     if let Some(stress) = &stress_virial {
         let values = stress.as_flattened();
         fields.push(Field::components(
@@ -130,7 +153,7 @@ pub(super) fn write(
     }
     let stress_traction = rule
         .traction
-        .then(|| traction::stress(system, &state.intact, &balanced.deformations));
+        .then(|| traction::stress(system, state.bonds(), &balanced.deformations));
     if let Some(stress) = &stress_traction {
         let values = stress.as_flattened();
         fields.push(Field::components(
