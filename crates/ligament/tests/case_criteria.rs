@@ -376,7 +376,7 @@ fn materials_with_axes_take_criteria_with_limits_of_their_own() {
         assert_eq!(criteria_of(text, &[]).len(), 1);
         assert!(
             error_of(with_axes(&format!("kind = \"{kind}\"")))
-                .ends_with("takes them from it: give it a `limit` of its own")
+                .ends_with("takes them from it: give it its own `limit`")
         );
     }
     assert_eq!(
@@ -385,7 +385,5 @@ fn materials_with_axes_take_criteria_with_limits_of_their_own() {
          [fracture] takes them from it: take \"tension\", \"compression\" or \"sliding\" with a `limit`"
     );
     let softening = "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"";
-    assert!(
-        error_of(with_axes(softening)).ends_with("takes them from it: give it a `end` of its own")
-    );
+    assert!(error_of(with_axes(softening)).ends_with("takes them from it: give it its own `end`"));
 }

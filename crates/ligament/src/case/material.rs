@@ -332,7 +332,7 @@ impl Material {
         for (key, instead) in criterion.needs() {
             if let Elasticity::Orthotropic(_) = self.elasticity {
                 let advice = match instead {
-                    Some(instead) => format!("give it a `{instead}` of its own"),
+                    Some(instead) => format!("give it its own `{instead}`"),
                     None => {
                         "take \"tension\", \"compression\" or \"sliding\" with a `limit`".to_owned()
                     }
