@@ -192,8 +192,8 @@ impl Case {
 
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         material::require_suitable(&self.materials, self.model.law, self.body.plane())?;
-        if self.fracture.is_some() {
-            material::require_strengths(&self.materials)?;
+        if let Some(fracture) = &self.fracture {
+            material::require_strengths(&self.materials, &fracture.criteria)?;
         }
         if self.modal.is_some() {
             material::require_densities(&self.materials)?;

@@ -52,8 +52,10 @@ impl Limits<'_> {
         let key = format!("fracture.criterion.{place}");
         let (name, plane) = (wanted.kind.word(), self.plane);
         let given_or = |given: Option<f64>, of: &dyn Fn(&Isotropic, &Material) -> Option<f64>| {
-            let of_materials =
-                self.each(|constants, material| given.or_else(|| of(constants, material)));
+            let of_materials = match given {
+                Some(limit) => vec![limit; self.materials.len()],
+                None => self.each(of),
+            };
             weakest(self.system, self.no_fail, &of_materials)
         };
         let tension = |constants: &Isotropic, material: &Material| {

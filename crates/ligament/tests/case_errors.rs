@@ -214,7 +214,7 @@ fn missing_keys_are_at_their_table() {
     assert_eq!(
         error_with("tensile_strength = 3.81e6\n", ""),
         "7:1: material.tensile_strength: missing key `tensile_strength`: it is required (in Pa) \
-         because the case has a [fracture] section"
+         because the case has a [fracture] section with the criterion \"strength\""
     );
     assert_eq!(
         error_with("component = \"x\"\n", ""),

@@ -184,7 +184,8 @@ fn wrong_keys_and_values_are_refused() {
         (
             "[[lattice.remove]]",
             "[lattice.remove]",
-            "lattice.remove: expected a list, found a table",
+            "lattice.remove: this section may be repeated, so its name stands in double brackets: write [[lattice.remove]] \
+             instead of [lattice.remove]",
         ),
         (
             "radius = 0.02",

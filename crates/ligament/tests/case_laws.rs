@@ -57,7 +57,8 @@ fn materials_with_axes_need_their_law_and_all_constants() {
     );
     assert_eq!(
         with_law("", AXES),
-        "7:1: material: the strength criterion of [fracture] is one for isotropic materials"
+        "7:1: material: `tensile_strength` gives limits of isotropic materials only, and the criterion \"strength\" of [fracture] \
+         takes them from it: take \"tension\", \"compression\" or \"sliding\" with a `limit`"
     );
     assert_eq!(
         error_with("young = 15e9\n", "group = \"rock\"\nyoung = 15e9\n"),

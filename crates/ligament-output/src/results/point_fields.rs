@@ -6,7 +6,6 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::stress::{traction, virial};
-use ligament_model::failure::Weakened;
 
 use super::WriteRule;
 use crate::Error;
@@ -77,13 +76,6 @@ pub fn point_grid(
     grid.write(path, None, &fields)
 }
 
-/// Names of the damage by each way in which bonds fail.
-const WAYS: [(&str, Weakened); 3] = [
-    ("damage_tension", Weakened::Opening),
-    ("damage_compression", Weakened::Crushing),
-    ("damage_sliding", Weakened::Sliding),
-];
-
 /// Writes the fields of a state.
 pub(super) fn write(
     path: &Path,
@@ -126,15 +118,8 @@ pub(super) fn write(
         Field::integer("held", &held),
         Field::integer(grid.tagged, &grid.tags),
     ];
-    let ways: Vec<(&str, Vec<f64>)> = WAYS
-        .into_iter()
-        .filter(|&(_, way)| criteria.list.iter().any(|it| it.measure.weakens() == way))
-        .map(|(name, way)| (name, fields::damage_by(system, criteria, state, way)))
-        .collect();
-    fields.extend(
-        ways.iter()
-            .map(|(name, values)| Field::scalar(name, values)),
-    );
+    let ways = fields::damages(system, criteria, state);
+    fields.extend((ways.iter()).map(|(name, values)| Field::scalar(name, values)));
     let dissipated = (!criteria.list.is_empty())
         .then(|| fields::dissipated_energy_density(system, &state.dissipated));
     if let Some(values) = &dissipated {

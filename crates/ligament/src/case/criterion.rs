@@ -1,9 +1,14 @@
 //! `[[fracture.criterion]]`: when a bond fails, and what it does after.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use super::fault::{Fault, KeyFault};
+use super::fracture::Control;
+use super::key_path::KeyPath;
+use super::values::{require, require_positive};
 
 /// A failure criterion.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Criterion {
     /// What fails, and where its limit comes from.
     #[serde(flatten)]
@@ -49,7 +54,7 @@ pub enum CriterionKind {
 }
 
 /// How cohesion and friction come from the strengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionCalibration {
     /// As printed: exact without lateral strain alone.
@@ -87,6 +92,37 @@ impl Criterion {
         kind: CriterionKind::Strength,
         after: After::Brittle,
     };
+
+    /// What it takes from each material: the key, and the key of the criterion that would spare it.
+    pub(super) fn needs(&self) -> Vec<(&'static str, Option<&'static str>)> {
+        let mut needs = match self.kind {
+            CriterionKind::Tension { limit: Some(_) }
+            | CriterionKind::Compression { limit: Some(_) }
+            | CriterionKind::Sliding { limit: Some(_) } => Vec::new(),
+            CriterionKind::Strength => vec![("tensile_strength", None)],
+            CriterionKind::Tension { limit: None } | CriterionKind::Sliding { limit: None } => {
+                vec![("tensile_strength", Some("limit"))]
+            }
+            CriterionKind::Compression { limit: None } => {
+                vec![("compressive_strength", Some("limit"))]
+            }
+            CriterionKind::Frictional { .. } => {
+                vec![("tensile_strength", None), ("compressive_strength", None)]
+            }
+            CriterionKind::CriticalStretch | CriterionKind::BondEnergy => {
+                vec![("fracture_energy", None)]
+            }
+        };
+        match self.after {
+            After::Bilinear { end: None } => needs.push(("fracture_energy", Some("end"))),
+            After::Exponential { scale: None } => needs.push(("fracture_energy", Some("scale"))),
+            After::Bilinear { .. }
+            | After::Exponential { .. }
+            | After::Brittle
+            | After::Plastic => {}
+        }
+        needs
+    }
 }
 
 impl CriterionKind {
@@ -102,4 +138,187 @@ impl CriterionKind {
             Self::BondEnergy => "bond-energy",
         }
     }
+}
+
+impl After {
+    /// The word for it in a case file.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Brittle => "brittle",
+            Self::Bilinear { .. } => "bilinear",
+            Self::Exponential { .. } => "exponential",
+            Self::Plastic => "plastic",
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum KindName {
+    Strength,
+    Tension,
+    Compression,
+    Sliding,
+    Frictional,
+    CriticalStretch,
+    BondEnergy,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum AfterName {
+    #[default]
+    Brittle,
+    Bilinear,
+    Exponential,
+    Plastic,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawCriterion {
+    kind: KindName,
+    limit: Option<f64>,
+    calibration: Option<FrictionCalibration>,
+    #[serde(default)]
+    after: AfterName,
+    end: Option<f64>,
+    scale: Option<f64>,
+}
+
+impl RawCriterion {
+    pub(super) fn check(self, key: &KeyPath, control: &Control) -> Result<Criterion, KeyFault> {
+        let criterion = Criterion {
+            kind: self.kind(),
+            after: self.after(),
+        };
+        self.refuse_other_kinds(key, &criterion)?;
+        self.refuse_after(key, &criterion, control)?;
+        if let Some(limit) = self.limit {
+            require_positive(key, "limit", limit)?;
+        }
+        if let Some(end) = self.end {
+            require(end > 1.0, || key.child("end"), "greater than 1", end)?;
+        }
+        if let Some(scale) = self.scale {
+            require_positive(key, "scale", scale)?;
+        }
+        Ok(criterion)
+    }
+
+    fn kind(&self) -> CriterionKind {
+        let limit = self.limit;
+        match self.kind {
+            KindName::Strength => CriterionKind::Strength,
+            KindName::Tension => CriterionKind::Tension { limit },
+            KindName::Compression => CriterionKind::Compression { limit },
+            KindName::Sliding => CriterionKind::Sliding { limit },
+            KindName::Frictional => CriterionKind::Frictional {
+                calibration: self.calibration.unwrap_or_default(),
+            },
+            KindName::CriticalStretch => CriterionKind::CriticalStretch,
+            KindName::BondEnergy => CriterionKind::BondEnergy,
+        }
+    }
+
+    fn after(&self) -> After {
+        match self.after {
+            AfterName::Brittle => After::Brittle,
+            AfterName::Bilinear => After::Bilinear { end: self.end },
+            AfterName::Exponential => After::Exponential { scale: self.scale },
+            AfterName::Plastic => After::Plastic,
+        }
+    }
+
+    /// Keys that mean nothing with the others: a user who gives one expects what will not happen.
+    fn refuse_other_kinds(&self, key: &KeyPath, criterion: &Criterion) -> Result<(), KeyFault> {
+        let kind = format!("kind = \"{}\"", criterion.kind.word());
+        let takes_limit = matches!(
+            self.kind,
+            KindName::Tension | KindName::Compression | KindName::Sliding
+        );
+        if self.limit.is_some() && !takes_limit {
+            let reason = "its limits come from the material; \"tension\", \"compression\" and \"sliding\" take one";
+            return Err(not_with(key, "limit", "limit", kind, reason));
+        }
+        if self.calibration.is_some() && self.kind != KindName::Frictional {
+            let reason = "only the limit of \"frictional\" can come from the strengths in two ways";
+            return Err(not_with(key, "calibration", "calibration", kind, reason));
+        }
+        let after = format!("after = \"{}\"", criterion.after.word());
+        if self.end.is_some() && !matches!(criterion.after, After::Bilinear { .. }) {
+            let reason =
+                "only a force that falls in a straight line, after = \"bilinear\", has an end";
+            return Err(not_with(key, "end", "end", after, reason));
+        }
+        if self.scale.is_some() && !matches!(criterion.after, After::Exponential { .. }) {
+            let reason =
+                "only a force that falls exponentially, after = \"exponential\", has a scale";
+            return Err(not_with(key, "scale", "scale", after, reason));
+        }
+        Ok(())
+    }
+
+    /// What bonds may do after their limit depends on the criterion and on what drives the load.
+    fn refuse_after(
+        &self,
+        key: &KeyPath,
+        criterion: &Criterion,
+        control: &Control,
+    ) -> Result<(), KeyFault> {
+        let kind = format!("kind = \"{}\"", criterion.kind.word());
+        let named = match criterion.after {
+            After::Brittle => return Ok(()),
+            After::Bilinear { .. } => "after = \"bilinear\"",
+            After::Exponential { .. } => "after = \"exponential\"",
+            After::Plastic => "after = \"plastic\"",
+        };
+        if self.kind == KindName::Frictional {
+            let reason = "its limit moves with the stretch, so that there is no one deformation at which softening begins";
+            return Err(not_with(key, "after", named, kind, reason));
+        }
+        if criterion.after == After::Plastic && self.kind != KindName::Sliding {
+            let reason = "only bonds that slide, kind = \"sliding\", keep their force";
+            return Err(not_with(key, "after", named, kind, reason));
+        }
+        if *control == Control::Event {
+            let (control, reason) = (
+                "control = \"event\"".to_owned(),
+                "the exact path is straight between breakages, and softening bends it: take load steps (`steps`)",
+            );
+            return Err(not_with(key, "after", named, control, reason));
+        }
+        let spends_all = matches!(self.kind, KindName::CriticalStretch | KindName::BondEnergy);
+        let wanted = match criterion.after {
+            After::Bilinear { end: None } => "end",
+            After::Exponential { scale: None } => "scale",
+            _ => return Ok(()),
+        };
+        if spends_all {
+            let reason =
+                format!("with {kind}: up to the limit a bond takes all of the fracture energy");
+            let fault = Fault::Required {
+                key: wanted,
+                reason,
+            };
+            return Err(KeyFault::new(key.child(wanted), fault));
+        }
+        Ok(())
+    }
+}
+
+/// A key, or a setting of it, that does not go with another.
+fn not_with(
+    table: &KeyPath,
+    key: &str,
+    named: &'static str,
+    setting: String,
+    reason: &'static str,
+) -> KeyFault {
+    let fault = Fault::NotWith {
+        key: named,
+        setting,
+        reason,
+    };
+    KeyFault::new(table.child(key), fault)
 }

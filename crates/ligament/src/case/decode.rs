@@ -52,7 +52,7 @@ impl DecodeError {
             }
             Fault::WrongType {
                 expected, found, ..
-            } if key.0.len() == 1 && expected == "a list" && found == "a table" => {
+            } if key.is_repeated() && expected == "a list" && found == "a table" => {
                 self.fault = Fault::SingleBrackets {
                     section: key.to_string(),
                 };

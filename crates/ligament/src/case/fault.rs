@@ -45,7 +45,7 @@ pub enum Fault {
         /// The key that is needed.
         key: &'static str,
         /// What makes it necessary.
-        reason: &'static str,
+        reason: String,
     },
     /// A key means nothing with another setting.
     #[error("`{key}` does not apply with {setting}: {reason}; remove it")]

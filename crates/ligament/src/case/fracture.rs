@@ -5,7 +5,7 @@ use std::fmt;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::criterion::Criterion;
+use super::criterion::{Criterion, RawCriterion};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{require, require_at_least_one, require_positive};
@@ -206,22 +206,24 @@ pub(super) struct RawFracture {
     refine_first_break: Option<u32>,
     #[serde(default)]
     stop: Stop,
+    criterion: Option<Vec<RawCriterion>>,
 }
 
 impl RawFracture {
     pub(super) fn check(self, key: &KeyPath) -> Result<Fracture, KeyFault> {
+        let control = match self.control {
+            ControlName::Stepped => Control::Stepped(self.stepping(key)?),
+            ControlName::Event => {
+                self.refuse_stepping(key)?;
+                Control::Event
+            }
+        };
         let fracture = Fracture {
-            control: match self.control {
-                ControlName::Stepped => Control::Stepped(self.stepping(key)?),
-                ControlName::Event => {
-                    self.refuse_stepping(key)?;
-                    Control::Event
-                }
-            },
+            criteria: criteria(self.criterion, &key.child("criterion"), &control)?,
+            control,
             tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
             energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
             stop: self.stop,
-            criteria: vec![Criterion::DEFAULT],
         };
         require_positive(key, "tie_tolerance", fracture.tie_tolerance)?;
         require_positive(key, "energy_tolerance", fracture.energy_tolerance)?;
@@ -272,6 +274,22 @@ impl RawFracture {
             None => Ok(()),
         }
     }
+}
+
+/// The criteria of a case, or the one of a case that names none.
+fn criteria(
+    given: Option<Vec<RawCriterion>>,
+    list: &KeyPath,
+    control: &Control,
+) -> Result<Vec<Criterion>, KeyFault> {
+    let Some(given) = given else {
+        return Ok(vec![Criterion::DEFAULT]);
+    };
+    let expected = "one criterion or more (without the key it is kind = \"strength\")";
+    require(!given.is_empty(), || list.clone(), expected, [(); 0])?;
+    let checked = given.into_iter().enumerate();
+    let checked = checked.map(|(place, it)| it.check(&list.child(place), control));
+    checked.collect()
 }
 
 /// What a run writes.

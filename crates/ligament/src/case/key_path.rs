@@ -2,6 +2,17 @@
 
 use std::fmt;
 
+/// Sections that may be repeated.
+const REPEATED: [&[&str]; 7] = [
+    &["precrack"],
+    &["support"],
+    &["load"],
+    &["no_fail"],
+    &["probe"],
+    &["lattice", "remove"],
+    &["fracture", "criterion"],
+];
+
 /// Path of a key from the root of the document: table keys and, for lists, indices counted from 0.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct KeyPath(pub(crate) Vec<String>);
@@ -32,13 +43,21 @@ impl KeyPath {
         Self(segments)
     }
 
+    /// Whether the section at this path may be repeated, hence is a list.
+    pub(crate) fn is_repeated(&self) -> bool {
+        let repeated = |list: &&[&str]| self.0.iter().map(String::as_str).eq(list.iter().copied());
+        REPEATED.iter().any(repeated)
+    }
+
     /// How the table at this path is written in a case file: `[mesh]`, `[[load]]`, `load.0.displacement`.
     pub(crate) fn table_title(&self) -> String {
         let is_index =
             |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
         match self.0.as_slice() {
             [] => "the case file".to_owned(),
-            [list, index] if is_index(index) => format!("[[{list}]]"),
+            [.., index] if is_index(index) && self.parent().is_repeated() => {
+                format!("[[{}]]", self.parent())
+            }
             segments if segments.iter().any(|segment| is_index(segment)) => format!("`{self}`"),
             _ => format!("[{self}]"),
         }

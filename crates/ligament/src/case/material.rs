@@ -3,12 +3,14 @@
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
+use super::criterion::{Criterion, CriterionKind};
 use super::decode::decode;
 use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
 use super::model::Law;
+use super::units::unit_of;
 use super::values::{require, require_positive, require_unique};
 
 /// A linear elastic material with its strengths.
@@ -23,7 +25,7 @@ pub struct Material {
     /// Its elastic constants.
     #[serde(flatten)]
     pub elasticity: Elasticity,
-    /// Tensile strength, Pa; always there if the case has a `[fracture]` section.
+    /// Tensile strength, Pa; there, like the two after it, if a criterion of the case needs it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tensile_strength: Option<f64>,
     /// Compressive strength, Pa, positive.
@@ -163,7 +165,10 @@ impl Orthotropic {
         match across.into_iter().find(|(_, value)| value.is_none()) {
             None => Ok(()),
             Some((name, _)) => {
-                let fault = Fault::Required { key: name, reason };
+                let fault = Fault::Required {
+                    key: name,
+                    reason: reason.to_owned(),
+                };
                 Err(KeyFault::new(key.child(name), fault))
             }
         }
@@ -307,25 +312,74 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     material.check()
 }
 
-/// The fault of a material without strength in a case with fracture, or with axes, for which there is no criterion.
-pub(super) fn require_strengths(materials: &[Material]) -> Result<(), KeyFault> {
+/// The fault of a material without a strength or energy that a criterion takes, or with axes, for which only criteria with a
+/// limit of their own are made.
+pub(super) fn require_strengths(
+    materials: &[Material],
+    criteria: &[Criterion],
+) -> Result<(), KeyFault> {
     for material in materials {
-        let key = material.key_path();
-        if let Elasticity::Orthotropic(_) = material.elasticity {
-            return Err(KeyFault::new(
-                key,
-                "the strength criterion of [fracture] is one for isotropic materials",
-            ));
-        }
-        if material.tensile_strength.is_none() {
-            let fault = Fault::Required {
-                key: "tensile_strength",
-                reason: "(in Pa) because the case has a [fracture] section",
-            };
-            return Err(KeyFault::new(key.child("tensile_strength"), fault));
+        for criterion in criteria {
+            material.require_strengths(criterion)?;
         }
     }
     Ok(())
+}
+
+impl Material {
+    fn require_strengths(&self, criterion: &Criterion) -> Result<(), KeyFault> {
+        let (path, kind) = (self.key_path(), criterion.kind.word());
+        for (key, instead) in criterion.needs() {
+            if let Elasticity::Orthotropic(_) = self.elasticity {
+                let advice = match instead {
+                    Some(instead) => format!("give it its own `{instead}`"),
+                    None => {
+                        "take \"tension\", \"compression\" or \"sliding\" with a `limit`".to_owned()
+                    }
+                };
+                let reason = format!(
+                    "`{key}` gives limits of isotropic materials only, and the criterion \"{kind}\" of [fracture] takes them \
+                     from it: {advice}"
+                );
+                return Err(KeyFault::new(path, reason));
+            }
+            let value = match key {
+                "tensile_strength" => self.tensile_strength,
+                "compressive_strength" => self.compressive_strength,
+                _ => self.fracture_energy,
+            };
+            if value.is_none() {
+                let unit = unit_of(&path.child(key)).unwrap_or_default();
+                let instead = instead.map(|it| format!(" without `{it}`"));
+                let reason = format!(
+                    "(in {unit}) because the case has a [fracture] section with the criterion \"{kind}\"{}",
+                    instead.unwrap_or_default()
+                );
+                return Err(KeyFault::new(
+                    path.child(key),
+                    Fault::Required { key, reason },
+                ));
+            }
+        }
+        self.require_friction(criterion)
+    }
+
+    /// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
+    fn require_friction(&self, criterion: &Criterion) -> Result<(), KeyFault> {
+        match (
+            criterion.kind,
+            self.tensile_strength,
+            self.compressive_strength,
+        ) {
+            (CriterionKind::Frictional { .. }, Some(tensile), Some(compressive)) => require(
+                compressive >= tensile,
+                || self.key_path().child("compressive_strength"),
+                "at least the tensile_strength for the criterion \"frictional\"",
+                compressive,
+            ),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// The fault of a material without density in a modal analysis.
@@ -335,7 +389,7 @@ pub(super) fn require_densities(materials: &[Material]) -> Result<(), KeyFault> 
         Some(material) => {
             let fault = Fault::Required {
                 key: "density",
-                reason: "(in kg/m^3) because a modal analysis needs masses",
+                reason: "(in kg/m^3) because a modal analysis needs masses".to_owned(),
             };
             Err(KeyFault::new(material.key_path().child("density"), fault))
         }

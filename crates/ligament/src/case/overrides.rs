@@ -3,9 +3,6 @@
 use super::document::{Entry, Node, Origin, Value};
 use super::key_path::KeyPath;
 
-/// Sections that may be repeated, hence are lists.
-const LISTS: [&str; 5] = ["precrack", "support", "load", "no_fail", "probe"];
-
 /// Puts the override `given` (`key=value`, the one with this index) into the document.
 pub(super) fn apply(document: &mut Node, given: &str, index: usize) -> Result<(), String> {
     let origin = Origin::Override(index);
@@ -60,6 +57,11 @@ fn descend<'a>(
             let index: usize = segment.parse().map_err(|_| {
                 format!("`{above}` is a list: `{segment}` should be an index from 0")
             })?;
+            // A case without criteria has one all the same, and several are put together on the command line.
+            if index == count && above.to_string() == "fracture.criterion" {
+                let value = Value::Table(Vec::new());
+                nodes.push(Node { origin, value });
+            }
             nodes
                 .get_mut(index)
                 .ok_or_else(|| out_of_range(above, index, count))
@@ -81,8 +83,7 @@ fn entry<'a>(
         .position(|entry| entry.key == segment)
         .unwrap_or_else(|| {
             // A list section that is not there is an empty list: an index into it is out of range.
-            let is_list = above.0.is_empty() && LISTS.contains(&segment);
-            let value = if is_list {
+            let value = if above.child(segment).is_repeated() {
                 Value::List(Vec::new())
             } else {
                 Value::Table(Vec::new())

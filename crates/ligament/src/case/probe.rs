@@ -134,7 +134,7 @@ impl RawProbe {
                 key.child("component"),
                 Fault::Required {
                     key: "component",
-                    reason,
+                    reason: reason.to_owned(),
                 },
             )
         })
@@ -159,7 +159,7 @@ impl RawProbe {
         self.field.ok_or_else(|| {
             let fault = Fault::Required {
                 key: "field",
-                reason: "with `at`, to say what to read",
+                reason: "with `at`, to say what to read".to_owned(),
             };
             KeyFault::new(key.child("field"), fault)
         })

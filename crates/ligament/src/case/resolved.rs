@@ -16,6 +16,12 @@ pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     for (key, item) in document.iter_mut() {
         *item = with_header(std::mem::take(item), key.get() == "material");
     }
+    if let Some(criteria) = document
+        .get_mut("fracture")
+        .and_then(|it| it.get_mut("criterion"))
+    {
+        *criteria = with_header(std::mem::take(criteria), false);
+    }
     Ok(document.to_string())
 }
 

@@ -13,9 +13,16 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
     match keys.as_slice() {
         [
             ..,
-            "young" | "young_1" | "young_2" | "young_3" | "shear_modulus" | "tensile_strength",
+            "young"
+            | "young_1"
+            | "young_2"
+            | "young_3"
+            | "shear_modulus"
+            | "tensile_strength"
+            | "compressive_strength",
         ] => Some("Pa"),
         [.., "angle"] => Some("rad"),
+        [.., "fracture_energy"] => Some("J/m^2"),
         [.., "density"] => Some("kg/m^3"),
         [.., "displacement", "rotation"] => Some("rad"),
         [.., "force", "x" | "y"] => Some("N"),

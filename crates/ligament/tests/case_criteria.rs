@@ -1,0 +1,389 @@
+//! `[[fracture.criterion]]`: what is read, what is written back, and what is refused with its place and reason.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::path::Path;
+
+use ligament::case::{
+    After, CaseError, CaseFile, Criterion, CriterionKind as Kind, FrictionCalibration,
+};
+
+const TEXT: &str = include_str!("data/brazilian-disk.toml");
+
+/// The strengths and the energy that criteria may take.
+const PROPERTIES: &str =
+    "tensile_strength = 3.81e6\ncompressive_strength = 40e6\nfracture_energy = 30.0\n";
+
+fn read(text: String, overrides: &[&str]) -> Result<CaseFile, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(|it| (*it).to_owned()).collect();
+    CaseFile::parse(Path::new("case.toml"), text, &overrides)
+}
+
+/// The case with all properties and these criteria, the first of which has its header at line 56.
+fn with(criteria: &str) -> String {
+    TEXT.replace("tensile_strength = 3.81e6\n", PROPERTIES)
+        .replace("[output]", &format!("{criteria}\n[output]"))
+}
+
+fn error_of(text: String) -> String {
+    let message = read(text, &[]).unwrap_err().to_string();
+    message.strip_prefix("case.toml:").unwrap().to_owned()
+}
+
+fn criteria_of(text: String, overrides: &[&str]) -> Vec<Criterion> {
+    let case = read(text, overrides).unwrap();
+    let written = case.resolved_toml().unwrap();
+    let again = read(written.clone(), &[]).unwrap_or_else(|error| panic!("{error}\n{written}"));
+    assert_eq!(again.case, case.case, "{written}");
+    case.case.fracture.unwrap().criteria
+}
+
+#[test]
+fn a_case_without_criteria_has_the_strength() {
+    let default = [Criterion {
+        kind: Kind::Strength,
+        after: After::Brittle,
+    }];
+    assert_eq!(criteria_of(TEXT.to_owned(), &[]), default);
+    let written = read(TEXT.to_owned(), &[]).unwrap().resolved_toml().unwrap();
+    let section = "\n[[fracture.criterion]]\nkind = \"strength\"\nafter = \"brittle\"\n";
+    assert!(written.contains(section), "{written}");
+}
+
+#[test]
+fn every_kind_and_every_end_is_read() {
+    let brittle = |kind| Criterion {
+        kind,
+        after: After::Brittle,
+    };
+    let tension = |after| Criterion {
+        kind: Kind::Tension { limit: None },
+        after,
+    };
+    let cases = [
+        ("kind = \"strength\"", brittle(Kind::Strength)),
+        ("kind = \"tension\"", tension(After::Brittle)),
+        (
+            "kind = \"tension\"\nlimit = 1e-3",
+            brittle(Kind::Tension { limit: Some(1e-3) }),
+        ),
+        (
+            "kind = \"compression\"\nlimit = 2",
+            brittle(Kind::Compression { limit: Some(2.0) }),
+        ),
+        (
+            "kind = \"sliding\"\nafter = \"plastic\"",
+            Criterion {
+                kind: Kind::Sliding { limit: None },
+                after: After::Plastic,
+            },
+        ),
+        (
+            "kind = \"frictional\"\nafter = \"brittle\"",
+            brittle(Kind::Frictional {
+                calibration: FrictionCalibration::Printed,
+            }),
+        ),
+        (
+            "kind = \"frictional\"\ncalibration = \"two-point\"",
+            brittle(Kind::Frictional {
+                calibration: FrictionCalibration::TwoPoint,
+            }),
+        ),
+        (
+            "kind = \"critical-stretch\"",
+            brittle(Kind::CriticalStretch),
+        ),
+        ("kind = \"bond-energy\"", brittle(Kind::BondEnergy)),
+        (
+            "kind = \"tension\"\nafter = \"bilinear\"",
+            tension(After::Bilinear { end: None }),
+        ),
+        (
+            "kind = \"tension\"\nafter = \"bilinear\"\nend = 5",
+            tension(After::Bilinear { end: Some(5.0) }),
+        ),
+        (
+            "kind = \"tension\"\nafter = \"exponential\"",
+            tension(After::Exponential { scale: None }),
+        ),
+        (
+            "kind = \"critical-stretch\"\nafter = \"exponential\"\nscale = 0.5",
+            Criterion {
+                kind: Kind::CriticalStretch,
+                after: After::Exponential { scale: Some(0.5) },
+            },
+        ),
+    ];
+    for (text, expected) in cases {
+        let text = with(&format!("[[fracture.criterion]]\n{text}\n"));
+        assert_eq!(criteria_of(text, &[]), [expected]);
+    }
+    let all: String = cases
+        .map(|(text, _)| format!("[[fracture.criterion]]\n{text}\n\n"))
+        .concat();
+    assert_eq!(criteria_of(with(&all), &[]), cases.map(|it| it.1));
+}
+
+#[test]
+fn criteria_are_set_and_added_on_the_command_line() {
+    let tension = Criterion {
+        kind: Kind::Tension { limit: Some(2e-4) },
+        after: After::Brittle,
+    };
+    let compression = Criterion {
+        kind: Kind::Compression { limit: None },
+        after: After::Brittle,
+    };
+    let first = [
+        "fracture.criterion.0.kind=tension",
+        "fracture.criterion.0.limit=2e-4",
+    ];
+    let second = "fracture.criterion.1.kind=compression";
+    let both = [first[0], first[1], second];
+    assert_eq!(criteria_of(with(""), &first), [tension]);
+    assert_eq!(criteria_of(with(""), &both), [tension, compression]);
+    let in_file = "[[fracture.criterion]]\nkind = \"compression\"\nlimit = 1e-3\n";
+    let mut from_file = criteria_of(with(in_file), &[second]);
+    assert_eq!(from_file.pop().unwrap(), compression);
+    assert_eq!(from_file[0].kind, Kind::Compression { limit: Some(1e-3) });
+    let replaced = [first[0], first[1]];
+    assert_eq!(criteria_of(with(in_file), &replaced), [tension]);
+    let beyond = read(with(""), &[second]).unwrap_err().to_string();
+    let reason = "--set fracture.criterion.1.kind=compression: there is no `fracture.criterion.1`: the case has no \
+                  `fracture.criterion`";
+    assert_eq!(beyond, reason);
+    let wrong = read(with(""), &["fracture.criterion.0.kind=tensoin"]).unwrap_err();
+    assert!(wrong.to_string().contains("did you mean \"tension\"?"));
+}
+
+/// The message for a criterion with these lines; its header is at line 59.
+fn error_with(lines: &str) -> String {
+    error_of(with(&format!("[[fracture.criterion]]\n{lines}\n")))
+}
+
+#[test]
+fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
+    assert_eq!(
+        error_with("kind = \"compresion\""),
+        "60:8: fracture.criterion.0.kind: unknown value \"compresion\"; did you mean \"compression\"? valid values: \
+         \"strength\", \"tension\", \"compression\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\""
+    );
+    assert_eq!(
+        error_with("kind = \"tension\"\nlimits = 1e-3"),
+        "61:1: fracture.criterion.0.limits: unknown key `limits` in [[fracture.criterion]]; did you mean `limit`? valid keys: \
+         `kind`, `limit`, `calibration`, `after`, `end`, `scale`"
+    );
+    assert_eq!(
+        error_with("kind = \"tension\"\nafter = \"bilinaer\""),
+        "61:9: fracture.criterion.0.after: unknown value \"bilinaer\"; did you mean \"bilinear\"? valid values: \"brittle\", \
+         \"bilinear\", \"exponential\", \"plastic\""
+    );
+    assert_eq!(
+        error_with("kind = \"frictional\"\ncalibration = \"exact\""),
+        "61:15: fracture.criterion.0.calibration: unknown value \"exact\"; valid values: \"printed\", \"two-point\""
+    );
+    assert_eq!(
+        error_with("limit = 1e-3"),
+        "59:1: fracture.criterion.0.kind: missing key `kind` in [[fracture.criterion]]"
+    );
+    assert_eq!(
+        error_of(with("[fracture.criterion]\nkind = \"tension\"\n")),
+        "59:1: fracture.criterion: this section may be repeated, so its name stands in double brackets: write \
+         [[fracture.criterion]] instead of [fracture.criterion]"
+    );
+    assert_eq!(
+        error_of(with("criterion = []\n")),
+        "59:13: fracture.criterion: must be one criterion or more (without the key it is kind = \"strength\"), found []"
+    );
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let cases = [
+        (
+            "kind = \"compression\"\nlimit = -1e-3",
+            "61:9: fracture.criterion.0.limit: must be greater than 0, found -0.001",
+        ),
+        (
+            "kind = \"tension\"\nafter = \"bilinear\"\nend = 1",
+            "62:7: fracture.criterion.0.end: must be greater than 1, found 1.0",
+        ),
+        (
+            "kind = \"tension\"\nafter = \"exponential\"\nscale = 0.0",
+            "62:9: fracture.criterion.0.scale: must be greater than 0, found 0.0",
+        ),
+    ];
+    for (lines, message) in cases {
+        assert_eq!(error_with(lines), message);
+    }
+    let text = with("").replace(
+        "compressive_strength = 40e6",
+        "compressive_strength = -40e6",
+    );
+    let message = "11:24: material.compressive_strength: must be greater than 0, found -40000000.0";
+    assert_eq!(error_of(text), message);
+    let text = with("").replace("fracture_energy = 30.0", "fracture_energy = \"30 J/m2\"");
+    let message = "12:19: material.fracture_energy: expected a number, found the string \"30 J/m2\"; values are plain numbers in \
+                   SI units, here J/m^2";
+    assert_eq!(error_of(text), message);
+}
+
+#[test]
+fn keys_that_a_kind_does_not_take_are_refused() {
+    let cases = [
+        (
+            "kind = \"strength\"\nlimit = 1e-3",
+            "61:9: fracture.criterion.0.limit: `limit` does not apply with kind = \"strength\": its limits come from the \
+             material; \"tension\", \"compression\" and \"sliding\" take one; remove it",
+        ),
+        (
+            "kind = \"sliding\"\ncalibration = \"two-point\"",
+            "61:15: fracture.criterion.0.calibration: `calibration` does not apply with kind = \"sliding\": only the limit of \
+             \"frictional\" can come from the strengths in two ways; remove it",
+        ),
+        (
+            "kind = \"tension\"\nend = 3.0",
+            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in a \
+             straight line, after = \"bilinear\", has an end; remove it",
+        ),
+        (
+            "kind = \"tension\"\nafter = \"bilinear\"\nscale = 3.0",
+            "62:9: fracture.criterion.0.scale: `scale` does not apply with after = \"bilinear\": only a force that falls \
+             exponentially, after = \"exponential\", has a scale; remove it",
+        ),
+        (
+            "kind = \"compression\"\nafter = \"plastic\"",
+            "61:9: fracture.criterion.0.after: `after = \"plastic\"` does not apply with kind = \"compression\": only bonds that \
+             slide, kind = \"sliding\", keep their force; remove it",
+        ),
+        (
+            "kind = \"frictional\"\nafter = \"exponential\"",
+            "61:9: fracture.criterion.0.after: `after = \"exponential\"` does not apply with kind = \"frictional\": its limit \
+             moves with the stretch, so that there is no one deformation at which softening begins; remove it",
+        ),
+        (
+            "kind = \"critical-stretch\"\nafter = \"bilinear\"",
+            "59:1: fracture.criterion.0.end: missing key `end`: it is required with kind = \"critical-stretch\": up to the limit \
+             a bond takes all of the fracture energy",
+        ),
+    ];
+    for (lines, message) in cases {
+        assert_eq!(error_with(lines), message);
+    }
+}
+
+#[test]
+fn the_exact_path_takes_brittle_criteria_only() {
+    let event = |lines: &str| {
+        with(&format!("[[fracture.criterion]]\n{lines}\n"))
+            .replace("steps = 100\n", "control = \"event\"\n")
+    };
+    let brittle = "kind = \"frictional\"\n\n[[fracture.criterion]]\nkind = \"tension\"";
+    assert_eq!(criteria_of(event(brittle), &[]).len(), 2);
+    assert_eq!(
+        error_of(event("kind = \"tension\"\nafter = \"bilinear\"")),
+        "61:9: fracture.criterion.0.after: `after = \"bilinear\"` does not apply with control = \"event\": the exact path is \
+         straight between breakages, and softening bends it: take load steps (`steps`); remove it"
+    );
+}
+
+#[test]
+fn criteria_name_what_they_lack_of_the_material() {
+    let lacking = |key: &str, lines: &str| {
+        let text = with(&format!("[[fracture.criterion]]\n{lines}\n"));
+        let line = text.lines().find(|line| line.starts_with(key)).unwrap();
+        error_of(text.replacen(&format!("{line}\n"), "", 1))
+    };
+    let missing = |key: &str, unit: &str, criterion: &str| {
+        format!(
+            "7:1: material.{key}: missing key `{key}`: it is required (in {unit}) because the case has a [fracture] section with \
+             the criterion {criterion}"
+        )
+    };
+    let [tensile, compressive, energy] = [
+        ("tensile_strength", "Pa"),
+        ("compressive_strength", "Pa"),
+        ("fracture_energy", "J/m^2"),
+    ];
+    let cases = [
+        (tensile, "kind = \"strength\"", "\"strength\""),
+        (tensile, "kind = \"tension\"", "\"tension\" without `limit`"),
+        (tensile, "kind = \"sliding\"", "\"sliding\" without `limit`"),
+        (tensile, "kind = \"frictional\"", "\"frictional\""),
+        (compressive, "kind = \"frictional\"", "\"frictional\""),
+        (
+            compressive,
+            "kind = \"compression\"",
+            "\"compression\" without `limit`",
+        ),
+        (
+            energy,
+            "kind = \"critical-stretch\"",
+            "\"critical-stretch\"",
+        ),
+        (energy, "kind = \"bond-energy\"", "\"bond-energy\""),
+        (
+            energy,
+            "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"",
+            "\"tension\" without `end`",
+        ),
+        (
+            energy,
+            "kind = \"tension\"\nafter = \"exponential\"",
+            "\"tension\" without `scale`",
+        ),
+    ];
+    for ((key, unit), lines, criterion) in cases {
+        assert_eq!(lacking(key, lines), missing(key, unit, criterion));
+    }
+    // What a criterion does not take need not be there.
+    for lines in [
+        "kind = \"tension\"\nlimit = 1e-3",
+        "kind = \"sliding\"\nlimit = 1e-3\nafter = \"bilinear\"\nend = 4",
+    ] {
+        let text = with(&format!("[[fracture.criterion]]\n{lines}\n")).replace(PROPERTIES, "");
+        assert_eq!(criteria_of(text, &[]).len(), 1);
+    }
+}
+
+#[test]
+fn friction_wants_the_compressive_strength_to_be_the_larger_one() {
+    let text = with("[[fracture.criterion]]\nkind = \"frictional\"\n")
+        .replace("compressive_strength = 40e6", "compressive_strength = 3e6");
+    assert_eq!(
+        error_of(text),
+        "11:24: material.compressive_strength: must be at least the tensile_strength for the criterion \"frictional\", found \
+         3000000.0"
+    );
+    // Others do not compare the two.
+    let text = with("[[fracture.criterion]]\nkind = \"compression\"\n")
+        .replace("compressive_strength = 40e6", "compressive_strength = 3e6");
+    assert_eq!(criteria_of(text, &[]).len(), 1);
+}
+
+#[test]
+fn materials_with_axes_take_criteria_with_limits_of_their_own() {
+    let axes = "young_1 = 15e9\nyoung_2 = 5e9\npoisson_12 = 0.25\nshear_modulus = 4.8e9\n";
+    let with_axes = |lines: &str| {
+        with(&format!("[[fracture.criterion]]\n{lines}\n"))
+            .replace("young = 15e9\npoisson = 0.21\n", axes)
+            .replace("law = \"nhpd\"", "law = \"orthotropic\"")
+            .replace("rule = \"sum\"", "")
+    };
+    for kind in ["tension", "compression", "sliding"] {
+        let text = with_axes(&format!("kind = \"{kind}\"\nlimit = 1e-3"));
+        assert_eq!(criteria_of(text, &[]).len(), 1);
+        assert!(
+            error_of(with_axes(&format!("kind = \"{kind}\"")))
+                .ends_with("takes them from it: give it its own `limit`")
+        );
+    }
+    assert_eq!(
+        error_of(with_axes("kind = \"frictional\"")),
+        "7:1: material: `tensile_strength` gives limits of isotropic materials only, and the criterion \"frictional\" of \
+         [fracture] takes them from it: take \"tension\", \"compression\" or \"sliding\" with a `limit`"
+    );
+    let softening = "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"";
+    assert!(error_of(with_axes(softening)).ends_with("takes them from it: give it its own `end`"));
+}
