@@ -20,15 +20,6 @@ pub struct Softening {
     pub remaining: Vec<Remaining>,
 }
 
-/// A bond of which more or less is left than before.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Change {
-    /// The bond.
-    pub bond: u32,
-    /// What was left of it.
-    pub before: Remaining,
-}
-
 impl Softening {
     /// That of sound bonds.
     pub fn of_sound_bonds(criteria: &Criteria, n_bonds: usize) -> Self {
@@ -44,7 +35,7 @@ impl Softening {
         }
     }
 
-    /// Takes the deformations of an iterate (n_bonds): what is left of the bonds now, and what changed by that.
+    /// Takes the deformations of an iterate (n_bonds): decides what is left of the bonds now.
     ///
     /// A bond within its largest deformation keeps what it has; beyond, it follows its law; one beyond the end of its law keeps
     /// what it has until its turn comes to break, so that the order of breaking decides as it does for brittle bonds. Where
@@ -55,7 +46,7 @@ impl Softening {
         intact: &[bool],
         deformations: &[BondDeformation],
         is_one_way: bool,
-    ) -> Vec<Change> {
+    ) {
         for ((criterion, largest), trial) in
             criteria.list.iter().zip(&self.largest).zip(&mut self.trial)
         {
@@ -71,17 +62,12 @@ impl Softening {
             });
         }
         let trial = &self.trial;
-        (self.remaining.par_iter_mut().enumerate())
-            .filter(|(bond, _)| intact[*bond])
-            .filter_map(|(bond, remaining)| {
-                let now = remaining_of(criteria, trial, bond, deformations[bond].stretch >= 0.0);
-                let before = std::mem::replace(remaining, now);
-                (before != now).then_some(Change {
-                    bond: bond as u32,
-                    before,
-                })
-            })
-            .collect()
+        (self.remaining.par_iter_mut().enumerate()).for_each(|(bond, remaining)| {
+            if intact[bond] {
+                let is_open = deformations[bond].stretch >= 0.0;
+                *remaining = remaining_of(criteria, trial, bond, is_open);
+            }
+        });
     }
 
     /// The iterate is in equilibrium: its extremes count from now on.

@@ -10,6 +10,7 @@ use ligament_linalg::{
     Elimination, FactorError, Factorisation, Pattern, Symbolic, SymmetricMatrix, VANISHING_PIVOT,
 };
 use ligament_model::BondSystem;
+use ligament_model::element::Remaining;
 
 use crate::assembly;
 use crate::dissection;
@@ -121,6 +122,8 @@ pub struct Stiffness<'a> {
     held: Vec<usize>,
     /// Whether the factor was changed since it was made.
     is_changed: bool,
+    /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
+    remaining: Vec<Remaining>,
     /// Bonds that broke or changed so far.
     n_changed: usize,
     pub(crate) costs: Costs,
@@ -165,6 +168,7 @@ impl<'a> Stiffness<'a> {
             broken: Vec::new(),
             held: Vec::new(),
             is_changed: false,
+            remaining: Vec::new(),
             n_changed: 0,
             unknowns,
             costs: Costs {
@@ -247,6 +251,7 @@ impl<'a> Stiffness<'a> {
         if vanishing.is_empty() {
             self.factor = factor.ok();
             self.cut_off.clone_from(&state.held);
+            self.remaining.clone_from(&state.softening.remaining);
             self.is_changed = false;
         }
         Ok(vanishing)

@@ -40,8 +40,8 @@ impl Equilibrium<'_> {
             let State {
                 softening, intact, ..
             } = &mut *state;
-            let changes = softening.follow(self.criteria, intact, &deformations, is_one_way);
-            self.stiffness.weaken(&changes, &state.softening.remaining);
+            softening.follow(self.criteria, intact, &deformations, is_one_way);
+            self.stiffness.weaken(state);
             let mut balanced = self.measure_deformed(state, deformations);
             if iterations > 0 {
                 observer.iteration(iterations, balanced.residual, balanced.stored_energy)?;

@@ -4,11 +4,17 @@ use std::time::Instant;
 
 use ligament_linalg::RankOne;
 use ligament_model::element::{BondElement, Remaining};
+use rayon::prelude::*;
 
 use super::{SolverChoice, Stiffness, Update};
-use crate::softening::Change;
 use crate::state::State;
 use crate::unknowns::COMPONENTS;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 4096;
+
+/// Relative change of a bond's secant stiffness from which the factor is changed.
+const SECANT_TOLERANCE: f64 = 0.05;
 
 impl Stiffness<'_> {
     /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
@@ -30,7 +36,7 @@ impl Stiffness<'_> {
         let start = Instant::now();
         let mut terms = self.hold_terms(&held);
         terms.extend(broken.iter().flat_map(|&bond| {
-            let element = self.before_it_broke(bond, state);
+            let element = self.before_it_broke(bond, &self.remaining);
             self.terms_without(bond, &element)
         }));
         let force = self.unbalanced_force(&broken, state);
@@ -52,24 +58,42 @@ impl Stiffness<'_> {
         Some(correction)
     }
 
-    /// Changes the factor by what bonds lost or gained of their stiffness, to what is `remaining` (n_bonds).
-    pub(crate) fn weaken(&mut self, changes: &[Change], remaining: &[Remaining]) {
-        if changes.is_empty() {
+    /// Brings the factor up to date with what is left of softening bonds.
+    ///
+    /// Bonds that are near enough to what the factor has of them wait: the iteration finds the residual with the bonds as they
+    /// are, and gets as near with a factor that is a little off.
+    pub(crate) fn weaken(&mut self, state: &State) {
+        if self.factor.is_none() {
             return;
         }
-        self.forget_unless_in_place(changes.len());
+        let remaining = &state.softening.remaining;
+        // A factor of the elastic body has all of every bond.
+        self.remaining.resize(remaining.len(), Remaining::WHOLE);
+        let in_factor = &self.remaining;
+        let is_due = |bond: &usize| {
+            state.intact[*bond] && in_factor[*bond].is_off(&remaining[*bond], SECANT_TOLERANCE)
+        };
+        let due: Vec<usize> = (0..remaining.len())
+            .into_par_iter()
+            .with_min_len(TASK)
+            .filter(is_due)
+            .collect();
+        if due.is_empty() {
+            return;
+        }
+        self.forget_unless_in_place(due.len());
         let Some(mut factor) = self.factor.take() else {
             return;
         };
         let start = Instant::now();
+        let mut terms = Vec::with_capacity(COMPONENTS * due.len());
+        for &bond in &due {
+            let lost = self.remaining[bond].lost(&remaining[bond]);
+            let element = self.system.element(bond).weakened(&lost);
+            terms.extend(self.terms_without(bond as u32, &element));
+            self.remaining[bond] = remaining[bond];
+        }
         // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
-        let mut terms: Vec<RankOne> = (changes.iter())
-            .flat_map(|change| {
-                let lost = change.before.lost(&remaining[change.bond as usize]);
-                let element = self.system.element(change.bond as usize).weakened(&lost);
-                self.terms_without(change.bond, &element)
-            })
-            .collect();
         terms.sort_by(|one, other| (one.weight < 0.0).cmp(&(other.weight < 0.0)));
         let changed = factor.change(&terms, &[]);
         self.costs.change += start.elapsed();
@@ -101,10 +125,10 @@ impl Stiffness<'_> {
         }
     }
 
-    /// A bond that just broke, as it was before.
-    fn before_it_broke(&self, bond: u32, state: &State) -> BondElement {
+    /// A bond that just broke, with what was left of it of late (n_bonds).
+    fn before_it_broke(&self, bond: u32, remaining: &[Remaining]) -> BondElement {
         let whole = self.system.element(bond as usize);
-        match state.softening.remaining.get(bond as usize) {
+        match remaining.get(bond as usize) {
             None => whole,
             Some(remaining) => whole.weakened(remaining),
         }
@@ -163,7 +187,9 @@ impl Stiffness<'_> {
         let mut force = Vec::with_capacity(2 * COMPONENTS * broken.len());
         for &bond in broken {
             let deformation = self.system.deformation(bond as usize, &state.displacement);
-            let end_forces = self.before_it_broke(bond, state).end_forces(&deformation);
+            let end_forces = self
+                .before_it_broke(bond, &state.softening.remaining)
+                .end_forces(&deformation);
             for (end, values) in self.system.bonds.ends[bond as usize].iter().zip(end_forces) {
                 for (component, value) in values.into_iter().enumerate() {
                     let dof = COMPONENTS * *end as usize + component;

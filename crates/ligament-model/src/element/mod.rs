@@ -66,6 +66,14 @@ impl Remaining {
         rotational: 0.0,
     };
 
+    /// Whether some factor differs from the other's by more than a relative tolerance.
+    pub fn is_off(&self, other: &Self, tolerance: f64) -> bool {
+        let is_off = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
+        is_off(self.axial, other.axial)
+            || is_off(self.shear, other.shear)
+            || is_off(self.rotational, other.rotational)
+    }
+
     /// What was lost from here to `later`.
     pub fn lost(&self, later: &Self) -> Self {
         Self {
