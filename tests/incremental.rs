@@ -67,8 +67,7 @@ fn follow(bench: &Bench, solver: SolverSettings) -> Run {
         displacements: Some(Vec::new()),
         ..Watch::default()
     };
-    let limits = &bench.model.criteria;
-    let outcome = run::break_bonds(&problem, limits, fracture, &mut watch).unwrap();
+    let outcome = run::break_bonds(&problem, fracture, &mut watch).unwrap();
     (outcome, watch)
 }
 

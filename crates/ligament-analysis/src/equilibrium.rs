@@ -37,6 +37,9 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
+/// Forces below this share of the largest so far are rounding of those, to within [`RESIDUAL_TOLERANCE`].
+const UNLOADED: f64 = 1e-5;
+
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
 
@@ -50,6 +53,8 @@ pub struct Equilibrium<'a> {
     energy_tolerance: f64,
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
     point_stiffness: [f64; 2],
+    /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
+    largest_forces: [f64; 2],
     connectivity: Connectivity,
 }
 
@@ -188,6 +193,7 @@ impl<'a> Equilibrium<'a> {
             )?,
             energy_tolerance,
             point_stiffness: largest_point_stiffness(system),
+            largest_forces: [0.0; 2],
             connectivity: Connectivity::new(system),
         })
     }
@@ -400,8 +406,11 @@ impl<'a> Equilibrium<'a> {
         scales.force_scale = scales
             .force_scale
             .max(largest_load * state.load_factor.abs())
-            .max(force / RESIDUAL_TOLERANCE);
-        scales.moment_scale = scales.moment_scale.max(moment / RESIDUAL_TOLERANCE);
+            .max(force / RESIDUAL_TOLERANCE)
+            .max(UNLOADED * self.largest_forces[0]);
+        scales.moment_scale = (scales.moment_scale)
+            .max(moment / RESIDUAL_TOLERANCE)
+            .max(UNLOADED * self.largest_forces[1]);
         internal::relative_residual(residual, self.unknowns().degrees_of_freedom(), &scales)
     }
 

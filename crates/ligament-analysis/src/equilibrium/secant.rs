@@ -55,6 +55,11 @@ impl Equilibrium<'_> {
             let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
             if residual <= RESIDUAL_TOLERANCE || energy_settled {
                 state.softening.settle();
+                let forces = [
+                    balanced.internal.force_scale,
+                    balanced.internal.moment_scale,
+                ];
+                self.largest_forces = [0, 1].map(|k| self.largest_forces[k].max(forces[k]));
                 (balanced.iterations, balanced.mechanisms) = (iterations, mechanisms);
                 return Ok(Ok(balanced));
             }
