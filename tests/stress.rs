@@ -39,7 +39,7 @@ fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f
 }
 
 fn stresses_of_run(bench: &Bench, run: &Run) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
-    stresses(bench, run.state().bonds(), run.displacement())
+    stresses(bench, &run.state().intact, run.displacement())
 }
 
 /// Mean over some points by their volumes, of a component that a test picks.
