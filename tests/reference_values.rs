@@ -20,6 +20,7 @@ material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }
 model = { law = "nhpd", horizon_factor = 3.0 }
 support = [{ group = "bottom", displacement = { y = 0.0 } }, { group = "corner", displacement = { x = 0.0 } }]
 load = [{ group = "top", displacement = { y = 1e-5 } }]
+fracture = { steps = 1 }
 "#;
 
 /// The shared disk with the mesh, the steps and the stop rule of the reference.

@@ -1,5 +1,6 @@
 //! Equilibrium of the intact bonds by Newton-Raphson (NHPD eqs 19 to 21).
 
+mod anderson;
 mod secant;
 
 use std::time::Instant;

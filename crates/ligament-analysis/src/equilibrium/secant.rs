@@ -1,9 +1,11 @@
 //! Equilibrium of bonds that soften: Newton-Raphson with their secant stiffness.
 
+use super::anderson::Mixing;
 use super::{Balanced, Equilibrium, LARGEST_RESIDUAL, RESIDUAL_TOLERANCE, Unbalanced};
 use crate::history::{Observer, ObserverError};
 use crate::internal;
 use crate::state::State;
+use crate::unknowns::{COMPONENTS, Component};
 
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
@@ -29,7 +31,9 @@ impl Equilibrium<'_> {
         self.prescribe(state);
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
+        let mut previous_residual = f64::INFINITY;
         let mut iterations = 0;
+        let mut mixing = Mixing::new(self.lengths());
         if let Some(correction) = self.stiffness.follow(state) {
             self.add_correction(state, &correction);
             iterations = 1;
@@ -76,9 +80,33 @@ impl Equilibrium<'_> {
             let (boundary, internal) = (self.boundary, &balanced.internal);
             let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
             let correction = self.stiffness.solve(state, force);
-            self.add_correction(state, &correction);
+            if is_one_way || residual > previous_residual {
+                mixing.restart();
+            }
+            previous_residual = residual;
+            let step = mixing.step(self.at_unknowns(state), correction);
+            self.add_correction(state, &step);
             previous_energy = energy;
             iterations += 1;
         }
+    }
+
+    /// Displacements and rotations of a state at the unknowns, shape (n_unknowns).
+    fn at_unknowns(&self, state: &State) -> Vec<f64> {
+        let dofs = self.unknowns().degrees_of_freedom().iter();
+        dofs.map(|&dof| state.displacement[dof as usize]).collect()
+    }
+
+    /// 1 at displacements and the spacing of the point at rotations, which makes lengths of both, shape (n_unknowns).
+    fn lengths(&self) -> Vec<f64> {
+        let of = |&dof: &u32| match Component::of(dof as usize) {
+            Component::Rotation => self.system.cloud.spacing[dof as usize / COMPONENTS],
+            Component::X | Component::Y => 1.0,
+        };
+        self.unknowns()
+            .degrees_of_freedom()
+            .iter()
+            .map(of)
+            .collect()
     }
 }
