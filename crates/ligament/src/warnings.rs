@@ -46,6 +46,8 @@ pub fn of_model(
     let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
     warnings.extend(constants.filter_map(|it| poisson_warning(case.case.model.law, &it, plane)));
     warnings.extend(sliding_warning(case));
+    let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
+    warnings.extend(constants.filter_map(|it| energy_warning(case, &it, plane)));
     warnings
 }
 
@@ -116,6 +118,21 @@ fn sliding_warning(case: &CaseFile) -> Option<String> {
              as sliding of the bonds; \"mppd\" tells them apart",
             kind.word(),
             law.word()
+        )
+    })
+}
+
+/// Where shear gives energy back, bonds nearly along a crack have none to reach a limit with.
+fn energy_warning(case: &CaseFile, material: &Isotropic, plane: Plane) -> Option<String> {
+    let mut kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
+    let looks_at_energy = kinds.any(|it| it.kind == CriterionKind::BondEnergy);
+    let limit = Isotropic::central_force_poisson(plane);
+    let gives_energy = material.poisson > limit && !case.case.model.law.fixes_poisson();
+    (looks_at_energy && gives_energy).then(|| {
+        format!(
+            "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {}) shear lowers the energy of the bonds, and those \
+             nearly along a crack never fail; \"critical-stretch\" breaks them",
+            material.poisson
         )
     })
 }
