@@ -69,12 +69,12 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
             magnitude: strain[0],
         },
     );
-    let horizon = 0.003;
+    let horizon = bench.model.fixed.horizon[0];
     let is_free = |point: usize| {
         let [x, y] = cloud.positions[point];
         x.abs().max(y.abs()) < 0.0065 - horizon
     };
-    assert_eq!((0..cloud.len()).filter(|&it| is_free(it)).count(), 49);
+    assert!((0..cloud.len()).filter(|&it| is_free(it)).count() >= 25);
     for point in (0..cloud.len()).filter(|&point| !is_free(point)) {
         for component in Component::ALL {
             let value = strain[3 * point + component.index()];
@@ -194,17 +194,25 @@ fn bars_yield_at_their_strengths() {
     }
 }
 
-/// Off the bonds' directions a bar is stronger: at 22.5 degrees to bonds of m = 2, 1/(s_m + s_d cos 2x) - 1 in tension and
-/// 1/|sin 2x| - 1 in sliding, with the misalignment x of the nearest bond (closed forms for a uniform strain). At nu = 0 this is
-/// 17.157 % and 41.421 %, the continuous forms of what MPPD's Tables 7 and 8 sample.
+/// Off the bonds' directions a bar is stronger: with x from the nearest bond, 1/(s_m + s_d cos 2x) - 1 in tension and 1/cos 2x - 1 in
+/// sliding (closed forms for a uniform strain; s_m = s_d at nu = 0). The worst x are 22.5, 13.2825 and 9.2175 degrees for m = 2, 3
+/// and 4; the excesses in percent are those of a continuous rotation, which MPPD's Tables 7 and 8 sample.
 #[test]
 fn between_bonds_a_bar_is_stronger() {
-    let settings = ["material.poisson=0.0", "model.horizon_factor=2.0"];
-    for (kind, expected) in [("tension", 0.17157), ("sliding", 0.41421)] {
-        let bench = patch(&format!("kind = \"{kind}\""), &settings);
-        let excess = yields(&bench, "stress", 0.0, 1.0, PI / 8.0) - 1.0;
-        // Printed digits.
-        assert!((excess - expected).abs() < 1e-5, "{kind}: {excess}");
+    for (m, degrees, known) in [
+        ("2.0", 22.5_f64, [17.157, 41.421]),
+        ("3.0", 13.2825, [5.572, 11.803]),
+        ("4.0", 9.2175, [2.633, 5.409]),
+    ] {
+        let factor = format!("model.horizon_factor={m}");
+        let settings = ["material.poisson=0.0", &factor];
+        for (kind, turn, known) in [("tension", 0.0, known[0]), ("sliding", 45.0, known[1])] {
+            let bench = patch(&format!("kind = \"{kind}\""), &settings);
+            let angle = (degrees + turn).to_radians();
+            let excess = 100.0 * (yields(&bench, "stress", 0.0, 1.0, angle) - 1.0);
+            // Half of the last digit, and of the angle's.
+            assert!((excess - known).abs() < 1e-3, "m = {m}, {kind}: {excess}");
+        }
     }
 }
 
