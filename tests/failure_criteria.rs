@@ -6,6 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
+use ligament::check::{Extent, check};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
@@ -213,6 +214,24 @@ fn between_bonds_a_bar_is_stronger() {
             // Half of the last digit, and of the angle's.
             assert!((excess - known).abs() < 1e-3, "m = {m}, {kind}: {excess}");
         }
+    }
+}
+
+/// A material with axes takes limits as they are given, and strains of a uniform field reach them where a bond has them: half of the
+/// loads at which the stretch along x, the shortening along y and the sliding at 45 degrees are twice the limit. 1e-10: rounding.
+#[test]
+fn materials_with_axes_fail_at_given_limits() {
+    let lamina =
+        "material={ young_1 = 15e9, young_2 = 5e9, poisson_12 = 0.25, shear_modulus = 4.8e9 }";
+    for (kind, strains) in [
+        ("tension", [2e-3, 0.0]),
+        ("compression", [1e-3, -2e-3]),
+        ("sliding", [3e-3, -1e-3]),
+    ] {
+        let criterion = format!("kind = \"{kind}\", limit = 1e-3");
+        let bench = patch(&criterion, &[lamina, "model.law=orthotropic"]);
+        let factor = first_breakage(&bench, strains, 0.0);
+        assert!(relative_error(factor, 0.5) < 1e-10, "{kind}: {factor}");
     }
 }
 
@@ -644,4 +663,43 @@ fn bonds_between_materials_take_the_weaker_one() {
         }
         assert!(between > 50 && of(left) != of(right), "{kind}: {between}");
     }
+}
+
+/// What `ligament check` says of the criteria of the patch, whose limits follow from its constants: F/E = 2.5e-4 and 7.5e-4, (1 + nu)/2
+/// of the first, e_u/e_0 = (s_G/s_0)^2 with s_G = sqrt(G_c/(w H)), w = 3 E/(2 pi (1 - nu)).
+#[test]
+fn the_check_lists_criteria_and_limits() {
+    let told = |settings: &[&str]| {
+        let case = bench::case(&PATCH.replace("control = \"event\"", "steps = 1"), settings);
+        let mut out = Vec::new();
+        check(&case, Extent::Model, None, &mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    };
+    let several = "fracture.criterion=[{ kind = \"tension\", after = \"bilinear\" }, { kind = \"compression\" }, { kind = \"sliding\", \
+                   after = \"plastic\" }, { kind = \"critical-stretch\" }]";
+    let text = told(&[
+        several,
+        "no_fail=[{ box = [[-1e-4, -1e-4], [1e-4, 1e-4]] }]",
+    ]);
+    let opening = 3.0 * YOUNG / (2.0 * PI * 0.75);
+    let limit = (40.0 / (opening * 0.003)).sqrt();
+    let end = (limit / 2.5e-4).powi(2);
+    for line in [
+        format!("  tension               s = 2.5000e-4; force falls straight to zero at {end:.4e} times that; 28 bonds never fail\n"),
+        "  compression           -s = 7.5000e-4; brittle; 28 bonds never fail\n".to_owned(),
+        "  sliding               |gamma| = 1.5625e-4; force stays; 28 bonds never fail\n".to_owned(),
+        format!("  critical-stretch      s = {limit:.4e}; brittle; 28 bonds never fail\n"),
+        "separating a body takes G_c = 4.0000e1 J/m^2 (what shear of the bonds stores comes on top of it)\n".to_owned(),
+        format!("a bar without a crack fails at E s_0 = {:.4e} Pa, which changes with the horizon\n", YOUNG * limit),
+        ", F_t = 5.0000e6 Pa, F_c = 1.5000e7 Pa, G_c = 4.0000e1 J/m^2".to_owned(),
+    ] {
+        assert!(text.contains(&line), "no `{line}` in\n{text}");
+    }
+    assert!(!text.contains("warning"));
+    let turning = told(&["model.law=pds", "fracture.criterion.0.kind=sliding"]);
+    assert!(
+        turning.contains(
+            "warning: criterion \"sliding\": under law = \"pds\" points have no rotations"
+        )
+    );
 }
