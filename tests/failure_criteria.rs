@@ -447,6 +447,9 @@ no_fail = [
     }
 }
 
+/// Rod, criterion and load factor of a breakage.
+type Breakage = (usize, usize, f64);
+
 /// Two rods in a row, the point between them moved to the right: one is stretched, the other shortened by the same, and the smaller
 /// limit decides, by hand. Then the point is moved across: both slide by the same angle, and only a sliding criterion breaks them.
 #[test]
@@ -460,7 +463,7 @@ fn the_first_criterion_that_is_met_decides() {
         (Measure::Tension, Measure::Compression, Measure::Sliding);
     let along = Component::X;
     // Limits, direction, and what breaks: rods of 2 m, moved by up to 1 m.
-    let cases: [(&[(Measure, f64)], Component, &[(usize, usize, f64)]); 4] = [
+    let cases: [(&[(Measure, f64)], Component, &[Breakage]); 4] = [
         (
             &[(tension, 0.2), (compression, 0.1)],
             along,
