@@ -67,8 +67,7 @@ fn follow(bench: &Bench, solver: SolverSettings) -> Run {
         displacements: Some(Vec::new()),
         ..Watch::default()
     };
-    let limits = &bench.model.criteria;
-    let outcome = run::break_bonds(&problem, limits, fracture, &mut watch).unwrap();
+    let outcome = run::break_bonds(&problem, fracture, &mut watch).unwrap();
     (outcome, watch)
 }
 
@@ -256,7 +255,7 @@ fn counted_anew(bench: &Bench, state: &State) -> usize {
     let system = &bench.model.system;
     let unknowns = Unknowns::of_problem(system, &bench.boundary);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-    let matrix = assembly::assemble(system, &unknowns, &pattern, &state.intact, &state.held);
+    let matrix = assembly::assemble(system, &unknowns, &pattern, state.bonds(), &state.held);
     let elimination = Ordering::NestedDissection.elimination(system, &unknowns);
     let symbolic = Arc::new(Symbolic::analyse(pattern, elimination).unwrap());
     let factor = FactorKind::Ldlt.factorise(&symbolic, &matrix).unwrap();
