@@ -39,27 +39,37 @@ impl Softening {
     ///
     /// A bond within its largest deformation keeps what it has; beyond, it follows its law; one beyond the end of its law keeps
     /// what it has until its turn comes to break, so that the order of breaking decides as it does for brittle bonds. Where
-    /// `is_one_way` the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
+    /// `is_one_way` the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded. Tells
+    /// whether the same bonds go on along their laws as before.
     pub fn follow(
         &mut self,
         criteria: &Criteria,
         intact: &[bool],
         deformations: &[BondDeformation],
         is_one_way: bool,
-    ) {
+    ) -> bool {
+        let mut is_settled = true;
         for ((criterion, largest), trial) in
             criteria.list.iter().zip(&self.largest).zip(&mut self.trial)
         {
             if largest.is_empty() {
                 continue;
             }
-            trial.par_iter_mut().enumerate().for_each(|(bond, trial)| {
-                let utilisation = criterion.utilisation(bond, &deformations[bond]);
-                if intact[bond] && utilisation < criterion.after.end(bond) {
+            let began_or_ceased = trial
+                .par_iter_mut()
+                .enumerate()
+                .filter_map(|(bond, trial)| {
+                    let utilisation = criterion.utilisation(bond, &deformations[bond]);
+                    if !intact[bond] || utilisation >= criterion.after.end(bond) {
+                        return None;
+                    }
                     let floor = if is_one_way { *trial } else { largest[bond] };
+                    let goes_on = |trial: f64| trial > largest[bond].max(1.0);
+                    let went_on = goes_on(*trial);
                     *trial = floor.max(utilisation);
-                }
-            });
+                    (goes_on(*trial) != went_on).then_some(())
+                });
+            is_settled &= began_or_ceased.count() == 0;
         }
         let trial = &self.trial;
         (self.remaining.par_iter_mut().enumerate()).for_each(|(bond, remaining)| {
@@ -68,6 +78,7 @@ impl Softening {
                 *remaining = remaining_of(criteria, trial, bond, is_open);
             }
         });
+        is_settled
     }
 
     /// The iterate is in equilibrium: its extremes count from now on.

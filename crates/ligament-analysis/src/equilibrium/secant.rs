@@ -10,6 +10,10 @@ use crate::unknowns::{COMPONENTS, Component};
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
 
+/// Iterations after which corrections are mixed. The first ones alone decide which bonds soften: mixed ones go too far, and take
+/// bonds past their limits that equilibrium would spare.
+const MIXING_FROM: usize = 15;
+
 /// Iterations after which bonds keep the damage of the iterates: what has not settled by then is a sudden fall, in which bonds
 /// take turns. Damage that only grows comes to an end.
 const ONE_WAY_AFTER: usize = 60;
@@ -44,7 +48,7 @@ impl Equilibrium<'_> {
             let State {
                 softening, intact, ..
             } = &mut *state;
-            softening.follow(self.criteria, intact, &deformations, is_one_way);
+            let is_settled = softening.follow(self.criteria, intact, &deformations, is_one_way);
             self.stiffness.weaken(state);
             let mut balanced = self.measure_deformed(state, deformations);
             if iterations > 0 {
@@ -80,7 +84,8 @@ impl Equilibrium<'_> {
             let (boundary, internal) = (self.boundary, &balanced.internal);
             let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
             let correction = self.stiffness.solve(state, force);
-            if is_one_way || residual > previous_residual {
+            let may_mix = iterations >= MIXING_FROM && !is_one_way && is_settled;
+            if !may_mix || residual > previous_residual {
                 mixing.restart();
             }
             previous_residual = residual;

@@ -14,7 +14,7 @@ use crate::unknowns::COMPONENTS;
 const TASK: usize = 4096;
 
 /// Relative change of a bond's secant stiffness from which the factor is changed.
-const SECANT_TOLERANCE: f64 = 0.15;
+const SECANT_TOLERANCE: f64 = 0.05;
 
 impl Stiffness<'_> {
     /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
