@@ -22,7 +22,6 @@ mod frequencies;
 mod lamina;
 mod moduli;
 mod named_modes;
-pub mod plots;
 mod poisson;
 pub mod printed;
 pub mod published;
@@ -32,6 +31,8 @@ pub mod table;
 pub mod tally;
 mod tension;
 mod trial;
+
+pub use crate::plots;
 
 use entry::Verdict;
 use plots::Plot;
