@@ -32,6 +32,22 @@ pub fn families(
     points.into_par_iter().map(of_point).collect()
 }
 
+/// Mean over some points of the error at one orientation of the strain (rad): what a body sees whose strain has that orientation
+/// everywhere. None where nothing yields at any of them.
+pub fn mean_error(
+    system: &BondSystem,
+    criteria: &Criteria,
+    strains: PrincipalStretches,
+    points: &[u32],
+    orientation: f64,
+) -> Option<f64> {
+    let error =
+        |&point: &u32| Family::of_point(system, criteria, point).error(strains, orientation);
+    let errors: Vec<Option<f64>> = points.par_iter().map(error).collect();
+    let count = errors.iter().flatten().count();
+    (count > 0).then(|| errors.iter().flatten().sum::<f64>() / count as f64)
+}
+
 /// Marks the points whose families the rim of the body leaves whole (n_points): neither they nor a neighbour are marked in `on_rim`
 /// (n_points), and pre-cracks cut none of their bonds (`cut_share`, n_points).
 pub fn interior(system: &BondSystem, on_rim: &[bool], cut_share: &[f64]) -> Vec<bool> {

@@ -15,7 +15,7 @@ use super::{Chart, Drawn, GRID, LEGEND, PlotError, Series, TEXT, decimals, draw_
 const SIZE: (u32, u32) = (570 + LEGEND as u32, 600);
 
 /// Radius of the outermost circle over what the plane shows.
-const FILLED: f64 = 0.88;
+const FILLED: f64 = 0.85;
 
 /// A polar plot.
 #[derive(Debug, Clone, PartialEq)]

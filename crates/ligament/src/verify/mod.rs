@@ -16,6 +16,7 @@ use ligament_output::folder::ResultFolder;
 
 use crate::suggestion::hint;
 
+mod anisotropy;
 mod disk;
 pub mod entry;
 mod frequencies;
@@ -31,6 +32,7 @@ pub mod table;
 pub mod tally;
 mod tension;
 mod trial;
+mod yielding;
 
 pub use crate::plots;
 
@@ -41,13 +43,15 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 7] = [
+pub static EXPERIMENTS: [Experiment; 9] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
     moduli::EXPERIMENT,
     poisson::EXPERIMENT,
+    yielding::EXPERIMENT,
+    anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
 ];
 

@@ -31,7 +31,7 @@ pub fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> 
         let mut printed = paths.map(|path| subject.printed_measure(path));
         printed.any(|it| matches!(it, Ok(Some(_))))
     };
-    if subjects.iter().any(has_table) {
+    if subjects.iter().all(has_table) {
         writeln!(
             out,
             "  the measure of the MPPD paper's tables (101 orientations, atan at s0t = 0.1), %"
@@ -48,13 +48,12 @@ fn write_table(
     subjects: &[Subject],
     error: impl Fn(&Subject, PrincipalStretches) -> anyhow::Result<Option<f64>>,
 ) -> anyhow::Result<()> {
-    write_row(
-        out,
-        ["s1", "s2"].map(str::to_owned),
-        subjects.iter().map(|it| it.name.clone()),
-    )?;
+    let width = subjects.iter().map(|it| it.name.chars().count() + 2);
+    let width = width.fold(10, usize::max);
+    let names = subjects.iter().map(|it| it.name.clone());
+    write_row(out, width, ["s1", "s2"].map(str::to_owned), names)?;
     let bonds = subjects.iter().map(|it| format!("{} bonds", it.size));
-    write_row(out, ["at yield".to_owned(), String::new()], bonds)?;
+    write_row(out, width, ["at yield".to_owned(), String::new()], bonds)?;
     for [first, second] in PATHS {
         let path = PrincipalStretches::new(first, second);
         let theory = subjects[0].family().theoretical_utilisation(path);
@@ -67,7 +66,7 @@ fn write_table(
         let strains = [at_yield.first, at_yield.second].map(short);
         let percent =
             |it: Option<f64>| it.map_or("-".to_owned(), |it| format!("{:.2}", 100.0 * it));
-        write_row(out, strains, errors.into_iter().map(percent))?;
+        write_row(out, width, strains, errors.into_iter().map(percent))?;
     }
     Ok(())
 }
@@ -83,9 +82,10 @@ fn short(value: f64) -> String {
 
 fn write_row(
     out: &mut dyn Write,
+    width: usize,
     [first, second]: [String; 2],
     cells: impl Iterator<Item = String>,
 ) -> io::Result<()> {
-    let cells: Vec<String> = cells.map(|cell| format!("{cell:>10}")).collect();
+    let cells: Vec<String> = cells.map(|cell| format!("{cell:>width$}")).collect();
     writeln!(out, "  {first:>10}{second:>10}{}", cells.concat())
 }

@@ -47,7 +47,7 @@ pub(super) fn point(
             let ratio = lattice::ratio_of_size(comparison.subjects[0].size as f64);
             let strengths = request.strengths(poisson);
             let mut lattice = Subject::of_lattice(ratio, combination, &strengths)?;
-            lattice.name = format!("lattice, m = {ratio:.2}");
+            lattice.name = format!("lattice m = {ratio:.2}");
             comparison.subjects.push(lattice);
         }
         let strains = Strain::of_the_figures(poisson);
@@ -201,7 +201,7 @@ fn field_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> any
                 let (criterion, words) = (&layer.criterion, layer.strain.words);
                 writeln!(screen, "  {criterion:<20}{words:<16}{cells}  {place}")?;
                 if let Some(error) = layer.lattice {
-                    let words = format!("lattice, m = {ratio:.2}");
+                    let words = format!("lattice m = {ratio:.2}");
                     writeln!(screen, "  {:<20}{words:<16}{:>32.2}", "", 100.0 * error)?;
                 }
             }
