@@ -17,6 +17,9 @@ const LEAST_UTILISATION_TOLERANCE: f64 = 1e-9;
 /// Orientations at which the search ends at the latest: only families in which a single bond decides over a wide range come near.
 const MOST_ORIENTATIONS: usize = 1_000_000;
 
+/// Utilisation over that of the theory below which no bond is used: rounding leaves so much of a bond across the strain.
+const UNUSED: f64 = 1e-12;
+
 /// The bonds of a point: their directions and the criteria that they fail by.
 #[derive(Debug, Clone)]
 pub struct Family<'a> {
@@ -125,7 +128,7 @@ impl<'a> Family<'a> {
     /// in theory as well.
     pub fn error(&self, strains: PrincipalStretches, orientation: f64) -> Option<f64> {
         let theory = self.theoretical_utilisation(strains);
-        (theory > 0.0).then(|| theory / self.utilisation(strains, orientation) - 1.0)
+        (theory > 0.0).then(|| error_of(theory, self.utilisation(strains, orientation)))
     }
 
     /// The worst of some orientations (rad), the first where several are.
@@ -139,7 +142,7 @@ impl<'a> Family<'a> {
         let least = sampled.reduce(|best, it| if it.1 < best.1 { it } else { best })?;
         (theory > 0.0).then(|| Worst {
             orientation: least.0,
-            error: theory / least.1 - 1.0,
+            error: error_of(theory, least.1),
         })
     }
 
@@ -185,7 +188,7 @@ impl<'a> Family<'a> {
         }
         Some(Worst {
             orientation: least.0 % PI,
-            error: theory / least.1 - 1.0,
+            error: error_of(theory, least.1),
         })
     }
 
@@ -198,6 +201,15 @@ impl<'a> Family<'a> {
         (self.criteria.list.iter())
             .flat_map(|criterion| self.bonds.iter().map(move |bond| of(criterion, bond)))
             .fold(0.0, f64::max)
+    }
+}
+
+/// U_th/U - 1.
+fn error_of(theory: f64, utilisation: f64) -> f64 {
+    if utilisation > UNUSED * theory {
+        theory / utilisation - 1.0
+    } else {
+        f64::INFINITY
     }
 }
 
@@ -330,5 +342,8 @@ mod tests {
         let pulled = PrincipalStretches::new(1.0, -0.5);
         assert_eq!(family.error(pulled, 0.5 * PI), Some(f64::INFINITY));
         assert_eq!(family.worst(pulled).unwrap().error, f64::INFINITY);
+        // Stretched to 6e-17 by rounding.
+        let sheared = PrincipalStretches::new(1.0, -1.0);
+        assert_eq!(family.error(sheared, 0.25 * PI), Some(f64::INFINITY));
     }
 }
