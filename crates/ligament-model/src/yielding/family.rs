@@ -222,6 +222,7 @@ fn coefficient_of(criterion: &Criterion, bond: usize) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::failure::Measure;

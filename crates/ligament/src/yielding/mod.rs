@@ -208,7 +208,7 @@ impl Request {
         {
             return Err(YieldError::Ratio { ratio });
         }
-        if let Some(poisson) = self.poisson.filter(|it| !(it.abs() < 1.0)) {
+        if let Some(poisson) = self.poisson.filter(|it| it.is_nan() || it.abs() >= 1.0) {
             return Err(YieldError::Poisson { poisson });
         }
         let ratio = self.ratio;
