@@ -14,7 +14,8 @@ const FIRST_ORIENTATIONS: usize = 90;
 /// What the least utilisation may be too large by, over that of the theory.
 const LEAST_UTILISATION_TOLERANCE: f64 = 1e-9;
 
-/// Orientations at which the search ends at the latest: only families in which a single bond decides over a wide range come near.
+/// Orientations at which the search ends at the latest: only families in which a single bond decides over a wide
+/// range come near.
 const MOST_ORIENTATIONS: usize = 1_000_000;
 
 /// Utilisation over that of the theory below which no bond is used: rounding leaves so much of a bond across the strain.
@@ -45,7 +46,8 @@ pub struct Worst {
 }
 
 impl<'a> Family<'a> {
-    /// Bonds at the angles `directions` to the x axis (n_bonds, rad), whose limits are those of the bonds 0, 1, ... of the criteria.
+    /// Bonds at the angles `directions` to the x axis (n_bonds, rad), whose limits are those of the bonds 0, 1, ...
+    /// of the criteria.
     pub fn of_directions(directions: &[f64], criteria: &'a Criteria) -> Self {
         let bond = |(number, direction): (usize, &f64)| Bond {
             number,
@@ -82,7 +84,8 @@ impl<'a> Family<'a> {
         self.bonds.is_empty()
     }
 
-    /// U: largest utilisation of the bonds under a strain whose first axis is at the angle `orientation` to the x axis (rad).
+    /// U: largest utilisation of the bonds under a strain whose first axis is at the angle `orientation` to the x
+    /// axis (rad).
     pub fn utilisation(&self, strains: PrincipalStretches, orientation: f64) -> f64 {
         let (sine, cosine) = (2.0 * orientation).sin_cos();
         let of_bond = |bond: &Bond| {
@@ -98,8 +101,8 @@ impl<'a> Family<'a> {
         self.critical(strains).1
     }
 
-    /// The deformation in the worst direction that uses its bond most, with its criterion and utilisation U_th; the first where
-    /// several are.
+    /// The deformation in the worst direction that uses its bond most, with its criterion and utilisation U_th; the
+    /// first where several are.
     pub(super) fn critical(
         &self,
         strains: PrincipalStretches,
@@ -124,8 +127,8 @@ impl<'a> Family<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// e = U_th/U - 1 at an orientation (rad): infinite where no bond yields however large the strain is, none where that is so
-    /// in theory as well.
+    /// e = U_th/U - 1 at an orientation (rad): infinite where no bond yields however large the strain is, none where
+    /// that is so in theory as well.
     pub fn error(&self, strains: PrincipalStretches, orientation: f64) -> Option<f64> {
         let theory = self.theoretical_utilisation(strains);
         (theory > 0.0).then(|| error_of(theory, self.utilisation(strains, orientation)))
@@ -148,8 +151,9 @@ impl<'a> Family<'a> {
 
     /// The worst of all orientations.
     ///
-    /// U is no steeper than the steepest of its criteria, which bounds it from below between two orientations; where the bound
-    /// is not above the least U found so far, the middle is looked at. What is found is the least U to 1e-9 U_th.
+    /// U is no steeper than the steepest of its criteria, which bounds it from below between two orientations; where
+    /// the bound is not above the least U found so far, the middle is looked at. What is found is the least U to 1e-9
+    /// U_th.
     pub fn worst(&self, strains: PrincipalStretches) -> Option<Worst> {
         let theory = self.theoretical_utilisation(strains);
         if theory <= 0.0 {
@@ -244,8 +248,9 @@ mod tests {
         assert!((found - expected).abs() <= tolerance, "{found} {expected}");
     }
 
-    /// A bond at the misalignment phi has max(s_1, s_2) no more: e = max/(s_m + s_d cos 2phi) - 1; sliding is largest at 45 degrees to
-    /// the bond, and the lattice has the same gaps there: e = 1/cos 2phi - 1. To the tolerance of the search.
+    /// A bond at the misalignment phi has max(s_1, s_2) no more: e = max/(s_m + s_d cos 2phi) - 1; sliding is largest
+    /// at 45 degrees to the bond, and the lattice has the same gaps there: e = 1/cos 2phi - 1. To the tolerance of
+    /// the search.
     #[test]
     fn errors_of_lattices_in_closed_form() {
         for ratio in RATIOS {
@@ -275,8 +280,8 @@ mod tests {
         }
     }
 
-    /// What is met first decides: MPPD Table 7 has both limits, here (0, 1) and (-3, 0) with s_0c = -3 s_0t; per cent, printed
-    /// to 2 decimals, at the 101 orientations of the paper.
+    /// What is met first decides: MPPD Table 7 has both limits, here (0, 1) and (-3, 0) with s_0c = -3 s_0t; per
+    /// cent, printed to 2 decimals, at the 101 orientations of the paper.
     #[test]
     fn limits_in_tension_and_in_compression() {
         let directions = directions(2.0);
@@ -295,8 +300,8 @@ mod tests {
         assert_eq!(family.worst(spherical).unwrap().error, 0.0);
     }
 
-    /// An irregular family with limits of its own for each bond, against 200,000 orientations: their distance of 1.6e-5 rad times
-    /// the slope, 2 s_d/limit < 9, is what they may miss the least utilisation by.
+    /// An irregular family with limits of its own for each bond, against 200,000 orientations: their distance of
+    /// 1.6e-5 rad times the slope, 2 s_d/limit < 9, is what they may miss the least utilisation by.
     #[test]
     fn the_worst_orientation_of_an_irregular_family() {
         let directions = [0.03, 0.31, 0.42, 0.97, 1.5, 1.52, 2.2, 2.41, 2.9];

@@ -15,7 +15,8 @@ pub struct FamilyYield {
     pub least_load: f64,
 }
 
-/// First yield of the family of each point (n_points) under the strain that `strains` gives a point; none where nothing yields.
+/// First yield of the family of each point (n_points) under the strain that `strains` gives a point; none where
+/// nothing yields.
 pub fn families(
     system: &BondSystem,
     criteria: &Criteria,
@@ -32,8 +33,8 @@ pub fn families(
     points.into_par_iter().map(of_point).collect()
 }
 
-/// Mean over some points of the error at one orientation of the strain (rad): what a body sees whose strain has that orientation
-/// everywhere. None where nothing yields at any of them.
+/// Mean over some points of the error at one orientation of the strain (rad): what a body sees whose strain has that
+/// orientation everywhere. None where nothing yields at any of them.
 pub fn mean_error(
     system: &BondSystem,
     criteria: &Criteria,
@@ -48,8 +49,8 @@ pub fn mean_error(
     (count > 0).then(|| errors.iter().flatten().sum::<f64>() / count as f64)
 }
 
-/// Marks the points whose families the rim of the body leaves whole (n_points): neither they nor a neighbour are marked in `on_rim`
-/// (n_points), and pre-cracks cut none of their bonds (`cut_share`, n_points).
+/// Marks the points whose families the rim of the body leaves whole (n_points): neither they nor a neighbour are
+/// marked in `on_rim` (n_points), and pre-cracks cut none of their bonds (`cut_share`, n_points).
 pub fn interior(system: &BondSystem, on_rim: &[bool], cut_share: &[f64]) -> Vec<bool> {
     let is_whole = |point: u32| {
         let bonds = system.bonds.incidence.of(point);
@@ -78,8 +79,8 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// Of values in any order; none without values. Percentiles are linear between the values, the first at 0 and the last at
-    /// 100 %.
+    /// Of values in any order; none without values. Percentiles are linear between the values, the first at 0 and the
+    /// last at 100 %.
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let (&worst, count) = (values.last()?, values.len());

@@ -9,8 +9,8 @@ pub fn family_size(ratio: f64) -> usize {
     offsets(ratio).count()
 }
 
-/// Directions of the bonds for a horizon of `ratio` m spacings, each once and without its opposite, ascending from 0 to below
-/// pi: angles to a row of the lattice, rad. Empty below m = 1.
+/// Directions of the bonds for a horizon of `ratio` m spacings, each once and without its opposite, ascending from 0
+/// to below pi: angles to a row of the lattice, rad. Empty below m = 1.
 pub fn directions(ratio: f64) -> Vec<f64> {
     let is_first = |&[i, j]: &[i64; 2]| greatest_common_divisor(i.abs(), j.abs()) == 1;
     let is_upper = |&[i, j]: &[i64; 2]| j > 0 || (j == 0 && i > 0);
@@ -22,8 +22,8 @@ pub fn directions(ratio: f64) -> Vec<f64> {
     angles
 }
 
-/// The ratio m, of those at which the family grows, whose family has the number of bonds nearest to `size`; the smaller one where
-/// two are equally near.
+/// The ratio m, of those at which the family grows, whose family has the number of bonds nearest to `size`; the
+/// smaller one where two are equally near.
 pub fn ratio_of_size(size: f64) -> f64 {
     // The family has pi m^2 bonds, and a few more or less.
     let largest = (size.max(0.0) / PI).sqrt().ceil() as i64 + 2;
@@ -36,8 +36,8 @@ pub fn ratio_of_size(size: f64) -> f64 {
         .unwrap_or(1.0)
 }
 
-/// Largest angle between any axis and the bond nearest to it, of families with bonds at `directions` (ascending, from 0 to below
-/// pi, rad): half of the largest gap. A bond and its opposite are one. Pi/2 for less than two directions.
+/// Largest angle between any axis and the bond nearest to it, of families with bonds at `directions` (ascending, from
+/// 0 to below pi, rad): half of the largest gap. A bond and its opposite are one. Pi/2 for less than two directions.
 pub fn worst_misalignment(directions: &[f64]) -> f64 {
     let wrapped = directions.iter().skip(1).copied();
     let next = wrapped.chain(directions.first().map(|first| first + PI));

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use super::{Family, PrincipalStretches};
 use crate::element::BondDeformation;
 
-/// Distance from zero, over that of the nearest point, beyond which a locus is open: rounding makes no more of parallel lines.
+/// Distance from zero, over that of the nearest point, beyond which a locus is open: rounding makes no more of
+/// parallel lines.
 const OPEN: f64 = 1e6;
 
 /// First yield along a straight path of loading.
@@ -17,7 +18,8 @@ pub struct LocusPoint {
     pub path: f64,
     /// Strains at yield in theory: the most favourable condition for yielding, a bond in the worst direction.
     pub theoretical: PrincipalStretches,
-    /// Strains at yield in the worst orientation of the strain: the theoretical ones times 1 + e_max (MPPD Figs 36 to 38).
+    /// Strains at yield in the worst orientation of the strain: the theoretical ones times 1 + e_max (MPPD Figs 36 to
+    /// 38).
     pub effective: PrincipalStretches,
     /// Number of the criterion that decides in theory.
     pub criterion: usize,
@@ -27,13 +29,13 @@ pub struct LocusPoint {
     pub error: f64,
 }
 
-/// Points of the locus in the plane of the principal stretches, at `count` paths evenly around it from s_2 = 0, s_1 > 0. Paths along
-/// which nothing yields in theory have no point; the effective strains are infinite where a family has an orientation
-/// without yield.
+/// Points of the locus in the plane of the principal stretches, at `count` paths evenly around it from s_2 = 0, s_1 >
+/// 0. Paths along which nothing yields in theory have no point; the effective strains are infinite where a family has
+/// an orientation without yield.
 ///
-/// In the plane of a bond's stretch and sliding the effective limit is the bond's deformation at theoretical yield times 1 + e_max
-/// of its path: what the limits of an isotropic material would have to be for it to yield as late as the worst orientation. For
-/// stretch these are two points, as bonds without sliding yield first.
+/// In the plane of a bond's stretch and sliding the effective limit is the bond's deformation at theoretical yield
+/// times 1 + e_max of its path: what the limits of an isotropic material would have to be for it to yield as late as
+/// the worst orientation. For stretch these are two points, as bonds without sliding yield first.
 pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
     let point = |k: u32| {
         let path = 2.0 * PI * f64::from(k) / f64::from(count);
@@ -67,8 +69,8 @@ fn closed<T>(mut points: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
     points
 }
 
-/// Limits (s, gamma) of the weakest bond, at `count` angles evenly around the plane of stretch and sliding from gamma = 0, s > 0;
-/// without those angles at which it never yields.
+/// Limits (s, gamma) of the weakest bond, at `count` angles evenly around the plane of stretch and sliding from gamma
+/// = 0, s > 0; without those angles at which it never yields.
 pub fn bond_locus(family: &Family<'_>, count: u32) -> Vec<[f64; 2]> {
     let point = |k: u32| {
         let angle = 2.0 * PI * f64::from(k) / f64::from(count);
@@ -142,8 +144,8 @@ mod tests {
         }
     }
 
-    /// Sliding: the effective strip is 1/cos 2phi as wide whatever the path is (m = 2: phi = 22.5 degrees), the limit in the plane
-    /// of stretch and sliding likewise. To the tolerance of the search.
+    /// Sliding: the effective strip is 1/cos 2phi as wide whatever the path is (m = 2: phi = 22.5 degrees), the limit
+    /// in the plane of stretch and sliding likewise. To the tolerance of the search.
     #[test]
     fn effective_loci_are_the_theoretical_ones_times_the_error() {
         let directions = directions(2.0);

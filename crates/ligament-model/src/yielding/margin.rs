@@ -1,10 +1,11 @@
 //! The measure of MPPD Tables 8 and 9.
 //!
-//! It is no scaling of the load: the sliding that a bond could bear at its own stretch is divided by the sliding that it has, and
-//! that sliding is the angle atan(gamma) at the finite strains of s_0t = 0.1, while the limit stays as it is. The tables were
-//! reproduced with exactly this reading (34 of 35 entries of Table 9 at s_0t = 0.100, 20 at 0.099): the dependence of
-//! Table 9 on the path of loading comes from the angle alone. At first yield, which is what a model does, the error of frictional
-//! sliding depends on the path strongly ([`Family::error`](super::Family::error)).
+//! It is no scaling of the load: the sliding that a bond could bear at its own stretch is divided by the sliding that
+//! it has, and that sliding is the angle atan(gamma) at the finite strains of s_0t = 0.1, while the limit stays as it
+//! is. The tables were reproduced with exactly this reading (34 of 35 entries of Table 9 at s_0t = 0.100, 20 at
+//! 0.099): the dependence of Table 9 on the path of loading comes from the angle alone. At first yield, which is what
+//! a model does, the error of frictional sliding depends on the path strongly
+//! ([`Family::error`](super::Family::error)).
 
 use super::{PrincipalStretches, Worst, printed_orientations};
 use crate::element::BondDeformation;
@@ -41,8 +42,8 @@ pub fn worst(directions: &[f64], friction: Friction, strains: PrincipalStretches
 ///
 /// e = min over the bonds of (a - s tan(beta))/atan|gamma| - 1,
 ///
-/// with tan(beta) = 0 for sliding without friction. A bond without sliding decides only where it has no room for any, at the
-/// apex, and e = 0 there.
+/// with tan(beta) = 0 for sliding without friction. A bond without sliding decides only where it has no room for any,
+/// at the apex, and e = 0 there.
 pub fn error(
     directions: &[f64],
     friction: Friction,
@@ -94,8 +95,8 @@ mod tests {
         }
     }
 
-    /// Without the angle and between the sampled orientations it would be 1/cos 2phi - 1; here one bond at 20 degrees to the worst
-    /// direction of the sliding, |gamma| = 0.05 cos 40.
+    /// Without the angle and between the sampled orientations it would be 1/cos 2phi - 1; here one bond at 20 degrees
+    /// to the worst direction of the sliding, |gamma| = 0.05 cos 40.
     #[test]
     fn sliding_is_taken_as_an_angle() {
         let sliding = Friction {

@@ -1,9 +1,9 @@
 //! First yield of a family of bonds under a uniform strain: what the directions of the bonds do to a failure criterion.
 //!
-//! A criterion is met first by the bond whose direction is worst for it. The family has bonds in some directions only, so that
-//! the load at first yield depends on how the strain lies to them (MPPD section 4). With U(Theta) the largest utilisation of the
-//! bonds under a strain whose first principal axis is turned by Theta, the load factor at first yield is 1/U(Theta); with U_th that
-//! of a family that has its weakest bonds in every direction, the error is
+//! A criterion is met first by the bond whose direction is worst for it. The family has bonds in some directions
+//! only, so that the load at first yield depends on how the strain lies to them (MPPD section 4). With U(Theta) the
+//! largest utilisation of the bonds under a strain whose first principal axis is turned by Theta, the load factor at
+//! first yield is 1/U(Theta); with U_th that of a family that has its weakest bonds in every direction, the error is
 //!
 //! e(Theta) = U_th/U(Theta) - 1.
 //!

@@ -13,8 +13,8 @@ use crate::failure::Measure;
 /// | friction | cos 2x = +-sin(beta), q = tan(beta) | s_m q + s_d/cos(beta) |
 /// | energy | an axis, 45 degrees, where s = 0, or cos 2x = s_m/(s_d (q - 1)) | the largest of these |
 ///
-/// with s_m = (s_1 + s_2)/2 and s_d = |s_1 - s_2|/2 (for friction MPPD Fig. 10). Of the two signs of the sliding it is the positive
-/// one.
+/// with s_m = (s_1 + s_2)/2 and s_d = |s_1 - s_2|/2 (for friction MPPD Fig. 10). Of the two signs of the sliding it
+/// is the positive one.
 pub fn critical_deformation(
     measure: Measure,
     coefficient: f64,
@@ -79,9 +79,9 @@ mod tests {
         Measure::Energy,
     ];
 
-    /// Against 20,000 directions: nothing is larger, and the largest of them is as near as their distance of 1.6e-4 rad allows,
-    /// which is its square times the second derivative (below 4 s_d max(q, 1) on the smooth branches), or a slope where the energy has
-    /// a kink at s = 0 (its root, at zero shear, only).
+    /// Against 20,000 directions: nothing is larger, and the largest of them is as near as their distance of 1.6e-4
+    /// rad allows, which is its square times the second derivative (below 4 s_d max(q, 1) on the smooth branches), or
+    /// a slope where the energy has a kink at s = 0 (its root, at zero shear, only).
     #[test]
     fn no_direction_is_worse_than_the_critical_one() {
         for measure in ALL {

@@ -7,7 +7,8 @@ use ligament_model::yielding::PrincipalStretches;
 use super::diagrams::{Comparison, PATHS};
 use super::subject::Subject;
 
-/// Errors of all paths, a column a family, as MPPD Tables 7 to 9 have them; with the measure of those tables below each other.
+/// Errors of all paths, a column a family, as MPPD Tables 7 to 9 have them; with the measure of those tables below
+/// each other.
 ///
 /// # Errors
 ///

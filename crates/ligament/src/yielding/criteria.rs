@@ -123,8 +123,8 @@ impl Combination {
         })
     }
 
-    /// The error of MPPD Tables 7, 8 or 9 for bonds at these directions (rad), the worst of the printed orientations: none for
-    /// other criteria, which have no table, and where nothing yields.
+    /// The error of MPPD Tables 7, 8 or 9 for bonds at these directions (rad), the worst of the printed orientations:
+    /// none for other criteria, which have no table, and where nothing yields.
     ///
     /// # Errors
     ///
