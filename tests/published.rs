@@ -94,4 +94,14 @@ macro_rules! experiments {
     };
 }
 
-experiments!(frequencies, statics, lamina, tension, moduli, poisson, disk);
+experiments!(
+    frequencies,
+    statics,
+    lamina,
+    tension,
+    moduli,
+    poisson,
+    yielding,
+    anisotropy,
+    disk
+);

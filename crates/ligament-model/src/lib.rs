@@ -28,6 +28,7 @@ pub mod material;
 pub mod moduli;
 pub mod shape;
 pub mod system;
+pub mod yielding;
 
 pub use bonds::{BondSet, Incidence};
 pub use cloud::PointCloud;

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::case::MOST_THREADS;
+use crate::yielding::criteria::Combination;
 
 /// Peridynamics for the plane: mesh in, cracks out.
 ///
@@ -51,6 +52,14 @@ pub enum Command {
     /// replaced only by one that could be read.
     #[command(after_help = MESH_EXAMPLES)]
     Mesh(MeshArgs),
+    /// When bonds yield first, and how the directions of the bonds distort that
+    ///
+    /// Turns a uniform strain through all orientations to a family of bonds and finds the load at which
+    /// the first bond meets a failure criterion: for square lattices with horizons of m spacings, for a
+    /// point of a case, or as a field over all points of a case. Writes tables (CSV), polar diagrams
+    /// of the error and loci (SVG), or fields (VTU).
+    #[command(after_help = YIELD_EXAMPLES)]
+    Yield(YieldArgs),
     /// Run the published cases and compare with their printed values
     ///
     /// Runs cases of the papers that the models are from, and prints for every known value what this
@@ -95,6 +104,18 @@ Examples:
 
 A --set gives a number that the geometry declares by DefineConstant[ h = ... ].
 Lengths of the geometry are in m.";
+
+const YIELD_EXAMPLES: &str = "\
+Examples:
+  ligament yield                                    lattices, m = 2, 3, 3.2, 4, 5: results/yield
+  ligament yield --m 3 --nu 0.25 --criterion frictional --calibration two-point
+  ligament yield --criterion sliding+stretch --ratio 1
+  ligament yield --case case.toml --at 0.01,0.02    the family of a point, with the criteria of the case
+  ligament yield --case case.toml --point 120 --criterion stretch
+  ligament yield --case case.toml                   all points: how anisotropic is the mesh?
+
+Criteria: stretch (tension and compression), tension, compression, sliding, frictional; joined by
++ the first that is met. Their limits are the same for all bonds, in units of the tensile limit s0t.";
 
 const VERIFY_EXAMPLES: &str = "\
 Examples:
@@ -185,6 +206,62 @@ pub struct MeshArgs {
     pub numbers: Vec<(String, f64)>,
 }
 
+/// `ligament yield`.
+#[derive(Debug, Args)]
+pub struct YieldArgs {
+    /// Horizons of lattices in spacings
+    #[arg(long, value_name = "RATIO", value_delimiter = ',', default_values_t = [2.0, 3.0, 3.2, 4.0, 5.0], conflicts_with = "case")]
+    pub m: Vec<f64>,
+    /// Look at the bonds of this case (TOML) instead
+    #[arg(long, value_name = "CASE.toml")]
+    pub case: Option<PathBuf>,
+    /// Of the case, only the point nearest to this position, m
+    #[arg(long, value_name = "X,Y", requires = "case", allow_hyphen_values = true, value_parser = position)]
+    pub at: Option<[f64; 2]>,
+    /// Of the case, only the node (or cell of a lattice) of this number
+    #[arg(long, value_name = "NUMBER", requires = "case", conflicts_with = "at")]
+    pub point: Option<u64>,
+    /// Change a setting of the case, e.g. model.horizon_factor=4 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "case")]
+    pub overrides: Vec<String>,
+    /// A criterion with the same limits for all bonds, e.g. sliding+stretch (may be repeated) [default:
+    /// those of the figures of the paper, or those of the case]
+    #[arg(long = "criterion", value_name = "NAME")]
+    pub criteria: Vec<Combination>,
+    /// Poisson's ratio in the plane [default: 0, or that of the case]
+    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
+    pub nu: Option<f64>,
+    /// Compressive over tensile strength, for criteria with the same limits for all bonds
+    #[arg(
+        long,
+        value_name = "RATIO",
+        default_value_t = 3.0,
+        allow_negative_numbers = true
+    )]
+    pub ratio: f64,
+    /// How the friction of `frictional` comes from the strengths
+    #[arg(long, value_enum, default_value_t = YieldCalibration::Printed)]
+    pub calibration: YieldCalibration,
+    /// Threads to compute with [default: solver.threads of the case, or one per processor]
+    #[arg(long, value_name = "N", requires = "case", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
+    pub threads: Option<u32>,
+    /// Folder for the results [default: results/yield, or results/NAME-yield with the name of the case's folder]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace earlier results in the folder
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// How the friction of bonds comes from two strengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum YieldCalibration {
+    /// As printed: exact for a bar at nu = 0 alone
+    Printed,
+    /// Exact for a bar in tension and compression
+    TwoPoint,
+}
+
 /// `ligament verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
@@ -229,6 +306,14 @@ fn number_setting(text: &str) -> Result<(String, f64), String> {
     }
 }
 
+fn position(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
+    let numbers = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    numbers.ok_or_else(|| "expected X,Y in m, such as 0.01,-0.02".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -243,6 +328,8 @@ mod tests {
     fn numbers_for_the_geometry_are_numbers() {
         assert_eq!(number_setting("h=1e-3"), Ok(("h".to_owned(), 1e-3)));
         assert!(number_setting("h").is_err_and(|error| error.contains("NAME=VALUE")));
+        assert_eq!(position("1e-2, -0.5"), Ok([0.01, -0.5]));
+        assert!(position("0.1").is_err() && position("0.1,nan").is_err());
         assert!(number_setting("h=2mm").is_err_and(|error| error.contains("`2mm`")));
     }
 }

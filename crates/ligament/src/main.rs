@@ -1,7 +1,7 @@
 //! The `ligament` program.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
@@ -9,11 +9,14 @@ use ligament::case::{CaseError, CaseFile};
 use ligament::check::Extent;
 use ligament::cli::{
     CaseArgs, CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs, VerifyArgs,
+    YieldArgs, YieldCalibration,
 };
 use ligament::mesh_command::{MeshRequest, make_mesh};
 use ligament::progress::ProgressMode;
 use ligament::verify::table::Extent as VerifyExtent;
-use ligament::{check, inspect, run, verify};
+use ligament::yielding::{Families, Place};
+use ligament::{check, inspect, run, verify, yielding};
+use ligament_model::failure::frictional::Calibration;
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
@@ -21,6 +24,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check(args),
         Command::Inspect(args) => inspect(&args),
         Command::Mesh(args) => mesh(args),
+        Command::Yield(args) => yielding(args),
         Command::Verify(args) => verify(args),
         Command::Completions(args) => completions(&args),
     };
@@ -94,6 +98,39 @@ fn mesh(args: MeshArgs) -> anyhow::Result<()> {
         &request.out,
         &mesh,
     )?)
+}
+
+fn yielding(args: YieldArgs) -> anyhow::Result<()> {
+    let (of, default_out) = match args.case {
+        None => (Families::Lattices(args.m), PathBuf::from("results/yield")),
+        Some(file) => {
+            let case = Box::new(load(CaseArgs {
+                file,
+                overrides: args.overrides,
+                threads: args.threads,
+            })?);
+            let out = Path::new("results").join(format!("{}-yield", case.name()));
+            let place = args.at.map(Place::At).or(args.point.map(Place::Tag));
+            let of = match place {
+                Some(place) => Families::Point(case, place),
+                None => Families::Field(case),
+            };
+            (of, out)
+        }
+    };
+    let request = yielding::Request {
+        of,
+        combinations: args.criteria,
+        poisson: args.nu,
+        ratio: args.ratio,
+        calibration: match args.calibration {
+            YieldCalibration::Printed => Calibration::Printed,
+            YieldCalibration::TwoPoint => Calibration::TwoPoint,
+        },
+        out: args.out.unwrap_or(default_out),
+        force: args.force,
+    };
+    yielding::yielding(&request, &mut io::stdout())
 }
 
 fn verify(args: VerifyArgs) -> anyhow::Result<()> {

@@ -25,7 +25,7 @@ use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
 pub use modes::write_modes;
-pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid};
+pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
 use tables::Tables;
 
 /// What to write, and how often.

@@ -76,6 +76,13 @@ pub fn point_grid(
     grid.write(path, None, &fields)
 }
 
+/// Writes fields of the points (n_points) of a body at rest, with the tags of the points.
+pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
+    let tags = Field::integer(grid.tagged, &grid.tags);
+    let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
+    grid.write(path, None, &all)
+}
+
 /// Writes the fields of a state.
 pub(super) fn write(
     path: &Path,

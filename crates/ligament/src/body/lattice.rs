@@ -1,6 +1,6 @@
 //! A body on a lattice: points at the centres of the cells, named sets.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::io::{self, Write};
 
 use ligament_model::{Lattice, PointCloud, Shape};
@@ -144,6 +144,22 @@ impl Body for LatticeBody {
 
     fn holes(&self) -> &[Shape] {
         &self.lattice.holes
+    }
+
+    /// The cells that lack one of four neighbours.
+    fn rim(&self) -> Vec<bool> {
+        let cells: HashSet<[u32; 2]> = self.lattice.cells.iter().copied().collect();
+        let is_outer = |&[column, row]: &[u32; 2]| {
+            // Below zero there is no cell: the number wraps to one that no lattice has.
+            let sides = [
+                [column.wrapping_sub(1), row],
+                [column + 1, row],
+                [column, row.wrapping_sub(1)],
+                [column, row + 1],
+            ];
+            !sides.iter().all(|side| cells.contains(side))
+        };
+        self.lattice.cells.iter().map(is_outer).collect()
     }
 
     fn grid(&self) -> BodyGrid {

@@ -85,6 +85,26 @@ impl Body for MeshBody {
         lengths.into_iter().collect()
     }
 
+    /// The nodes of edges that one cell has alone.
+    fn rim(&self) -> Vec<bool> {
+        let mut cells_of_edge: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+        for cell in &self.0.cells {
+            let corners = cell.corners();
+            let next = corners.iter().cycle().skip(1);
+            for (&from, &to) in corners.iter().zip(next) {
+                *cells_of_edge
+                    .entry([from.min(to), from.max(to)])
+                    .or_insert(0) += 1;
+            }
+        }
+        let mut marked = vec![false; self.0.positions.len()];
+        let outer = cells_of_edge.iter().filter(|(_, cells)| **cells == 1);
+        for node in outer.flat_map(|(edge, _)| edge) {
+            marked[*node as usize] = true;
+        }
+        marked
+    }
+
     fn remarks(&self) -> Vec<String> {
         let remarks = self.0.remarks.iter();
         remarks.map(|remark| format!("mesh: {remark}")).collect()

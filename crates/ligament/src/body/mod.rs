@@ -52,6 +52,9 @@ pub trait Body: Debug + Send + Sync {
         &[]
     }
 
+    /// Marks the points on its rim: at the edge of the body or of a hole (n_points).
+    fn rim(&self) -> Vec<bool>;
+
     /// What the user should know about it.
     fn remarks(&self) -> Vec<String> {
         Vec::new()

@@ -16,13 +16,13 @@ use ligament_output::folder::ResultFolder;
 
 use crate::suggestion::hint;
 
+mod anisotropy;
 mod disk;
 pub mod entry;
 mod frequencies;
 mod lamina;
 mod moduli;
 mod named_modes;
-pub mod plots;
 mod poisson;
 pub mod printed;
 pub mod published;
@@ -32,6 +32,9 @@ pub mod table;
 pub mod tally;
 mod tension;
 mod trial;
+mod yielding;
+
+pub use crate::plots;
 
 use entry::Verdict;
 use plots::Plot;
@@ -40,13 +43,15 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 7] = [
+pub static EXPERIMENTS: [Experiment; 9] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
     moduli::EXPERIMENT,
     poisson::EXPERIMENT,
+    yielding::EXPERIMENT,
+    anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
 ];
 

@@ -9,8 +9,8 @@ use ligament_analysis::{COMPONENTS, Termination};
 use ligament_mesh::gmsh;
 
 use crate::body::{self, Body};
-use crate::case::{CaseError, CaseFile};
-use crate::model::{Model, build_model};
+use crate::case::{Case, CaseError, CaseFile};
+use crate::model::{Model, build_model, model_of};
 use crate::progress::{Progress, ProgressMode};
 use crate::solve::{Solution, modes, solve};
 use crate::stages::Stages;
@@ -68,11 +68,29 @@ impl Trial {
 
     /// The discrete model of the case, as `ligament run` builds it.
     pub(super) fn model(&self) -> anyhow::Result<Model> {
+        self.model_with(|_| {})
+    }
+
+    /// The discrete model of the case after a change that no setting makes.
+    pub(super) fn model_with(&self, change: impl FnOnce(&mut Case)) -> anyhow::Result<Model> {
         let build = || {
+            let mut case = self.case()?;
+            change(&mut case.case);
             let progress = Progress::new(ProgressMode::Quiet);
-            build_model(&self.case()?, &mut Stages::default(), &progress)
+            build_model(&case, &mut Stages::default(), &progress)
         };
         build().with_context(|| self.command())
+    }
+
+    /// The discrete model of the case on a stored mesh.
+    pub(super) fn model_on(self, mesh: &StoredMesh) -> anyhow::Result<Model> {
+        let trial = self.set("mesh.file", mesh.path);
+        let build = || {
+            let body = body::of_mesh(gmsh::parse(mesh.bytes)?);
+            let progress = Progress::new(ProgressMode::Quiet);
+            model_of(&trial.case()?, body, &mut Stages::default(), &progress)
+        };
+        build().with_context(|| trial.command())
     }
 
     /// The natural modes of the case, as `ligament run` finds them.

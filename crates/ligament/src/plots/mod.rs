@@ -1,4 +1,10 @@
 //! Curves as SVG.
+//!
+//! A [`Plot`] has scales of its own along x and y; [`equal`] draws one with the same scale along both, [`polar`] draws
+//! curves around a centre.
+
+pub mod equal;
+pub mod polar;
 
 use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
@@ -111,6 +117,11 @@ impl Series {
             points,
         }
     }
+
+    /// Its points, shape (n, 2).
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
 }
 
 impl Plot {
@@ -128,10 +139,7 @@ impl Plot {
         };
         let mut text = String::new();
         self.draw(&mut text, x, y)
-            .map_err(|error| PlotError::Drawing {
-                name: self.name.clone(),
-                reason: error.to_string(),
-            })?;
+            .map_err(|error| self.error(&error))?;
         Ok(text)
     }
 
@@ -139,12 +147,31 @@ impl Plot {
         let area = SVGBackend::with_string(out, SIZE).into_drawing_area();
         area.fill(&WHITE)?;
         let (plane, legend) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
-        let mut chart = ChartBuilder::on(&plane)
+        let mut chart = self.chart(&plane, x, y)?;
+        self.draw_axes(&mut chart, x, y)?;
+        for series in &self.series {
+            series.draw(&mut chart)?;
+        }
+        draw_legends(&self.series, &legend)?;
+        area.present()
+    }
+
+    /// The room for the curves, in ranges of x and y.
+    fn chart<'a, 'b>(
+        &self,
+        plane: &'a DrawingArea<Backend<'b>, Shift>,
+        x: [f64; 2],
+        y: [f64; 2],
+    ) -> Result<Chart<'a, 'b>, DrawingAreaErrorKind<std::io::Error>> {
+        ChartBuilder::on(plane)
             .margin(14)
             .caption(&self.title, ("sans-serif", 19, &TEXT))
             .x_label_area_size(46)
             .y_label_area_size(68)
-            .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
+            .build_cartesian_2d(x[0]..x[1], y[0]..y[1])
+    }
+
+    fn draw_axes(&self, chart: &mut Chart<'_, '_>, x: [f64; 2], y: [f64; 2]) -> Drawn {
         let (x_decimals, y_decimals) = (decimals(x), decimals(y));
         chart
             .configure_mesh()
@@ -159,16 +186,24 @@ impl Plot {
             .light_line_style(WHITE)
             .bold_line_style(GRID)
             .axis_style(AXES)
-            .draw()?;
-        for series in &self.series {
-            series.draw(&mut chart)?;
-        }
-        let named = self.series.iter().filter(|series| series.is_named());
-        for (place, series) in named.enumerate() {
-            series.draw_legend(&legend, 52 + LINE * place as i32)?;
-        }
-        area.present()
+            .draw()
     }
+
+    fn error(&self, error: &DrawingAreaErrorKind<std::io::Error>) -> PlotError {
+        PlotError::Drawing {
+            name: self.name.clone(),
+            reason: error.to_string(),
+        }
+    }
+}
+
+/// The legends of the curves that have a name and points, below each other.
+fn draw_legends(series: &[Series], area: &DrawingArea<Backend<'_>, Shift>) -> Drawn {
+    let named = series.iter().filter(|series| series.is_named());
+    for (place, series) in named.enumerate() {
+        series.draw_legend(area, 52 + LINE * place as i32)?;
+    }
+    Ok(())
 }
 
 type Backend<'a> = SVGBackend<'a>;

@@ -1,0 +1,134 @@
+//! The anisotropy of every family of a body.
+
+use rayon::prelude::*;
+
+use super::{Family, PrincipalStretches, Worst};
+use crate::failure::Criteria;
+use crate::system::BondSystem;
+
+/// What directions and limits of the bonds of a point make of a strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FamilyYield {
+    /// The worst orientation, with its error.
+    pub worst: Worst,
+    /// Load factor of the strain at first yield in theory, 1/U_th: that of the orientation that yields first.
+    pub least_load: f64,
+}
+
+/// First yield of the family of each point (n_points) under the strain that `strains` gives a point; none where
+/// nothing yields.
+pub fn families(
+    system: &BondSystem,
+    criteria: &Criteria,
+    strains: impl Fn(u32) -> PrincipalStretches + Sync,
+) -> Vec<Option<FamilyYield>> {
+    let of_point = |point: u32| {
+        let (family, strains) = (Family::of_point(system, criteria, point), strains(point));
+        Some(FamilyYield {
+            worst: family.worst(strains)?,
+            least_load: 1.0 / family.theoretical_utilisation(strains),
+        })
+    };
+    let points = 0..system.cloud.len() as u32;
+    points.into_par_iter().map(of_point).collect()
+}
+
+/// Mean over some points of the error at one orientation of the strain (rad): what a body sees whose strain has that
+/// orientation everywhere. None where nothing yields at any of them.
+pub fn mean_error(
+    system: &BondSystem,
+    criteria: &Criteria,
+    strains: PrincipalStretches,
+    points: &[u32],
+    orientation: f64,
+) -> Option<f64> {
+    let error =
+        |&point: &u32| Family::of_point(system, criteria, point).error(strains, orientation);
+    let errors: Vec<Option<f64>> = points.par_iter().map(error).collect();
+    let count = errors.iter().flatten().count();
+    (count > 0).then(|| errors.iter().flatten().sum::<f64>() / count as f64)
+}
+
+/// Marks the points whose families the rim of the body leaves whole (n_points): neither they nor a neighbour are
+/// marked in `on_rim` (n_points), and pre-cracks cut none of their bonds (`cut_share`, n_points).
+pub fn interior(system: &BondSystem, on_rim: &[bool], cut_share: &[f64]) -> Vec<bool> {
+    let is_whole = |point: u32| {
+        let bonds = system.bonds.incidence.of(point);
+        let mut neighbours = bonds
+            .iter()
+            .map(|&bond| system.bonds.neighbour(bond, point));
+        let place = point as usize;
+        !on_rim[place] && cut_share[place] == 0.0 && !neighbours.any(|it| on_rim[it as usize])
+    };
+    (0..system.cloud.len() as u32).map(is_whole).collect()
+}
+
+/// Mean, percentiles and the largest of some values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distribution {
+    /// Number of values.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Value below which 5 % lie.
+    pub percentile_5: f64,
+    /// Value below which 95 % lie.
+    pub percentile_95: f64,
+    /// Largest.
+    pub worst: f64,
+}
+
+impl Distribution {
+    /// Of values in any order; none without values. Percentiles are linear between the values, the first at 0 and the
+    /// last at 100 %.
+    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_by(f64::total_cmp);
+        let (&worst, count) = (values.last()?, values.len());
+        let at = |share: f64| {
+            let place = share * (count - 1) as f64;
+            let (below, part) = (place.floor(), place.fract());
+            let low = values[below as usize];
+            let high = values[(below as usize + 1).min(count - 1)];
+            if part > 0.0 {
+                low + part * (high - low)
+            } else {
+                low
+            }
+        };
+        Some(Self {
+            count,
+            mean: values.iter().sum::<f64>() / count as f64,
+            percentile_5: at(0.05),
+            percentile_95: at(0.95),
+            worst,
+        })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_distribution_by_hand() {
+        let values = (0..=100).rev().map(f64::from).collect();
+        let found = Distribution::of(values).unwrap();
+        let expected = Distribution {
+            count: 101,
+            mean: 50.0,
+            percentile_5: 5.0,
+            percentile_95: 95.0,
+            worst: 100.0,
+        };
+        assert_eq!(found, expected);
+        assert_eq!(Distribution::of(Vec::new()), None);
+        let pair = Distribution::of(vec![1.0, 3.0]).unwrap();
+        assert!(
+            (pair.percentile_5 - 1.1).abs() < 1e-15,
+            "linear between values"
+        );
+        let open = Distribution::of(vec![1.0, f64::INFINITY]).unwrap();
+        assert_eq!(open.worst, f64::INFINITY);
+    }
+}

@@ -1,0 +1,79 @@
+//! First yield of a family of bonds under a uniform strain: what the directions of the bonds do to a failure criterion.
+//!
+//! A criterion is met first by the bond whose direction is worst for it. The family has bonds in some directions
+//! only, so that the load at first yield depends on how the strain lies to them (MPPD section 4). With U(Theta) the
+//! largest utilisation of the bonds under a strain whose first principal axis is turned by Theta, the load factor at
+//! first yield is 1/U(Theta); with U_th that of a family that has its weakest bonds in every direction, the error is
+//!
+//! e(Theta) = U_th/U(Theta) - 1.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`family`] | utilisation, errors and the worst orientation of a family of bonds |
+//! | [`lattice`] | the directions of the bonds of a regular lattice |
+//! | [`theory`] | the direction that is worst for a criterion, U_th |
+//! | [`margin`] | the measure of MPPD Tables 8 and 9, which is another one |
+//! | [`locus`] | loci of first yield over all strains, theoretical and effective |
+//! | [`field`] | the anisotropy of every family of a body |
+//!
+//! All points turn with the body here: the sliding of a bond is that of the strain.
+
+pub mod family;
+pub mod field;
+pub mod lattice;
+pub mod locus;
+pub mod margin;
+pub mod theory;
+
+pub use family::{Family, Worst};
+
+use crate::element::BondDeformation;
+
+/// A uniform strain by its principal stretches; the axis of the second is a quarter turn ahead of that of the first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalStretches {
+    /// s_1.
+    pub first: f64,
+    /// s_2.
+    pub second: f64,
+}
+
+impl PrincipalStretches {
+    /// The strains s_1 and s_2.
+    pub fn new(first: f64, second: f64) -> Self {
+        Self { first, second }
+    }
+
+    /// (s_1 + s_2)/2.
+    pub fn mean(&self) -> f64 {
+        0.5 * (self.first + self.second)
+    }
+
+    /// |s_1 - s_2|/2.
+    pub fn deviator(&self) -> f64 {
+        0.5 * (self.first - self.second).abs()
+    }
+
+    /// The same strain so many times.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self::new(factor * self.first, factor * self.second)
+    }
+
+    /// Deformation of a bond at the angle x to the first axis, from cos 2x and sin 2x (MPPD eq. 68):
+    ///
+    /// s = (s_1 + s_2)/2 + (s_1 - s_2)/2 cos 2x, gamma = -(s_1 - s_2)/2 sin 2x.
+    #[inline]
+    pub fn along(&self, [cosine, sine]: [f64; 2]) -> BondDeformation {
+        let half_difference = 0.5 * (self.first - self.second);
+        BondDeformation {
+            stretch: self.mean() + half_difference * cosine,
+            shear: -half_difference * sine,
+            rotation: 0.0,
+        }
+    }
+}
+
+/// The orientations at which MPPD samples: 0 to 90 degrees in steps of 0.9, 101 of them, rad.
+pub fn printed_orientations() -> impl Iterator<Item = f64> + Clone {
+    (0..=100u32).map(|k| (0.9 * f64::from(k)).to_radians())
+}

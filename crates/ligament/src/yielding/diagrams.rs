@@ -1,0 +1,317 @@
+//! Errors over orientation and loci: tables (CSV) and diagrams (SVG).
+
+use std::f64::consts::TAU;
+
+use ligament_model::yielding::PrincipalStretches;
+use ligament_model::yielding::locus::{LocusPoint, bond_locus, principal_locus};
+use ligament_output::csv::{Table, Value};
+use ligament_output::folder::ResultFolder;
+
+use super::SUMMARY;
+use super::subject::{Strain, Subject};
+use crate::plots::equal::EqualScales;
+use crate::plots::polar::PolarPlot;
+use crate::plots::{Colour, Mark, Plot, Series};
+
+/// Families of bonds under one criterion, or several of which the first that is met decides.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The criterion.
+    pub criterion: String,
+    /// The families.
+    pub subjects: Vec<Subject>,
+}
+
+/// Paths of loading in the tables, s_1 to s_2: those of the paper's at F_c = 3 F_t.
+pub const PATHS: [[f64; 2]; 12] = [
+    [1.0, 1.0],
+    [0.5, 1.0],
+    [0.0, 1.0],
+    [-1.0, 2.0],
+    [-1.0, 1.0],
+    [-3.0, 2.0],
+    [-2.0, 1.0],
+    [-3.0, 1.0],
+    [-6.0, 1.0],
+    [-1.0, 0.0],
+    [-1.0, -0.5],
+    [-1.0, -1.0],
+];
+
+/// Paths of a locus: one a degree.
+const LOCUS_PATHS: u32 = 360;
+
+/// Distance between the orientations of the tables, degrees: the paper's step.
+const ORIENTATION_STEP: f64 = 0.9;
+
+/// How far beyond the nearest point of the theoretical loci a diagram shows open ones.
+const WINDOW: f64 = 4.0;
+
+const COLOURS: [Colour; 6] = [
+    Colour::Blue,
+    Colour::Vermilion,
+    Colour::Green,
+    Colour::Purple,
+    Colour::Orange,
+    Colour::Sky,
+];
+
+/// Writes the tables `yield.csv`, `orientation.csv`, `locus.csv` and the diagrams of them.
+///
+/// # Errors
+///
+/// If a file cannot be written.
+pub fn write(
+    folder: &ResultFolder,
+    comparisons: &[Comparison],
+    strains: &[Strain],
+) -> anyhow::Result<()> {
+    write_summary(folder, comparisons)?;
+    let mut orientation = Table::create(
+        folder.file("orientation.csv"),
+        &["criterion", "family", "strain", "orientation_deg", "error"],
+    )?;
+    let mut locus = Table::create(
+        folder.file("locus.csv"),
+        &[
+            "criterion",
+            "family",
+            "path_deg",
+            "s1",
+            "s2",
+            "s1_effective",
+            "s2_effective",
+            "bond_stretch",
+            "bond_sliding",
+            "decides",
+            "error",
+        ],
+    )?;
+    for comparison in comparisons {
+        for strain in strains {
+            if let Some(plot) = polar(comparison, strain, &mut orientation)? {
+                folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
+            }
+        }
+        for plot in loci(comparison, &mut locus)? {
+            folder.write_text(&format!("{}.svg", plot.plot.name), &plot.to_svg()?)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_summary(folder: &ResultFolder, comparisons: &[Comparison]) -> anyhow::Result<()> {
+    let columns = [
+        "criterion",
+        "family",
+        "bonds",
+        "s1",
+        "s2",
+        "error",
+        "worst_orientation_deg",
+        "printed_measure",
+        "printed_orientation_deg",
+    ];
+    let mut table = Table::create(folder.file(SUMMARY), &columns)?;
+    for comparison in comparisons {
+        for subject in &comparison.subjects {
+            let family = subject.family();
+            for [first, second] in PATHS {
+                let path = PrincipalStretches::new(first, second);
+                let Some(worst) = family.worst(path) else {
+                    continue;
+                };
+                let on_locus = path.scaled(1.0 / family.theoretical_utilisation(path));
+                let printed = subject.printed_measure(path)?;
+                let of = |value: Option<f64>| Value::from(value.unwrap_or(f64::NAN));
+                table.append(&[
+                    comparison.criterion.as_str().into(),
+                    subject.name.as_str().into(),
+                    subject.size.into(),
+                    on_locus.first.into(),
+                    on_locus.second.into(),
+                    worst.error.into(),
+                    worst.orientation.to_degrees().into(),
+                    of(printed.map(|it| it.error)),
+                    of(printed.map(|it| it.orientation.to_degrees())),
+                ])?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The name of a diagram of a criterion; `+` is no letter of addresses.
+fn file_name(kind: &str, criterion: &str) -> String {
+    format!("{kind}-{}", criterion.replace(['+', ' '], "-"))
+}
+
+/// Errors over the orientation; none where nothing yields.
+fn polar(
+    comparison: &Comparison,
+    strain: &Strain,
+    table: &mut Table,
+) -> anyhow::Result<Option<PolarPlot>> {
+    let criterion = &comparison.criterion;
+    let mut series = Vec::new();
+    for (subject, colour) in comparison.subjects.iter().zip(COLOURS.iter().cycle()) {
+        let family = subject.family();
+        let mut points = Vec::new();
+        for k in 0..=400u32 {
+            let degrees = ORIENTATION_STEP * f64::from(k);
+            let orientation = degrees.to_radians();
+            let Some(error) = family.error(strain.stretches, orientation) else {
+                continue;
+            };
+            points.push([orientation, 100.0 * error]);
+            if k <= 200 {
+                table.append(&[
+                    criterion.as_str().into(),
+                    subject.name.as_str().into(),
+                    strain.name.into(),
+                    degrees.into(),
+                    error.into(),
+                ])?;
+            }
+        }
+        series.push(Series::new(&subject.name, Mark::Curve, *colour, points));
+    }
+    let plot = PolarPlot {
+        name: file_name(&format!("error-{}", strain.name), criterion),
+        title: format!("Error of first yield: {criterion}, {}", strain.words),
+        radius: "error, %, over the orientation of the first principal axis".to_owned(),
+        series,
+    };
+    let is_drawn = |series: &Series| series.points().iter().any(|it| it[1].is_finite());
+    Ok(plot.series.iter().any(is_drawn).then_some(plot))
+}
+
+/// Loci in the planes of the principal stretches and of the bond's stretch and sliding.
+fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualScales>> {
+    let criterion = &comparison.criterion;
+    let (mut principal, mut bond) = (Vec::new(), Vec::new());
+    let (mut theory, mut limits) = (Vec::new(), Vec::new());
+    for (subject, colour) in comparison.subjects.iter().zip(COLOURS.iter().cycle()) {
+        let family = subject.family();
+        let points = principal_locus(&family, LOCUS_PATHS);
+        for it in &points {
+            table.append(&[
+                criterion.as_str().into(),
+                subject.name.as_str().into(),
+                it.path.to_degrees().into(),
+                it.theoretical.first.into(),
+                it.theoretical.second.into(),
+                it.effective.first.into(),
+                it.effective.second.into(),
+                it.bond.stretch.into(),
+                it.bond.shear.into(),
+                subject.criterion_name(it.criterion).into(),
+                it.error.into(),
+            ])?;
+        }
+        let effective = around(&points, |it| it.effective);
+        principal.push(Series::new(&subject.name, Mark::Curve, *colour, effective));
+        for (place, piece) in deciding(&points).into_iter().enumerate() {
+            let name = if place == 0 {
+                subject.name.as_str()
+            } else {
+                ""
+            };
+            let mirrored = piece
+                .iter()
+                .map(|&[stretch, shear]| [stretch, -shear])
+                .collect();
+            bond.push(Series::new(name, Mark::Curve, *colour, piece));
+            bond.push(Series::new("", Mark::Curve, *colour, mirrored));
+        }
+        if theory.is_empty() {
+            theory = around(&points, |it| it.theoretical);
+            limits = bond_locus(&family, LOCUS_PATHS);
+            limits.extend(limits.first().copied());
+        }
+    }
+    let mut plots = Vec::new();
+    for (kind, title, [x, y], curves, dashes) in [
+        (
+            "locus",
+            "principal stretches",
+            ["s1", "s2"],
+            principal,
+            theory,
+        ),
+        (
+            "bond",
+            "stretch and sliding of a bond",
+            ["s", "gamma"],
+            bond,
+            limits,
+        ),
+    ] {
+        let Some(window) = window(&dashes) else {
+            continue;
+        };
+        let mut series = vec![Series::new("theory", Mark::Curve, Colour::Black, dashes)];
+        series.extend(curves);
+        plots.push(EqualScales {
+            plot: Plot {
+                name: file_name(kind, criterion),
+                title: format!("First yield, {criterion}: {title}"),
+                x: x.to_owned(),
+                y: y.to_owned(),
+                series,
+            },
+            window,
+        });
+    }
+    Ok(plots)
+}
+
+/// A locus as a curve around zero, open where paths have no point.
+fn around(points: &[LocusPoint], strains: fn(&LocusPoint) -> PrincipalStretches) -> Vec<[f64; 2]> {
+    let mut curve = Vec::new();
+    let mut last: Option<f64> = None;
+    let closing = points.first().map(|it| (it.path + TAU, it));
+    for (path, it) in points.iter().map(|it| (it.path, it)).chain(closing) {
+        if last.is_some_and(|last| path - last > 1.5 * TAU / f64::from(LOCUS_PATHS)) {
+            curve.push([f64::NAN; 2]);
+        }
+        let at = strains(it);
+        curve.push([at.first, at.second]);
+        last = Some(path);
+    }
+    curve
+}
+
+/// Effective limits of a bond's stretch and sliding, a piece for each run of paths with one deciding criterion.
+fn deciding(points: &[LocusPoint]) -> Vec<Vec<[f64; 2]>> {
+    let mut pieces: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
+    for it in points {
+        let scale = 1.0 + it.error;
+        let point = [scale * it.bond.stretch, scale * it.bond.shear];
+        match pieces.last_mut() {
+            Some((criterion, piece)) if *criterion == it.criterion => piece.push(point),
+            _ => pieces.push((it.criterion, vec![point])),
+        }
+    }
+    pieces.into_iter().map(|(_, piece)| piece).collect()
+}
+
+/// What a diagram shows of a locus: all points that are not much farther than the nearest, and some room.
+fn window(points: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
+    let size = |it: &[f64; 2]| it[0].hypot(it[1]);
+    let finite = || points.iter().filter(|it| size(it).is_finite());
+    let nearest = finite().map(size).reduce(f64::min)?;
+    let shown = || finite().filter(|it| size(it) <= WINDOW * nearest);
+    let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
+        shown()
+            .map(|it| it[axis])
+            .chain([0.0])
+            .reduce(pick)
+            .unwrap_or(0.0)
+    };
+    let room = 0.8 * nearest;
+    Some([
+        [0, 1].map(|axis| bound(axis, f64::min) - room),
+        [0, 1].map(|axis| bound(axis, f64::max) + room),
+    ])
+}

@@ -1,0 +1,125 @@
+//! What a diagram has a curve of: a family of bonds with a name.
+
+use ligament_model::BondSystem;
+use ligament_model::failure::{AfterLimit, Criteria, Criterion};
+use ligament_model::yielding::{Family, PrincipalStretches, Worst, lattice};
+
+use super::YieldError;
+use super::criteria::{Combination, Strengths};
+
+/// A family of bonds with its criteria and a name.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Its name: "m = 3", "node 12".
+    pub name: String,
+    /// Number of bonds.
+    pub size: usize,
+    directions: Vec<f64>,
+    criteria: Criteria,
+    /// What the measure of the tables takes, where it is a lattice.
+    printed: Option<(Combination, Strengths)>,
+}
+
+/// A uniform strain that diagrams are drawn for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strain {
+    /// Its name in files.
+    pub name: &'static str,
+    /// What it is, in words.
+    pub words: &'static str,
+    /// Its principal stretches, of size one.
+    pub stretches: PrincipalStretches,
+}
+
+impl Strain {
+    /// A bar in tension, with the simple extension of the paper at nu = 0, and pure shear.
+    pub fn of_the_figures(poisson: f64) -> [Self; 2] {
+        [
+            Self {
+                name: "tension",
+                words: "bar in tension",
+                stretches: PrincipalStretches::new(1.0, -poisson),
+            },
+            Self {
+                name: "shear",
+                words: "pure shear",
+                stretches: PrincipalStretches::new(1.0, -1.0),
+            },
+        ]
+    }
+}
+
+impl Subject {
+    /// An inner point of a square lattice with a horizon of `ratio` m spacings.
+    ///
+    /// # Errors
+    ///
+    /// If the strengths leave no friction.
+    pub fn of_lattice(
+        ratio: f64,
+        combination: &Combination,
+        strengths: &Strengths,
+    ) -> Result<Self, YieldError> {
+        let directions = lattice::directions(ratio);
+        Ok(Self {
+            name: format!("m = {ratio}"),
+            size: lattice::family_size(ratio),
+            criteria: combination.criteria(strengths, directions.len())?,
+            directions,
+            printed: Some((combination.clone(), *strengths)),
+        })
+    }
+
+    /// A point of a body; the criteria are those of the body's bonds.
+    pub fn of_point(name: String, system: &BondSystem, criteria: &Criteria, point: u32) -> Self {
+        let bonds = system.bonds.incidence.of(point);
+        let angle = |&bond: &u32| {
+            let [a, b] = system.bonds.direction[bond as usize];
+            b.atan2(a)
+        };
+        let of_family = |values: &[f64]| -> Vec<f64> {
+            let bonds = bonds.iter().map(|&bond| bond as usize);
+            bonds.filter_map(|bond| values.get(bond).copied()).collect()
+        };
+        let criterion = |it: &Criterion| Criterion {
+            limit: of_family(&it.limit),
+            coefficient: of_family(&it.coefficient),
+            // Only the limit matters for first yield.
+            after: AfterLimit::Brittle,
+            ..*it
+        };
+        Self {
+            name,
+            size: bonds.len(),
+            directions: bonds.iter().map(angle).collect(),
+            criteria: Criteria {
+                list: criteria.list.iter().map(criterion).collect(),
+            },
+            printed: None,
+        }
+    }
+
+    /// Its bonds.
+    pub fn family(&self) -> Family<'_> {
+        Family::of_directions(&self.directions, &self.criteria)
+    }
+
+    /// Names of its criteria.
+    pub fn criterion_name(&self, place: usize) -> &'static str {
+        self.criteria.list[place].name
+    }
+
+    /// The error of the paper's tables, where they have one.
+    ///
+    /// # Errors
+    ///
+    /// If the strengths leave no friction.
+    pub fn printed_measure(&self, path: PrincipalStretches) -> Result<Option<Worst>, YieldError> {
+        match &self.printed {
+            Some((combination, strengths)) => {
+                combination.printed_measure(strengths, &self.directions, path)
+            }
+            None => Ok(None),
+        }
+    }
+}
