@@ -99,9 +99,16 @@ impl Limits<'_> {
             CriterionKind::CriticalStretch => {
                 Criterion::brittle(name, Measure::Tension, self.critical_stretch())
             }
-            CriterionKind::BondEnergy => Criterion {
+            CriterionKind::BondEnergy { limit } => Criterion {
                 coefficient: self.shear_ratio(),
-                ..Criterion::brittle(name, Measure::Energy, self.critical_stretch())
+                ..Criterion::brittle(
+                    name,
+                    Measure::Energy,
+                    limit.map_or_else(
+                        || self.critical_stretch(),
+                        |_| given_or(limit, &|_, _| None),
+                    ),
+                )
             },
         };
         criterion.after = self.after(&key, &criterion, wanted.after)?;

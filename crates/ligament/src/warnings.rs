@@ -107,7 +107,7 @@ fn sliding_warning(case: &CaseFile) -> Option<String> {
     let sees_rotations = |kind: &CriterionKind| match kind {
         CriterionKind::Sliding { .. } | CriterionKind::Frictional { .. } => true,
         // Without a shear stiffness there is no energy of shear.
-        CriterionKind::BondEnergy => !law.fixes_poisson(),
+        CriterionKind::BondEnergy { .. } => !law.fixes_poisson(),
         _ => false,
     };
     let kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
@@ -125,7 +125,7 @@ fn sliding_warning(case: &CaseFile) -> Option<String> {
 /// Where shear gives energy back, bonds nearly along a crack have none to reach a limit with.
 fn energy_warning(case: &CaseFile, material: &Isotropic, plane: Plane) -> Option<String> {
     let mut kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
-    let looks_at_energy = kinds.any(|it| it.kind == CriterionKind::BondEnergy);
+    let looks_at_energy = kinds.any(|it| matches!(it.kind, CriterionKind::BondEnergy { .. }));
     let limit = Isotropic::central_force_poisson(plane);
     let gives_energy = material.poisson > limit && !case.case.model.law.fixes_poisson();
     (looks_at_energy && gives_energy).then(|| {

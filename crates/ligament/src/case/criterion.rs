@@ -49,8 +49,12 @@ pub enum CriterionKind {
     },
     /// Stretch, from the fracture energy.
     CriticalStretch,
-    /// Energy of stretch and sliding, from the fracture energy.
-    BondEnergy,
+    /// Energy of stretch and sliding, from the fracture energy, or this limit.
+    BondEnergy {
+        /// Stretch that stores the limit energy.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        limit: Option<f64>,
+    },
 }
 
 /// How cohesion and friction come from the strengths.
@@ -98,7 +102,8 @@ impl Criterion {
         let mut needs = match self.kind {
             CriterionKind::Tension { limit: Some(_) }
             | CriterionKind::Compression { limit: Some(_) }
-            | CriterionKind::Sliding { limit: Some(_) } => Vec::new(),
+            | CriterionKind::Sliding { limit: Some(_) }
+            | CriterionKind::BondEnergy { limit: Some(_) } => Vec::new(),
             CriterionKind::Strength => vec![("tensile_strength", None)],
             CriterionKind::Tension { limit: None } | CriterionKind::Sliding { limit: None } => {
                 vec![("tensile_strength", Some("limit"))]
@@ -109,8 +114,9 @@ impl Criterion {
             CriterionKind::Frictional { .. } => {
                 vec![("tensile_strength", None), ("compressive_strength", None)]
             }
-            CriterionKind::CriticalStretch | CriterionKind::BondEnergy => {
-                vec![("fracture_energy", None)]
+            CriterionKind::CriticalStretch => vec![("fracture_energy", None)],
+            CriterionKind::BondEnergy { limit: None } => {
+                vec![("fracture_energy", Some("limit"))]
             }
         };
         match self.after {
@@ -135,7 +141,7 @@ impl CriterionKind {
             Self::Sliding { .. } => "sliding",
             Self::Frictional { .. } => "frictional",
             Self::CriticalStretch => "critical-stretch",
-            Self::BondEnergy => "bond-energy",
+            Self::BondEnergy { .. } => "bond-energy",
         }
     }
 }
@@ -217,7 +223,7 @@ impl RawCriterion {
                 calibration: self.calibration.unwrap_or_default(),
             },
             KindName::CriticalStretch => CriterionKind::CriticalStretch,
-            KindName::BondEnergy => CriterionKind::BondEnergy,
+            KindName::BondEnergy => CriterionKind::BondEnergy { limit },
         }
     }
 
@@ -235,10 +241,10 @@ impl RawCriterion {
         let kind = format!("kind = \"{}\"", criterion.kind.word());
         let takes_limit = matches!(
             self.kind,
-            KindName::Tension | KindName::Compression | KindName::Sliding
+            KindName::Tension | KindName::Compression | KindName::Sliding | KindName::BondEnergy
         );
         if self.limit.is_some() && !takes_limit {
-            let reason = "its limits come from the material; \"tension\", \"compression\" and \"sliding\" take one";
+            let reason = "its limits come from the material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one";
             return Err(not_with(key, "limit", "limit", kind, reason));
         }
         if self.calibration.is_some() && self.kind != KindName::Frictional {
@@ -288,7 +294,8 @@ impl RawCriterion {
             );
             return Err(not_with(key, "after", named, control, reason));
         }
-        let spends_all = matches!(self.kind, KindName::CriticalStretch | KindName::BondEnergy);
+        let spends_all = self.kind == KindName::CriticalStretch
+            || (self.kind == KindName::BondEnergy && self.limit.is_none());
         let wanted = match criterion.after {
             After::Bilinear { end: None } => "end",
             After::Exponential { scale: None } => "scale",

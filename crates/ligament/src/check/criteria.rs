@@ -19,7 +19,7 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::
         write_limits(out, criterion)?;
         let takes_energy = matches!(
             given.kind,
-            CriterionKind::CriticalStretch | CriterionKind::BondEnergy
+            CriterionKind::CriticalStretch | CriterionKind::BondEnergy { limit: None }
         );
         if takes_energy {
             write_energy(out, case, criterion)?;
