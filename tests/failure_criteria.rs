@@ -677,7 +677,8 @@ fn bonds_between_materials_take_the_weaker_one() {
 }
 
 /// What `ligament check` says of the criteria of the patch, whose limits follow from its constants: F/E = 2.5e-4 and
-/// 7.5e-4, (1 + nu)/2 of the first, e_u/e_0 = (s_G/s_0)^2 with s_G = sqrt(G_c/(w H)), w = 3 E/(2 pi (1 - nu)).
+/// 7.5e-4, (1 + nu)/2 of the first, e_u/e_0 = (s_G/s_0)^2 with s_G = sqrt(G_c/(M h)), M = 2 E/(pi (1 - nu))
+/// and bonds of one length h, the spacing.
 #[test]
 fn the_check_lists_criteria_and_limits() {
     let told = |settings: &[&str]| {
@@ -690,16 +691,17 @@ fn the_check_lists_criteria_and_limits() {
                    after = \"plastic\" }, { kind = \"critical-stretch\" }]";
     let text = told(&[
         several,
+        "model.horizon_factor=1.0",
         "no_fail=[{ box = [[-1e-4, -1e-4], [1e-4, 1e-4]] }]",
     ]);
-    let opening = 3.0 * YOUNG / (2.0 * PI * 0.75);
-    let limit = (40.0 / (opening * 0.003)).sqrt();
+    let opening = 2.0 * YOUNG / (PI * 0.75);
+    let limit = (40.0 / (opening * 0.001)).sqrt();
     let end = (limit / 2.5e-4).powi(2);
     for line in [
-        format!("  tension               s = 2.5000e-4; force falls straight to zero at {end:.4e} times that; 28 bonds never fail\n"),
-        "  compression           -s = 7.5000e-4; brittle; 28 bonds never fail\n".to_owned(),
-        "  sliding               |gamma| = 1.5625e-4; force stays; 28 bonds never fail\n".to_owned(),
-        format!("  critical-stretch      s = {limit:.4e}; brittle; 28 bonds never fail\n"),
+        format!("  tension               s = 2.5000e-4; force falls straight to zero at {end:.4e} times that; 4 bonds never fail\n"),
+        "  compression           -s = 7.5000e-4; brittle; 4 bonds never fail\n".to_owned(),
+        "  sliding               |gamma| = 1.5625e-4; force stays; 4 bonds never fail\n".to_owned(),
+        format!("  critical-stretch      s = {limit:.4e}; brittle; 4 bonds never fail\n"),
         "separating a body takes G_c = 4.0000e1 J/m^2 (what shear of the bonds stores comes on top of it)\n".to_owned(),
         format!("a bar without a crack fails at E s_0 = {:.4e} Pa, which changes with the horizon\n", YOUNG * limit),
         ", F_t = 5.0000e6 Pa, F_c = 1.5000e7 Pa, G_c = 4.0000e1 J/m^2".to_owned(),

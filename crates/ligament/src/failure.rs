@@ -5,10 +5,10 @@ use ligament_model::failure::{
     softening::{bilinear, exponential},
     strength, stretch, weakest,
 };
-use ligament_model::law::{bbpd, bbpd_conical, beam};
+use ligament_model::law::bbpd;
 use ligament_model::{BondSystem, Isotropic, Material, Plane};
 
-use crate::case::{self, After, CaseError, CaseFile, CriterionKind, FrictionCalibration, Law};
+use crate::case::{self, After, CaseError, CaseFile, CriterionKind, FrictionCalibration};
 use crate::resolve;
 
 /// The criteria of a case on its bonds; none without a fracture section. Bonds of points marked in `no_fail` (n_points)
@@ -185,35 +185,20 @@ impl Limits<'_> {
         })
     }
 
-    /// Critical stretches from the fracture energy.
+    /// Critical stretches from the fracture energy; a bond has the mean opening modulus and the mean length of its ends.
     fn critical_stretch(&self) -> Vec<f64> {
         let energies = self.each(|_, material| material.fracture_energy);
         let energy = weakest(self.system, self.no_fail, &energies);
-        let modulus = self.opening_modulus();
-        (energy
-            .into_iter()
-            .zip(modulus)
-            .zip(&self.system.bonds.horizon))
-        .map(|((energy, modulus), &horizon)| {
-            fracture_energy::critical_stretch(energy, modulus, horizon)
-        })
-        .collect()
-    }
-
-    /// Opening modulus of each bond: the mean of its ends'.
-    fn opening_modulus(&self) -> Vec<f64> {
-        let of_law = match self.case.case.model.law {
-            Law::Bbpd => bbpd::opening_modulus,
-            Law::BbpdConical => bbpd_conical::opening_modulus,
-            Law::Nhpd | Law::Pds | Law::Mppd | Law::MppdBeam | Law::Orthotropic => {
-                beam::opening_modulus
-            }
-        };
-        let of_materials = self.each(|constants, _| Some(of_law(constants, self.plane)));
-        let cloud = &self.system.cloud;
-        let at = |end: u32| cloud.mean_property(end as usize, &of_materials);
-        (self.system.bonds.ends.iter())
-            .map(|&[a, b]| 0.5 * (at(a) + at(b)))
+        let moduli =
+            self.each(|constants, _| Some(fracture_energy::opening_modulus(constants, self.plane)));
+        let lengths = fracture_energy::mean_lengths(self.system);
+        let modulus = |end: u32| self.system.cloud.mean_property(end as usize, &moduli);
+        (energy.into_iter().zip(&self.system.bonds.ends))
+            .map(|(energy, &[a, b])| {
+                let modulus = 0.5 * (modulus(a) + modulus(b));
+                let length = 0.5 * (lengths[a as usize] + lengths[b as usize]);
+                fracture_energy::critical_stretch(energy, modulus, length)
+            })
             .collect()
     }
 

@@ -94,7 +94,10 @@ fn every_kind_and_every_end_is_read() {
             "kind = \"critical-stretch\"",
             brittle(Kind::CriticalStretch),
         ),
-        ("kind = \"bond-energy\"", brittle(Kind::BondEnergy { limit: None })),
+        (
+            "kind = \"bond-energy\"",
+            brittle(Kind::BondEnergy { limit: None }),
+        ),
         (
             "kind = \"tension\"\nafter = \"bilinear\"",
             tension(After::Bilinear { end: None }),

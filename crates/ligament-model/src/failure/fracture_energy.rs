@@ -1,17 +1,51 @@
 //! Critical stretch from the fracture energy G_c, the energy that separates a body in two halves.
 
-/// Critical stretch for the fracture energy G_c (J/m^2), the opening modulus w of the law (Pa) and the bond horizon H (m):
+use rayon::prelude::*;
+
+use crate::law::beam::axial_constant;
+use crate::material::{Isotropic, Plane};
+use crate::system::BondSystem;
+
+/// Critical stretch for the fracture energy G_c (J/m^2), the opening modulus M (Pa) and the mean bond length h (m):
 ///
-/// s_0 = sqrt(G_c/(w H)).
+/// s_0 = sqrt(G_c/(M h)).
 ///
-/// Every bond that crosses the plane of the crack is stretched to s_0 and gives 1/2 k_n l s_0^2 V_A V_B. A bond of length l
-/// crosses it where its first end lies within l |cos phi| of it, so that per area
+/// Every bond that crosses the plane of the crack is stretched to s_0 and gives 1/2 Omega alpha V_A V_B k_n l s_0^2. A bond of
+/// length l crosses it where its first end lies within l |cos phi| of it; with the mean 2/pi of |cos phi| over the directions of
+/// the crack, that is per area
 ///
-/// G_c = t integral_0^H integral_0^(2 pi) 1/2 (l |cos phi|) (1/2 k_n l s_0^2) l dphi dl = s_0^2 t integral_0^H k_n l^3 dl,
+/// G_c = s_0^2/(2 pi) sum_B Omega alpha V_B k_n l^2 = s_0^2 M h,
 ///
-/// and w = t/H integral k_n l^3 dl (the two-dimensional form of Silling and Askari 2005, eq. 26, for any k_n(l)). What shear stores
-/// in those bonds comes on top. With [`Measure::Energy`](super::Measure::Energy) it is counted, and G_c holds for every
-/// Poisson's ratio; with the plain stretch it holds where k_t = 0.
-pub fn critical_stretch(fracture_energy: f64, opening_modulus: f64, horizon: f64) -> f64 {
-    (fracture_energy / (opening_modulus * horizon)).sqrt()
+/// where 2 pi M = sum_B Omega alpha V_B k_n l is what the elastic moduli fix ([`opening_modulus`]) and h is the mean length of the
+/// bonds of a point, weighted by what each has of that sum ([`mean_lengths`]). A continuous family with a constant k_n has
+/// h = 3 H/4, and then this is s_0 = sqrt(4 G_c/(t k_n H^4)), the two-dimensional form of Silling and Askari (2005, eq. 26).
+///
+/// What shear stores in those bonds comes on top. With [`Measure::Energy`](super::Measure::Energy) it is counted, and G_c holds
+/// for every Poisson's ratio up to that of central forces; with the plain stretch it holds where k_t = 0.
+pub fn critical_stretch(fracture_energy: f64, opening_modulus: f64, mean_length: f64) -> f64 {
+    (fracture_energy / (opening_modulus * mean_length)).sqrt()
+}
+
+/// Opening modulus M = t integral_0^H k_n l^2 dl of a material, Pa: 2 E/(pi (1 - nu)) in plane stress,
+/// 2 E/(pi (1 + nu)(1 - 2 nu)) in plane strain. All laws have it, with the Poisson's ratio that they give the material.
+pub fn opening_modulus(material: &Isotropic, plane: Plane) -> f64 {
+    axial_constant(material, plane, 1.0) / 3.0
+}
+
+/// Mean lengths h = sum_B w l / sum_B w of the bonds of each point with the weights w = Omega alpha V_B k_n l, shape (n_points), m.
+///
+/// Points at a surface or beside a pre-crack have fewer bonds, of the same mean length.
+pub fn mean_lengths(system: &BondSystem) -> Vec<f64> {
+    let of_point = |point: u32| {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for &bond in system.bonds.incidence.of(point) {
+            // The volume of the point itself is in all of them.
+            let weight = system.axial_rigidity[bond as usize];
+            sum += weight * system.bonds.length[bond as usize];
+            weights += weight;
+        }
+        sum / weights
+    };
+    let n_points = system.cloud.len() as u32;
+    (0..n_points).into_par_iter().map(of_point).collect()
 }

@@ -1,7 +1,6 @@
 //! Bond-based peridynamics: bonds that only resist stretch (Silling 2000, in the linear form of MPPD section 2).
 
-use super::beam::{self, axial_constant};
-use super::{BondStiffness, Densities};
+use super::{BondStiffness, Densities, beam::axial_constant};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Plane};
@@ -30,12 +29,6 @@ pub fn stiffness(
         shear: 0.0,
         rotational: 0.0,
     })
-}
-
-/// Opening modulus t/H integral k_n l^3 dl = t k_n H^3/4, Pa: 9 E/(4 pi) in plane stress, see
-/// [`critical_stretch`](crate::failure::fracture_energy::critical_stretch).
-pub fn opening_modulus(material: &Isotropic, plane: Plane) -> f64 {
-    beam::opening_modulus(&central(material, plane), plane)
 }
 
 /// The material that central forces make of a material: its Young's modulus with the Poisson's ratio 1/3 or 1/4.

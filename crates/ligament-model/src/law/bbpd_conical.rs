@@ -2,7 +2,7 @@
 //! dynamic crack propagation and crack branching with peridynamics", section 2).
 
 use super::bbpd::central;
-use super::beam::{self, axial_constant};
+use super::beam::axial_constant;
 use super::{BondStiffness, Densities};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
@@ -28,10 +28,4 @@ pub fn stiffness(
         shear: 0.0,
         rotational: 0.0,
     })
-}
-
-/// Opening modulus t/H integral k_n l^3 dl = t c H^3/20, Pa: four fifths of that of the constant micromodulus, see
-/// [`critical_stretch`](crate::failure::fracture_energy::critical_stretch).
-pub fn opening_modulus(material: &Isotropic, plane: Plane) -> f64 {
-    0.8 * beam::opening_modulus(&central(material, plane), plane)
 }

@@ -43,14 +43,8 @@ pub fn stiffness(
     })
 }
 
-/// Opening modulus t/H integral k_n l^3 dl = t c H^3/4, Pa: 3 E/(2 pi (1 - nu)) in plane stress, see
-/// [`critical_stretch`](crate::failure::fracture_energy::critical_stretch). It is that of every law with this constant k_n.
-pub fn opening_modulus(material: &Isotropic, plane: Plane) -> f64 {
-    0.25 * axial_constant(material, plane, 1.0)
-}
-
 /// c H^3, N/m^3.
-pub(super) fn axial_constant(material: &Isotropic, plane: Plane, thickness: f64) -> f64 {
+pub(crate) fn axial_constant(material: &Isotropic, plane: Plane, thickness: f64) -> f64 {
     let Isotropic { young, poisson } = *material;
     let reduction = match plane {
         Plane::Stress => 1.0 - poisson,
