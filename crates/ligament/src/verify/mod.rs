@@ -19,6 +19,7 @@ use crate::suggestion::hint;
 mod disk;
 pub mod entry;
 mod frequencies;
+mod griffith;
 mod lamina;
 mod moduli;
 mod named_modes;
@@ -40,7 +41,7 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 7] = [
+pub static EXPERIMENTS: [Experiment; 8] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -48,6 +49,7 @@ pub static EXPERIMENTS: [Experiment; 7] = [
     moduli::EXPERIMENT,
     poisson::EXPERIMENT,
     disk::EXPERIMENT,
+    griffith::EXPERIMENT,
 ];
 
 /// A published case, or several that belong together.
