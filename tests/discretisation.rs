@@ -174,7 +174,7 @@ fn threads_do_not_change_a_bit_of_the_model() {
             &system.axial_rigidity,
             &system.shear_rigidity,
             &system.rotational_rigidity,
-            &model.critical_stretch,
+            &model.criteria.list[0].limit,
             &model.fixed.domain_factor,
             x,
             y,

@@ -1,5 +1,6 @@
 //! `ligament check`: everything up to the first solve, or the model alone, and what it takes.
 
+mod criteria;
 mod equations;
 mod modal;
 
@@ -120,6 +121,7 @@ fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::R
     model.body.write(out, volume)?;
     write_materials(out, case, model)?;
     write_bonds(out, case, model)?;
+    criteria::write(out, case, model)?;
     Ok(write_energy_ratios(out, model)?)
 }
 
@@ -159,8 +161,14 @@ fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::R
             }
         };
         write!(out, "  {name}: {constants}, volume {volume:.6e} m^3")?;
-        if let Some(strength) = material.tensile_strength {
-            write!(out, ", F_t = {strength:.4e} Pa")?;
+        for (name, value, unit) in [
+            ("F_t", material.tensile_strength, "Pa"),
+            ("F_c", material.compressive_strength, "Pa"),
+            ("G_c", material.fracture_energy, "J/m^2"),
+        ] {
+            if let Some(value) = value {
+                write!(out, ", {name} = {value:.4e} {unit}")?;
+            }
         }
         match material.density {
             Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,

@@ -38,6 +38,17 @@ pub fn criteria(
     })
 }
 
+/// The elastic constants that the law of the case makes of a material, which limits are made with: Young's modulus with the Poisson's
+/// ratio of central forces where the law knows no other. None for a material with axes.
+pub(crate) fn constants(case: &CaseFile, material: &Material) -> Option<Isotropic> {
+    let given = material.elasticity.isotropic()?;
+    Some(if case.case.model.law.fixes_poisson() {
+        bbpd::central(&given, resolve::plane(case))
+    } else {
+        given
+    })
+}
+
 /// What limits are made from.
 struct Limits<'a> {
     case: &'a CaseFile,
@@ -97,15 +108,7 @@ impl Limits<'_> {
 
     /// A value of each material, with the constants that the law makes of its own; infinite where it has none.
     fn each(&self, of: impl Fn(&Isotropic, &Material) -> Option<f64>) -> Vec<f64> {
-        let of = |material: &Material| {
-            let given = material.elasticity.isotropic()?;
-            let constants = if self.case.case.model.law.fixes_poisson() {
-                bbpd::central(&given, self.plane)
-            } else {
-                given
-            };
-            of(&constants, material)
-        };
+        let of = |material: &Material| of(&constants(self.case, material)?, material);
         (self.materials.iter())
             .map(|it| of(it).unwrap_or(f64::INFINITY))
             .collect()

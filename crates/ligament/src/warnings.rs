@@ -5,7 +5,7 @@ use ligament_model::{ElementKind, Isotropic, Plane};
 use ligament_output::results::FixedFields;
 
 use crate::body::Body;
-use crate::case::{CaseFile, Law};
+use crate::case::{CaseFile, CriterionKind, Law};
 use crate::formulation;
 use crate::resolve;
 
@@ -45,6 +45,9 @@ pub fn of_model(
     let materials = resolve::materials(case);
     let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
     warnings.extend(constants.filter_map(|it| poisson_warning(case.case.model.law, &it, plane)));
+    warnings.extend(sliding_warning(case));
+    let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
+    warnings.extend(constants.filter_map(|it| energy_warning(case, &it, plane)));
     warnings
 }
 
@@ -93,6 +96,45 @@ fn correction_warning(
         error(worst),
         body.label(worst as u32),
     )
+}
+
+/// The shear of a bond between points without rotations is that of the body and its rotation together.
+fn sliding_warning(case: &CaseFile) -> Option<String> {
+    let law = case.case.model.law;
+    if formulation::element(law) == ElementKind::Beam {
+        return None;
+    }
+    let sees_rotations = |kind: &CriterionKind| match kind {
+        CriterionKind::Sliding { .. } | CriterionKind::Frictional { .. } => true,
+        // Without a shear stiffness there is no energy of shear.
+        CriterionKind::BondEnergy => !law.fixes_poisson(),
+        _ => false,
+    };
+    let kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
+    let mut kinds = kinds.map(|it| it.kind).filter(sees_rotations);
+    kinds.next().map(|kind| {
+        format!(
+            "criterion \"{}\": under law = \"{}\" points have no rotations, so that where the body turns its rotation counts \
+             as sliding of the bonds; \"mppd\" tells them apart",
+            kind.word(),
+            law.word()
+        )
+    })
+}
+
+/// Where shear gives energy back, bonds nearly along a crack have none to reach a limit with.
+fn energy_warning(case: &CaseFile, material: &Isotropic, plane: Plane) -> Option<String> {
+    let mut kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
+    let looks_at_energy = kinds.any(|it| it.kind == CriterionKind::BondEnergy);
+    let limit = Isotropic::central_force_poisson(plane);
+    let gives_energy = material.poisson > limit && !case.case.model.law.fixes_poisson();
+    (looks_at_energy && gives_energy).then(|| {
+        format!(
+            "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {}) shear lowers the energy of the bonds, and those \
+             nearly along a crack never fail; \"critical-stretch\" breaks them",
+            material.poisson
+        )
+    })
 }
 
 fn poisson_warning(law: Law, material: &Isotropic, plane: Plane) -> Option<String> {
