@@ -171,7 +171,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
                 &[("body", "mesh"), ("law", "bbpd")],
             )?,
             curve(
-                "mesh, nhpd 0.2, energy",
+                "mesh, nhpd, energy",
                 Mark::Line,
                 Colour::Vermilion,
                 &[
@@ -181,7 +181,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
                 ],
             )?,
             curve(
-                "mesh, nhpd 0.2, stretch",
+                "mesh, nhpd, stretch",
                 Mark::Line,
                 Colour::Purple,
                 &[
@@ -191,7 +191,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
                 ],
             )?,
             curve(
-                "5/3 mm, lambda 2 to 6",
+                "5/3 mm, m = 2 to 6",
                 Mark::Circles,
                 Colour::Green,
                 &[("size", "5/3"), ("law", "nhpd"), ("nu", "1/3")],
