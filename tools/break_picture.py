@@ -34,7 +34,7 @@ def read_breaks(folder):
         return list(csv.DictReader(file))
 
 
-def draw(axes, folder, until):
+def draw(axes, folder, until, box):
     tag, places = read_places(folder)
     breaks = [row for row in read_breaks(folder) if until is None or int(row["step"]) <= until]
     points = np.array(list(places.values()))
@@ -46,6 +46,9 @@ def draw(axes, folder, until):
         axes.add_collection(LineCollection(lines, colors=colour, linewidths=0.7, label=f"{criterion} ({len(own)})"))
     axes.set_aspect("equal")
     axes.set_axis_off()
+    if box:
+        axes.set_xlim(box[0], box[2])
+        axes.set_ylim(box[1], box[3])
     if counts:
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False)
 
@@ -53,7 +56,9 @@ def draw(axes, folder, until):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path, nargs="+", metavar="RESULT_FOLDER", help="drawn side by side")
-    parser.add_argument("--until", type=int, metavar="STEP", nargs="+", help="leave out what broke after this step (one for each folder)")
+    until_help = "leave out what broke after this step (one for each folder)"
+    parser.add_argument("--until", type=int, metavar="STEP", nargs="+", help=until_help)
+    parser.add_argument("--box", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the body, m")
     parser.add_argument("--title", nargs="+", help="titles (default: names of the folders)")
     parser.add_argument("--out", type=Path, metavar="PNG", help="picture (default: breaks.png in the first folder)")
     arguments = parser.parse_args()
@@ -63,9 +68,13 @@ def main():
         parser.error("--title and --until need a value for each folder")
 
     count = len(arguments.folder)
-    figure, all_axes = plt.subplots(1, count, figsize=(5.2 * count, 5.6), layout="constrained", squeeze=False)
+    height = 5.6
+    if arguments.box:
+        x0, y0, x1, y1 = arguments.box
+        height = 0.8 + 5.2 * (y1 - y0) / (x1 - x0)
+    figure, all_axes = plt.subplots(1, count, figsize=(5.2 * count, height), layout="constrained", squeeze=False)
     for axes, folder, step, title in zip(all_axes[0], arguments.folder, until, titles):
-        draw(axes, folder, step)
+        draw(axes, folder, step, arguments.box)
         axes.set_title(title)
     out = arguments.out or arguments.folder[0] / "breaks.png"
     figure.savefig(out, dpi=90)

@@ -98,9 +98,11 @@ const STRIP: f64 = 0.005;
 /// Share of delta/a by which the label of an entry may be off.
 const LABEL_TOLERANCE: f64 = 5e-3;
 
-/// What the two tables of the edge crack read in the same run.
+/// What the tables of the edge crack read in the same run.
 #[derive(Debug, Clone, Copy)]
 struct Separation {
+    /// Energy that the breakages released over the new surface, over G_c.
+    work: f64,
     /// Energy of the broken bonds at their limits over the new surface, over G_c.
     energy: f64,
     /// Largest distance of the middle of a broken bond from the line of the crack over the horizon there.
@@ -124,6 +126,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             Separation::of(&trial.solve_on(mesh)?)
         })
     };
+    let work = table(
+        "fracture-energy-released",
+        include_str!("published/fracture-energy-released.csv"),
+    )?
+    .judge(extent, |labels| Ok(separated(labels)?.work))?;
     let energy = table(
         "fracture-energy-separation",
         include_str!("published/fracture-energy-separation.csv"),
@@ -199,7 +206,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         ],
     };
     Ok(Findings {
-        tables: vec![strength, crossing, energy, deviation],
+        tables: vec![strength, crossing, work, energy, deviation],
         plots: vec![plot],
     })
 }
@@ -329,15 +336,16 @@ impl Separation {
             HALF_WIDTH - far < horizon(solution),
             "the crack ends at x = {far:.4} m, inside the plate"
         );
-        let surface = (HALF_WIDTH - EDGE_TIP) * THICKNESS;
+        let separating = FRACTURE_ENERGY * (HALF_WIDTH - EDGE_TIP) * THICKNESS;
+        let last = solution.outcome.history.last();
         let horizons = &solution.model.system.bonds.horizon;
         let deviations = broken.iter().map(|&bond| {
             let [[_, y], [_, other_y]] = ends(solution, bond);
             0.5 * (y + other_y).abs() / horizons[bond]
         });
         Ok(Self {
-            energy: energy_at_limits(solution, broken.iter().copied())
-                / (FRACTURE_ENERGY * surface),
+            work: last.context("the run has no state")?.released_energy / separating,
+            energy: energy_at_limits(solution, broken.iter().copied()) / separating,
             deviation: deviations.fold(0.0, f64::max),
         })
     }
