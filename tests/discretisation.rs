@@ -196,16 +196,19 @@ fn threads_do_not_change_a_bit_of_the_model() {
     }
 }
 
+/// Bonds have limits where they may break.
+const BREAKING: &str = "fracture = { steps = 1 }\n";
+
 /// Two materials: a point at the interface has a share of each by volume, a bond the mean of its ends' densities, and the
 /// smaller critical energy of what its ends consist of.
 #[test]
 fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
-    let bench = Bench::new(&format!("{BAR}{TWO}"), &[]);
+    let bench = Bench::new(&format!("{BREAKING}{BAR}{TWO}"), &[]);
     let alone = |young: f64, poisson: f64, strength: f64| {
         let material = format!(
             "{{ young = {young:?}, poisson = {poisson:?}, tensile_strength = {strength:?} }}"
         );
-        Bench::new(&format!("{BAR}material = {material}\n"), &[])
+        Bench::new(&format!("{BREAKING}{BAR}material = {material}\n"), &[])
     };
     let (left, right) = (alone(15e9, 0.21, 3e6), alone(60e9, 0.3, 8e6));
     let (system, cloud) = (&bench.model.system, &bench.model.system.cloud);
@@ -274,9 +277,11 @@ fn equal_materials_are_one() {
         .replace("60e9", "15e9")
         .replace("0.3", "0.21")
         .replace("8e6", "3e6");
-    let two = Bench::new(&format!("{BAR}{equal}"), &[]);
+    let two = Bench::new(&format!("{BREAKING}{BAR}{equal}"), &[]);
     let one = Bench::new(
-        &format!("{BAR}material = {{ young = 15e9, poisson = 0.21, tensile_strength = 3e6 }}\n"),
+        &format!(
+            "{BREAKING}{BAR}material = {{ young = 15e9, poisson = 0.21, tensile_strength = 3e6 }}\n"
+        ),
         &[],
     );
     let (a, b) = (two.solve(), one.solve());

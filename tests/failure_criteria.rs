@@ -1,5 +1,5 @@
-//! The failure criteria of a case through both drivers: bars that yield at their strengths, orientation, combinations, interfaces,
-//! protected parts.
+//! The failure criteria of a case through both drivers: bars that yield at their strengths, orientation, combinations,
+//! interfaces, protected parts.
 //!
 //! Each test states its problem and where its expectation comes from.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
@@ -53,8 +53,8 @@ fn motion([axial, lateral]: [f64; 2], angle: f64, [x, y]: [f64; 2]) -> [f64; 3] 
     [xx * x + xy * y, xy * x + yy * y, 0.0]
 }
 
-/// Load factor of the first breakage, by both drivers, where the points of a frame as wide as the horizon have the motions of a
-/// strain at load factor one and those inside are free.
+/// Load factor of the first breakage, by both drivers, where the points of a frame as wide as the horizon have the
+/// motions of a strain at load factor one and those inside are free.
 fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
     let system = &bench.model.system;
     let cloud = &system.cloud;
@@ -153,8 +153,8 @@ fn in_plane(plane: &str, poisson: f64) -> [f64; 2] {
     }
 }
 
-/// Stretch, shortening and sliding are exact where a bond lies along the bar, or at 45 degrees to it: the bar yields at its
-/// strengths, for every law. 1e-10: rounding of the solution, which is the uniform strain itself.
+/// Stretch, shortening and sliding are exact where a bond lies along the bar, or at 45 degrees to it: the bar yields at
+/// its strengths, for every law. 1e-10: rounding of the solution, which is the uniform strain itself.
 #[test]
 fn bars_yield_at_their_strengths() {
     let laws: [(&str, f64, &str); 7] = [
@@ -195,9 +195,10 @@ fn bars_yield_at_their_strengths() {
     }
 }
 
-/// Off the bonds' directions a bar is stronger: with x from the nearest bond, 1/(s_m + s_d cos 2x) - 1 in tension and 1/cos 2x - 1 in
-/// sliding (closed forms for a uniform strain; s_m = s_d at nu = 0). The worst x are 22.5, 13.2825 and 9.2175 degrees for m = 2, 3
-/// and 4; the excesses in percent are those of a continuous rotation, which MPPD's Tables 7 and 8 sample.
+/// Off the bonds' directions a bar is stronger: with x from the nearest bond, 1/(s_m + s_d cos 2x) - 1 in tension and
+/// 1/cos 2x - 1 in sliding (closed forms for a uniform strain; s_m = s_d at nu = 0). The worst x are 22.5, 13.2825 and
+/// 9.2175 degrees for m = 2, 3 and 4; the excesses in percent are those of a continuous rotation, which MPPD's Tables 7
+/// and 8 sample.
 #[test]
 fn between_bonds_a_bar_is_stronger() {
     for (m, degrees, known) in [
@@ -217,8 +218,9 @@ fn between_bonds_a_bar_is_stronger() {
     }
 }
 
-/// A material with axes takes limits as they are given, and strains of a uniform field reach them where a bond has them: half of the
-/// loads at which the stretch along x, the shortening along y and the sliding at 45 degrees are twice the limit. 1e-10: rounding.
+/// A material with axes takes limits as they are given, and strains of a uniform field reach them where a bond has
+/// them: half of the loads at which the stretch along x, the shortening along y and the sliding at 45 degrees are twice
+/// the limit. 1e-10: rounding.
 #[test]
 fn materials_with_axes_fail_at_given_limits() {
     let lamina =
@@ -235,8 +237,9 @@ fn materials_with_axes_fail_at_given_limits() {
     }
 }
 
-/// Frictional sliding with a bond in the critical direction, cos 2x = sin(beta) from the axis of the larger strain: the two-point
-/// calibration meets both strengths, and the printed one (MPPD eqs 55, 56) is off by what an independent calculation found.
+/// Frictional sliding with a bond in the critical direction, cos 2x = sin(beta) from the axis of the larger strain: the
+/// two-point calibration meets both strengths, and the printed one (MPPD eqs 55, 56) is off by what an independent
+/// calculation found.
 #[test]
 fn frictional_bars_yield_as_calibrated() {
     let sin_phi = 0.5_f64;
@@ -284,7 +287,8 @@ fn frictional_bars_yield_as_calibrated() {
     }
 }
 
-/// A bar of nu = 1/3 and F_c = 3 F_t leaves no friction angle for the two-point calibration: the case is refused, with the reason.
+/// A bar of nu = 1/3 and F_c = 3 F_t leaves no friction angle for the two-point calibration: the case is refused, with
+/// the reason.
 #[test]
 fn two_points_without_a_friction_angle_are_refused() {
     use ligament::model::build_model;
@@ -306,8 +310,8 @@ fn two_points_without_a_friction_angle_are_refused() {
     assert!(message.contains("poisson < tensile_strength/compressive_strength = 0.3333"));
 }
 
-/// Largest excess over orientations of a bar with frictional sliding at nu = 0, in percent: an independent calculation of the first
-/// yield over 101 angles for m = 2 to 5. Both signs, because compression is the worse one.
+/// Largest excess over orientations of a bar with frictional sliding at nu = 0, in percent: an independent calculation
+/// of the first yield over 101 angles for m = 2 to 5. Both signs, because compression is the worse one.
 #[test]
 fn orientation_makes_frictional_bars_stronger_as_known() {
     for (m, known) in [
@@ -354,12 +358,12 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
     }
 }
 
-/// NHPD's strength (eqs 14 to 16) gives longer bonds less stretch, so that on a lattice of m = H/dx with factors of one the bond
-/// of length H along the bar breaks first, at sigma/F_t = m sqrt(pi/(6 (1 + nu))): s_0^2 = 2 e_0/(V c H) with e_0 = F_t^2/(2 E (1 -
-/// nu^2)). The energy of the test itself, F_t^2/(2 E), would give sqrt(1 - nu^2) of that.
+/// NHPD's strength (eqs 14 to 16) gives longer bonds less stretch, so that on a lattice of m = H/dx with factors of one
+/// the bond of length H along the bar breaks first, at sigma/F_t = m sqrt(pi/(6 (1 + nu))): s_0^2 = 2 e_0/(V c H) with
+/// e_0 = F_t^2/(2 E (1 - nu^2)). The energy of the test itself, F_t^2/(2 E), would give sqrt(1 - nu^2) of that.
 ///
-/// A bar yields so far above its strength because the criterion asks for the energy of one bond what the whole family has.
-/// 1e-10: rounding of the solution.
+/// A bar yields so far above its strength because the criterion asks for the energy of one bond what the whole family
+/// has. 1e-10: rounding of the solution.
 #[test]
 fn the_energy_based_strength_depends_on_the_horizon() {
     for (law, given, of_law) in [
@@ -395,9 +399,10 @@ fn the_energy_based_strength_depends_on_the_horizon() {
     }
 }
 
-/// Bars of 60 x 20 and 60 x 40 cells pulled at their ends, with a middle part of 4 x 4 cells that may fail alone: the force over the
-/// section when the first bond there breaks. The families at the free sides are not those of the continuum, and the wider the bar the
-/// less they count: measured 3.0 and 0.45 % in tension and compression, 2.8 and 0.23 % in sliding; 4 and 1 % asked for.
+/// Bars of 60 x 20 and 60 x 40 cells pulled at their ends, with a middle part of 4 x 4 cells that may fail alone: the
+/// force over the section when the first bond there breaks. The families at the free sides are not those of the
+/// continuum, and the wider the bar the less they count: measured 3.0 and 0.45 % in tension and compression, 2.8 and
+/// 0.23 % in sliding; 4 and 1 % asked for.
 #[test]
 fn real_bars_yield_near_their_strengths() {
     const REAL: &str = r#"
@@ -447,11 +452,15 @@ no_fail = [
     }
 }
 
+/// A measure with its limit.
+type Limit = (Measure, f64);
+
 /// Rod, criterion and load factor of a breakage.
 type Breakage = (usize, usize, f64);
 
-/// Two rods in a row, the point between them moved to the right: one is stretched, the other shortened by the same, and the smaller
-/// limit decides, by hand. Then the point is moved across: both slide by the same angle, and only a sliding criterion breaks them.
+/// Two rods in a row, the point between them moved to the right: one is stretched, the other shortened by the same, and
+/// the smaller limit decides, by hand. Then the point is moved across: both slide by the same angle, and only a sliding
+/// criterion breaks them.
 #[test]
 fn the_first_criterion_that_is_met_decides() {
     let rod = |ends| Rod {
@@ -463,7 +472,7 @@ fn the_first_criterion_that_is_met_decides() {
         (Measure::Tension, Measure::Compression, Measure::Sliding);
     let along = Component::X;
     // Limits, direction, and what breaks: rods of 2 m, moved by up to 1 m.
-    let cases: [(&[(Measure, f64)], Component, &[Breakage]); 4] = [
+    let cases: [(&[Limit], Component, &[Breakage]); 4] = [
         (
             &[(tension, 0.2), (compression, 0.1)],
             along,
@@ -498,8 +507,7 @@ fn the_first_criterion_that_is_met_decides() {
             let value = if free == component { 1.0 } else { 0.0 };
             truss.boundary.prescribe(&[1], free, value).unwrap();
         }
-        let of_limit =
-            |&(measure, limit): &(Measure, f64)| Criterion::brittle("", measure, vec![limit; 2]);
+        let of_limit = |&(measure, limit): &Limit| Criterion::brittle("", measure, vec![limit; 2]);
         truss.criteria = Criteria {
             list: limits.iter().map(of_limit).collect(),
         };
@@ -538,8 +546,8 @@ fn the_first_criterion_that_is_met_decides() {
     }
 }
 
-/// A disk that fails by tension, friction or compression: load steps and the exact path break the same bonds by the same criteria in
-/// the same order, and `breaks.csv` names them.
+/// A disk that fails by tension, friction or compression: load steps and the exact path break the same bonds by the
+/// same criteria in the same order, and `breaks.csv` names them.
 #[test]
 fn both_drivers_break_by_the_same_criteria() {
     let criteria = [
@@ -606,8 +614,8 @@ fn protected_bonds_have_no_limit() {
     }
 }
 
-/// A bond between two materials takes the weaker one's limit, and of friction its slope too; bonds within a material have its own.
-/// Closed forms of the limits by the material constants (MPPD eqs 44, 49, 55, 56).
+/// A bond between two materials takes the weaker one's limit, and of friction its slope too; bonds within a material
+/// have its own. Closed forms of the limits by the material constants (MPPD eqs 44, 49, 55, 56).
 #[test]
 fn bonds_between_materials_take_the_weaker_one() {
     let materials = TWO
@@ -668,8 +676,8 @@ fn bonds_between_materials_take_the_weaker_one() {
     }
 }
 
-/// What `ligament check` says of the criteria of the patch, whose limits follow from its constants: F/E = 2.5e-4 and 7.5e-4, (1 + nu)/2
-/// of the first, e_u/e_0 = (s_G/s_0)^2 with s_G = sqrt(G_c/(w H)), w = 3 E/(2 pi (1 - nu)).
+/// What `ligament check` says of the criteria of the patch, whose limits follow from its constants: F/E = 2.5e-4 and
+/// 7.5e-4, (1 + nu)/2 of the first, e_u/e_0 = (s_G/s_0)^2 with s_G = sqrt(G_c/(w H)), w = 3 E/(2 pi (1 - nu)).
 #[test]
 fn the_check_lists_criteria_and_limits() {
     let told = |settings: &[&str]| {

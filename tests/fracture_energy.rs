@@ -1,6 +1,7 @@
 //! The fracture energy: what separates a body in two halves, bond by bond, against G_c.
 //!
-//! The halves are rigid and move apart, so that every bond that crosses the plane of the crack reaches its limit by itself.
+//! The halves are rigid and move apart, so that every bond that crosses the plane of the crack reaches its limit by
+//! itself.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -99,8 +100,9 @@ fn work(bench: &Bench, segment: &Segment) -> f64 {
     energy / (segment.length() * bench.model.system.cloud.thickness) / FRACTURE_ENERGY
 }
 
-/// A sum over one of each two opposite offsets xi of an infinite lattice, of f(l, tan phi) |xi.n|/m^4, with the angle phi of a bond to
-/// the crack: a pair of points crosses a plane with the normal n |xi.n|/h^2 times per length. Lengths are in spacings.
+/// A sum over one of each two opposite offsets xi of an infinite lattice, of f(l, tan phi) |xi.n|/m^4, with the angle
+/// phi of a bond to the crack: a pair of points crosses a plane with the normal n |xi.n|/h^2 times per length. Lengths
+/// are in spacings.
 fn over_offsets(m: f64, [p, q]: [f64; 2], f: impl Fn(f64, f64) -> f64) -> f64 {
     let reach = m as i64;
     let mut sum = 0.0;
@@ -127,9 +129,10 @@ fn of_lattice(m: f64, crack: [f64; 2], conical: bool) -> f64 {
     })
 }
 
-/// The critical stretch of every law makes the integral over half planes G_c (the two-dimensional form of Silling and Askari 2005,
-/// eq. 26), with the stiffness as the papers print it. Points at distances z = l cos(a) from the plane have bonds of length l across
-/// it within the angles -a to a; Simpson's rule, exact to 1e-10 for the polynomials and sines here.
+/// The critical stretch of every law makes the integral over half planes G_c (the two-dimensional form of Silling and
+/// Askari 2005, eq. 26), with the stiffness as the papers print it. Points at distances z = l cos(a) from the plane
+/// have bonds of length l across it within the angles -a to a; Simpson's rule, exact to 1e-10 for the polynomials and
+/// sines here.
 #[test]
 fn the_critical_stretch_is_that_of_the_integral() {
     let simpson = |end: f64, f: &dyn Fn(f64) -> f64| {
@@ -179,8 +182,9 @@ fn the_critical_stretch_is_that_of_the_integral() {
     }
 }
 
-/// On a lattice without corrections the integral is a sum over whole numbers, whatever the law's stiffness and Poisson's ratio.
-/// 1e-12: rounding of 400 terms. The sum goes to one with m: within 0.5 % at m = 60 for all three directions.
+/// On a lattice without corrections the integral is a sum over whole numbers, whatever the law's stiffness and
+/// Poisson's ratio. 1e-12: rounding of 400 terms. The sum goes to one with m: within 0.5 % at m = 60 for all three
+/// directions.
 #[test]
 fn lattices_take_the_sum_over_their_offsets() {
     for (law, plane) in [
@@ -215,12 +219,14 @@ fn lattices_take_the_sum_over_their_offsets() {
     }
 }
 
-/// With the corrections that each law has by default. Measured for m = 3, 4, 6, 8 and three directions: 0.931 to 0.968 for a constant
-/// k_n with partial volumes (0.947 to 0.978 with sums over families), 1.038 to 1.077 for the conical one, 0.895 to 0.958 for NHPD,
-/// whose factors Omega still feel the sides; directions differ by 2.2 % at m = 3 (3.9 % for NHPD) and by 0.5 % at m = 8.
+/// With the corrections that each law has by default. Measured for m = 3, 4, 6, 8 and three directions: 0.931 to 0.968
+/// for a constant k_n with partial volumes (0.947 to 0.978 with sums over families), 1.038 to 1.077 for the conical
+/// one, 0.895 to 0.958 for NHPD, whose factors Omega still feel the sides; directions differ by 2.2 % at m = 3 (3.9 %
+/// for NHPD) and by 0.5 % at m = 8.
 ///
-/// NHPD's factor of length does not vanish with m: the domain correction gives back the energy of uniform strains, and bonds that
-/// are shorter on the mean take less to separate. In the limit, with alpha = exp(-l/H) and nu = 0.21, it is 0.919.
+/// NHPD's factor of length does not vanish with m: the domain correction gives back the energy of uniform strains, and
+/// bonds that are shorter on the mean take less to separate. In the limit, with alpha = exp(-l/H) and nu = 0.21, it is
+/// 0.919.
 #[test]
 fn corrected_lattices_take_nearly_the_fracture_energy() {
     for (law, range) in [
@@ -249,8 +255,8 @@ fn corrected_lattices_take_nearly_the_fracture_energy() {
     }
 }
 
-/// The same on an irregular mesh, along 12 segments of 60 mm through the middle of a disk of 100 mm: measured 0.90 to 0.98, mean 0.93
-/// for all three horizons; orientation does not count, what is left is chance.
+/// The same on an irregular mesh, along 12 segments of 60 mm through the middle of a disk of 100 mm: measured 0.90 to
+/// 0.98, mean 0.93 for all three horizons; orientation does not count, what is left is chance.
 #[test]
 fn an_irregular_mesh_takes_nearly_the_fracture_energy() {
     const DISK: &str = r#"
@@ -319,10 +325,10 @@ impl Separation {
 const OPENING: [f64; 2] = [0.0, 1e-6];
 const SLIDING: [f64; 2] = [1e-6, 0.0];
 
-/// The energy criterion counts the same in opening and in sliding, the sum of 1/2 R s_0^2, for every Poisson's ratio below that of
-/// central forces. In sliding, bonds that are shortened have stored that energy in addition, which breaking them releases: measured
-/// 1.2 (nu = -0.3), 1.5 (0), 2.5 (0.21) and 3.3 (0.25) times what is counted at m = 3 for `mppd`. At nu = 1/3 they resist nothing
-/// but stretch and never break. 1e-12: rounding.
+/// The energy criterion counts the same in opening and in sliding, the sum of 1/2 R s_0^2, for every Poisson's ratio
+/// below that of central forces. In sliding, bonds that are shortened have stored that energy in addition, which
+/// breaking them releases: measured 1.2 (nu = -0.3), 1.5 (0), 2.5 (0.21) and 3.3 (0.25) times what is counted at m = 3
+/// for `mppd`. At nu = 1/3 they resist nothing but stretch and never break. 1e-12: rounding.
 #[test]
 fn the_energy_criterion_counts_the_same_in_both_modes() {
     let segment = Segment::period([1.0, 0.0]);
@@ -351,8 +357,8 @@ fn the_energy_criterion_counts_the_same_in_both_modes() {
     assert_eq!((sliding.unbroken, segment.crossing(&bench).len()), (12, 18));
 }
 
-/// Above the Poisson's ratio of central forces shear gives energy back, and bonds nearly along the crack never reach the limit of the
-/// energy criterion; the plain stretch breaks them. The case is told.
+/// Above the Poisson's ratio of central forces shear gives energy back, and bonds nearly along the crack never reach
+/// the limit of the energy criterion; the plain stretch breaks them. The case is told.
 #[test]
 fn the_energy_criterion_leaves_bonds_where_shear_gives_energy() {
     let segment = Segment::period([1.0, 0.0]);
@@ -369,9 +375,10 @@ fn the_energy_criterion_leaves_bonds_where_shear_gives_energy() {
     assert_eq!(told(&lattice("nhpd", "bond-energy", 6.0, &[])), 0);
 }
 
-/// With the plain critical stretch, what shear stores until a bond is at its limit comes on top: q cot^2(phi) of its share, q = k_t/k_n =
-/// (1 - 3 nu)/(1 + nu) for a constant k_t, as a sum over whole numbers (1e-12: rounding). It grows with log m, because the bonds
-/// along the crack slide most: 1.25 (m = 3), 1.35, 1.48 and 1.58 (m = 8) times the rest at nu = 0.21.
+/// With the plain critical stretch, what shear stores until a bond is at its limit comes on top: q cot^2(phi) of its
+/// share, q = k_t/k_n = (1 - 3 nu)/(1 + nu) for a constant k_t, as a sum over whole numbers (1e-12: rounding). It grows
+/// with log m, because the bonds along the crack slide most: 1.25 (m = 3), 1.35, 1.48 and 1.58 (m = 8) times the rest
+/// at nu = 0.21.
 #[test]
 fn shear_comes_on_top_of_the_critical_stretch() {
     let crack = [1.0, 0.0];

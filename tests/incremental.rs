@@ -255,7 +255,7 @@ fn counted_anew(bench: &Bench, state: &State) -> usize {
     let system = &bench.model.system;
     let unknowns = Unknowns::of_problem(system, &bench.boundary);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-    let matrix = assembly::assemble(system, &unknowns, &pattern, &state.intact, &state.held);
+    let matrix = assembly::assemble(system, &unknowns, &pattern, state.bonds(), &state.held);
     let elimination = Ordering::NestedDissection.elimination(system, &unknowns);
     let symbolic = Arc::new(Symbolic::analyse(pattern, elimination).unwrap());
     let factor = FactorKind::Ldlt.factorise(&symbolic, &matrix).unwrap();

@@ -5,6 +5,7 @@
 use ligament::progress::ProgressMode;
 use ligament::run;
 use ligament_analysis::internal;
+use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use tempfile::TempDir;
@@ -260,9 +261,9 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
         for ([xx, yy, xy], expected) in strains {
             let motion = |p: &[f64; 2]| [xx * p[0] + xy * p[1], xy * p[0] + yy * p[1], 0.0];
             let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
-            let deformations = internal::sweep(system, &intact, &u).deformations;
-            let virial = virial::stress(system, &intact, &deformations);
-            let traction = traction::stress(system, &intact, &deformations);
+            let deformations = internal::sweep(system, BondsLeft::whole(&intact), &u).deformations;
+            let virial = virial::stress(system, BondsLeft::whole(&intact), &deformations);
+            let traction = traction::stress(system, BondsLeft::whole(&intact), &deformations);
             let largest: f64 = expected
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.abs()));

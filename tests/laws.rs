@@ -4,6 +4,7 @@
 
 use ligament::case::Law;
 use ligament_analysis::internal;
+use ligament_analysis::state::BondsLeft;
 use ligament_model::ElementKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use verification::bench::{Bench, Run};
@@ -123,7 +124,12 @@ fn all() -> impl Iterator<Item = (&'static Entry, String, Bench)> {
 fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
     let system = &bench.model.system;
     let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
-    internal::sweep(system, &vec![true; system.bonds.len()], &u).stored_energy
+    internal::sweep(
+        system,
+        BondsLeft::whole(&vec![true; system.bonds.len()]),
+        &u,
+    )
+    .stored_energy
 }
 
 /// Translations cost nothing, nor does a rotation in which the points take part; without rotations of the points it costs
@@ -160,7 +166,12 @@ fn internal_forces_are_in_balance() {
         let u: Vec<f64> = (0..3 * bench.points())
             .map(|_| 1e-4 * random.uniform())
             .collect();
-        let forces = internal::sweep(system, &vec![true; system.bonds.len()], &u).internal;
+        let forces = internal::sweep(
+            system,
+            BondsLeft::whole(&vec![true; system.bonds.len()]),
+            &u,
+        )
+        .internal;
         let mut sum = [0.0; 3];
         for (force, p) in forces.values.chunks(3).zip(&system.cloud.positions) {
             sum[0] += force[0];

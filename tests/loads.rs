@@ -44,7 +44,7 @@ fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
 }
 
 fn sweep(bench: &Bench, run: &Run) -> BondSweep {
-    internal::sweep(&bench.model.system, &run.state().intact, run.displacement())
+    internal::sweep(&bench.model.system, run.state().bonds(), run.displacement())
 }
 
 /// Resultant of forces and couples (3 n_points): along x, along y, and the moment about the origin of the mesh file.

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::internal;
+use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
 use ligament_mesh::Mesh;
 use verification::bench::{self, Bench, Run};
@@ -29,9 +30,12 @@ const POISSON: f64 = 0.21;
 /// Virial stress (xx, yy, xy) and tractions (xx, yx, yy, xy) of displacements (3 n_points).
 fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
     let system = &bench.model.system;
-    let deformations = internal::sweep(system, intact, u).deformations;
-    let of_bonds = virial::stress(system, intact, &deformations);
-    (of_bonds, traction::stress(system, intact, &deformations))
+    let deformations = internal::sweep(system, BondsLeft::whole(intact), u).deformations;
+    let of_bonds = virial::stress(system, BondsLeft::whole(intact), &deformations);
+    (
+        of_bonds,
+        traction::stress(system, BondsLeft::whole(intact), &deformations),
+    )
 }
 
 fn stresses_of_run(bench: &Bench, run: &Run) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
@@ -72,7 +76,9 @@ fn stresses_have_the_mean_of_the_forces() {
             .map(|_| random.uniform() < 0.6)
             .collect();
         assert!(intact.contains(&false));
-        let forces = internal::sweep(system, &intact, &u).internal.values;
+        let forces = internal::sweep(system, BondsLeft::whole(&intact), &u)
+            .internal
+            .values;
         let (of_bonds, of_planes) = stresses(&bench, &intact, &u);
         let cloud = &system.cloud;
         // The force's direction first, then the place's.

@@ -3,7 +3,8 @@
 use ligament_analysis::SolverSettings;
 use ligament_analysis::boundary::{Boundary, Control, ControlKind};
 use ligament_analysis::driver::event::EventSettings;
-use ligament_analysis::driver::{Outcome, Problem, StopRules, event};
+use ligament_analysis::driver::stepped::SteppedSettings;
+use ligament_analysis::driver::{Outcome, Problem, StopRules, event, stepped};
 use ligament_analysis::unknowns::Component;
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::{BondSet, BondSystem, ElementKind, Horizons, PointCloud};
@@ -122,20 +123,31 @@ impl Truss {
         }
     }
 
-    /// Follows the exact path.
-    pub fn follow(&self, stop: StopRules) -> (Outcome, Watch) {
-        let problem = Problem {
+    /// Its problem.
+    pub fn problem(&self) -> Problem<'_> {
+        Problem {
             system: &self.system,
             criteria: &self.criteria,
             boundary: &self.boundary,
             solver: SolverSettings::default(),
             probes: &[],
-        };
+        }
+    }
+
+    /// Follows load steps.
+    pub fn step(&self, settings: &SteppedSettings) -> (Outcome, Watch) {
+        let mut watch = Watch::default();
+        let outcome = stepped::run(&self.problem(), settings, &mut watch);
+        (outcome.unwrap(), watch)
+    }
+
+    /// Follows the exact path.
+    pub fn follow(&self, stop: StopRules) -> (Outcome, Watch) {
         let mut watch = Watch {
             displacements: Some(Vec::new()),
             ..Watch::default()
         };
-        let outcome = event::run(&problem, &settings(stop), &mut watch);
+        let outcome = event::run(&self.problem(), &settings(stop), &mut watch);
         (outcome.unwrap(), watch)
     }
 }

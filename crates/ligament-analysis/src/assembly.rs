@@ -10,6 +10,7 @@ use ligament_model::BondSystem;
 use nalgebra::{Matrix3, Matrix6};
 use rayon::prelude::*;
 
+use crate::state::BondsLeft;
 use crate::unknowns::{COMPONENTS, Unknowns};
 
 /// The pattern of the matrix (upper triangle) for some unknowns.
@@ -41,14 +42,14 @@ pub fn assemble(
     system: &BondSystem,
     unknowns: &Unknowns,
     pattern: &Arc<Pattern>,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
     columns_of_points(&mut matrix.values, pattern, unknowns, system.cloud.len())
         .into_par_iter()
         .enumerate()
-        .for_each(|(point, values)| fill_columns(system, unknowns, intact, held, point, values));
+        .for_each(|(point, values)| fill_columns(system, unknowns, bonds, held, point, values));
     matrix
 }
 
@@ -94,14 +95,14 @@ fn columns_of_points<'a>(
 fn fill_columns(
     system: &BondSystem,
     unknowns: &Unknowns,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     held: &[bool],
     point: usize,
     values: &mut [f64],
 ) {
-    let own_block = diagonal_block(system, intact, point);
+    let own_block = diagonal_block(system, bonds, point);
     let couplings: Vec<(usize, Matrix6<f64>)> = lower_neighbours(system, point)
-        .map(|(bond, neighbour)| (neighbour, stiffness(system, intact, bond)))
+        .map(|(bond, neighbour)| (neighbour, stiffness(system, bonds, bond)))
         .collect();
     let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
     let mut slots = values.iter_mut();
@@ -130,22 +131,19 @@ fn fill_columns(
 }
 
 /// Element stiffness of a bond, zero if it is broken.
-fn stiffness(system: &BondSystem, intact: &[bool], bond: usize) -> Matrix6<f64> {
-    if intact[bond] {
-        system.element(bond).stiffness()
-    } else {
-        Matrix6::zeros()
-    }
+fn stiffness(system: &BondSystem, bonds: BondsLeft<'_>, bond: usize) -> Matrix6<f64> {
+    let element = bonds.element(system, bond);
+    element.map_or_else(Matrix6::zeros, |element| element.stiffness())
 }
 
-fn diagonal_block(system: &BondSystem, intact: &[bool], point: usize) -> Matrix3<f64> {
+fn diagonal_block(system: &BondSystem, bonds: BondsLeft<'_>, point: usize) -> Matrix3<f64> {
     let mut block = Matrix3::zeros();
     for &bond in system.bonds.incidence.of(point as u32) {
         let bond = bond as usize;
         let is_first_end = system.bonds.ends[bond][0] as usize == point;
         let offset = if is_first_end { 0 } else { COMPONENTS };
         block +=
-            stiffness(system, intact, bond).fixed_view::<COMPONENTS, COMPONENTS>(offset, offset);
+            stiffness(system, bonds, bond).fixed_view::<COMPONENTS, COMPONENTS>(offset, offset);
     }
     block
 }

@@ -1,10 +1,13 @@
 //! Equilibrium of the intact bonds by Newton-Raphson (NHPD eqs 19 to 21).
 
+mod secant;
+
 use std::time::Instant;
 
 use ligament_linalg::{FactorError, FactorKind, PatternError};
 use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
+use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -34,18 +37,24 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
+/// Forces below this share of the largest so far are rounding of those, to within [`RESIDUAL_TOLERANCE`].
+const UNLOADED: f64 = 1e-5;
+
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
 
 /// The equations of a problem, kept up while its bonds break.
 pub struct Equilibrium<'a> {
     system: &'a BondSystem,
+    criteria: &'a Criteria,
     boundary: &'a Boundary,
     stiffness: Stiffness<'a>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     energy_tolerance: f64,
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
     point_stiffness: [f64; 2],
+    /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
+    largest_forces: [f64; 2],
     connectivity: Connectivity,
 }
 
@@ -145,6 +154,11 @@ pub enum SetupError {
     /// The symbolic analysis failed.
     #[error(transparent)]
     Analysis(#[from] FactorError),
+    /// The exact path was asked for with bonds that soften.
+    #[error(
+        "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
+    )]
+    Softening,
     /// An observer could not do its part.
     #[error(transparent)]
     Observer(#[from] ObserverError),
@@ -163,10 +177,14 @@ impl<'a> Equilibrium<'a> {
     /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
     pub fn of(problem: &Problem<'a>, energy_tolerance: f64) -> Result<Self, SetupError> {
         let Problem {
-            system, boundary, ..
+            system,
+            criteria,
+            boundary,
+            ..
         } = *problem;
         Ok(Self {
             system,
+            criteria,
             boundary,
             stiffness: Stiffness::new(
                 system,
@@ -175,6 +193,7 @@ impl<'a> Equilibrium<'a> {
             )?,
             energy_tolerance,
             point_stiffness: largest_point_stiffness(system),
+            largest_forces: [0.0; 2],
             connectivity: Connectivity::new(system),
         })
     }
@@ -248,6 +267,9 @@ impl<'a> Equilibrium<'a> {
         state: &mut State,
         observer: &mut dyn Observer,
     ) -> Result<Result<Balanced, Unbalanced>, ObserverError> {
+        if !state.softening.remaining.is_empty() {
+            return self.balance_secants(state, observer);
+        }
         self.prescribe(state);
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
@@ -305,11 +327,19 @@ impl<'a> Equilibrium<'a> {
     /// Deformations, forces, residual and energy of a state.
     fn measure(&mut self, state: &State) -> Balanced {
         let start = Instant::now();
+        let deformations = internal::deformations(self.system, &state.displacement);
+        self.count_bond_work(start);
+        self.measure_deformed(state, deformations)
+    }
+
+    /// Forces, residual and energy of a state with deformations (n_bonds).
+    fn measure_deformed(&mut self, state: &State, deformations: Vec<BondDeformation>) -> Balanced {
+        let start = Instant::now();
         let BondSweep {
             deformations,
             internal,
             stored_energy,
-        } = internal::sweep(self.system, &state.intact, &state.displacement);
+        } = internal::forces(self.system, state.bonds(), deformations);
         let residual_forces = self.residual_forces(state, &internal);
         let residual = self.relative_residual(state, &residual_forces, &internal);
         self.count_bond_work(start);
@@ -376,8 +406,11 @@ impl<'a> Equilibrium<'a> {
         scales.force_scale = scales
             .force_scale
             .max(largest_load * state.load_factor.abs())
-            .max(force / RESIDUAL_TOLERANCE);
-        scales.moment_scale = scales.moment_scale.max(moment / RESIDUAL_TOLERANCE);
+            .max(force / RESIDUAL_TOLERANCE)
+            .max(UNLOADED * self.largest_forces[0]);
+        scales.moment_scale = (scales.moment_scale)
+            .max(moment / RESIDUAL_TOLERANCE)
+            .max(UNLOADED * self.largest_forces[1]);
         internal::relative_residual(residual, self.unknowns().degrees_of_freedom(), &scales)
     }
 

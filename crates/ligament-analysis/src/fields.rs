@@ -2,6 +2,9 @@
 
 use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
+use ligament_model::failure::{Criteria, Weakened};
+
+use crate::state::{BondsLeft, State};
 
 /// Damage of every point (NHPD eq. 17): 1 - (sum over its intact bonds of Omega alpha)/(sum over all its bonds).
 ///
@@ -25,33 +28,90 @@ pub fn point_damage(system: &BondSystem, intact: &[bool], point: u32) -> f64 {
     if all > 0.0 { broken / all } else { 0.0 }
 }
 
-/// Strain energy density of every point, J/m^3: half the energy of its intact bonds over its volume.
+/// Damage of every point by each way in which some criterion lets bonds fail, with its name.
+pub fn damages(
+    system: &BondSystem,
+    criteria: &Criteria,
+    state: &State,
+) -> Vec<(&'static str, Vec<f64>)> {
+    let ways = [
+        ("damage_tension", Weakened::Opening),
+        ("damage_compression", Weakened::Crushing),
+        ("damage_sliding", Weakened::Sliding),
+    ];
+    let occurs = |way: Weakened| criteria.list.iter().any(|it| it.measure.weakens() == way);
+    ways.into_iter()
+        .filter(|&(_, way)| occurs(way))
+        .map(|(name, way)| (name, damage_by(system, criteria, state, way)))
+        .collect()
+}
+
+/// Damage of every point by one way of failing (MPPD eqs 47, 48 and 51, as corrected): 1 - sum mu Omega alpha V_B / sum Omega alpha
+/// V_B over its bonds, with the force factor mu of the criteria that weaken bonds in this way.
+///
+/// d_t of opening, d_c of crushing and d_gamma of sliding. A bond that broke counts as lost (mu = 0) for the criterion by which
+/// it broke; with brittle bonds these are the shares of [`damage`], by volume.
+pub fn damage_by(
+    system: &BondSystem,
+    criteria: &Criteria,
+    state: &State,
+    way: Weakened,
+) -> Vec<f64> {
+    let fails_so: Vec<bool> = (criteria.list.iter())
+        .map(|criterion| criterion.measure.weakens() == way)
+        .collect();
+    let force = |bond: usize| {
+        let broke_so = state.broken_by[bond].is_some_and(|it| fails_so[usize::from(it)]);
+        if broke_so {
+            return 0.0;
+        }
+        let of = |criterion: usize| state.softening.of(criteria, criterion, bond).force;
+        let such = (0..fails_so.len()).filter(|&criterion| fails_so[criterion]);
+        such.map(of).fold(1.0, f64::min)
+    };
+    gather(system, |point| {
+        let (mut lost, mut all) = (0.0, 0.0);
+        for &bond in system.bonds.incidence.of(point) {
+            let volume = system.cloud.volumes[system.bonds.neighbour(bond, point) as usize];
+            let weight = system.weight[bond as usize] * volume;
+            all += weight;
+            lost += (1.0 - force(bond as usize)) * weight;
+        }
+        if all > 0.0 { lost / all } else { 0.0 }
+    })
+}
+
+/// Energy that the bonds of every point have taken for good, J/m^3: half of each bond's over the volume of the point.
+pub fn dissipated_energy_density(system: &BondSystem, dissipated: &[f64]) -> Vec<f64> {
+    gather(system, |point| {
+        let bonds = system.bonds.incidence.of(point).iter();
+        let energy: f64 = bonds.map(|&bond| dissipated[bond as usize]).sum();
+        0.5 * energy / system.cloud.volumes[point as usize]
+    })
+}
+
+/// Strain energy density of every point, J/m^3: half the energy of its bonds over its volume.
 pub fn strain_energy_density(
     system: &BondSystem,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
 ) -> Vec<f64> {
     gather(system, |point| {
-        point_energy_density(system, intact, deformations, point)
+        point_energy_density(system, bonds, deformations, point)
     })
 }
 
 /// Strain energy density of one point, see [`strain_energy_density`].
 pub fn point_energy_density(
     system: &BondSystem,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
     point: u32,
 ) -> f64 {
-    let bonds = system
-        .bonds
-        .incidence
-        .of(point)
-        .iter()
-        .map(|&bond| bond as usize);
-    let energy: f64 = bonds
-        .filter(|&bond| intact[bond])
-        .map(|bond| system.element(bond).energy(&deformations[bond]))
+    let family = system.bonds.incidence.of(point).iter();
+    let energy: f64 = family
+        .map(|&bond| bond as usize)
+        .filter_map(|bond| Some(bonds.element(system, bond)?.energy(&deformations[bond])))
         .sum();
     0.5 * energy / system.cloud.volumes[point as usize]
 }

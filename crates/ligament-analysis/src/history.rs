@@ -28,6 +28,9 @@ pub struct StepRecord {
     pub stored_energy: f64,
     /// Energy released by all breakages so far, J.
     pub released_energy: f64,
+    /// Energy that the laws of the bonds took for good so far, J: of a brittle bond what it stored at its limit. What was released
+    /// beyond that went into motion.
+    pub dissipated_energy: f64,
     /// Work done by supports and loads so far, J.
     pub external_work: f64,
     /// Broken bonds so far.

@@ -8,6 +8,7 @@ use ligament_model::element::spring::SpringBond;
 use ligament_model::element::{BondDeformation, Element, ElementKind};
 use rayon::prelude::*;
 
+use crate::state::BondsLeft;
 use crate::unknowns::COMPONENTS;
 
 /// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
@@ -43,16 +44,32 @@ pub struct InternalForces {
 ///
 /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
 /// after each other.
-pub fn sweep(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
+pub fn sweep(system: &BondSystem, bonds: BondsLeft<'_>, displacement: &[f64]) -> BondSweep {
+    forces(system, bonds, deformations(system, displacement))
+}
+
+/// Deformation of every bond, broken or not, shape (n_bonds).
+pub fn deformations(system: &BondSystem, displacement: &[f64]) -> Vec<BondDeformation> {
     match system.element {
-        ElementKind::Beam => sweep_of::<BeamBond>(system, intact, displacement),
-        ElementKind::Spring => sweep_of::<SpringBond>(system, intact, displacement),
+        ElementKind::Beam => deformations_of::<BeamBond>(system, displacement),
+        ElementKind::Spring => deformations_of::<SpringBond>(system, displacement),
     }
 }
 
-fn sweep_of<E: Element>(system: &BondSystem, intact: &[bool], displacement: &[f64]) -> BondSweep {
-    let n_bonds = system.bonds.len();
-    let mut deformations = vec![BondDeformation::default(); n_bonds];
+/// Forces and energy of bonds with given deformations (n_bonds).
+pub fn forces(
+    system: &BondSystem,
+    bonds: BondsLeft<'_>,
+    deformations: Vec<BondDeformation>,
+) -> BondSweep {
+    match system.element {
+        ElementKind::Beam => forces_of::<BeamBond>(system, bonds, deformations),
+        ElementKind::Spring => forces_of::<SpringBond>(system, bonds, deformations),
+    }
+}
+
+fn deformations_of<E: Element>(system: &BondSystem, displacement: &[f64]) -> Vec<BondDeformation> {
+    let mut deformations = vec![BondDeformation::default(); system.bonds.len()];
     deformations
         .par_chunks_mut(TASK)
         .enumerate()
@@ -63,11 +80,20 @@ fn sweep_of<E: Element>(system: &BondSystem, intact: &[bool], displacement: &[f6
                 *deformation = E::of(system, bond).deformation(at_a, at_b);
             }
         });
+    deformations
+}
+
+fn forces_of<E: Element>(
+    system: &BondSystem,
+    bonds: BondsLeft<'_>,
+    deformations: Vec<BondDeformation>,
+) -> BondSweep {
+    let n_bonds = system.bonds.len();
     let parts: Vec<Part> = (0..PARTS)
         .into_par_iter()
         .map(|part| {
-            let bonds = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-            Part::of::<E>(system, intact, &deformations, bonds)
+            let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+            Part::of::<E>(system, bonds, &deformations, of_part)
         })
         .collect();
     let sums: Vec<PointForces> = (0..system.cloud.len())
@@ -127,16 +153,19 @@ impl PointForces {
 impl Part {
     fn of<E: Element>(
         system: &BondSystem,
-        intact: &[bool],
+        bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
-        bonds: Range<usize>,
+        of_part: Range<usize>,
     ) -> Self {
         let mut part = Self {
             forces: vec![PointForces::default(); system.cloud.len()],
             energy: 0.0,
         };
-        for bond in bonds.filter(|&bond| intact[bond]) {
-            let (element, deformation) = (E::of(system, bond), &deformations[bond]);
+        for bond in of_part {
+            let Some(element) = bonds.typed_element::<E>(system, bond) else {
+                continue;
+            };
+            let deformation = &deformations[bond];
             part.energy += element.mutual_energy(deformation, deformation);
             let [at_a, at_b] = element.end_forces(deformation);
             let [a, b] = system.bonds.ends[bond];

@@ -19,6 +19,7 @@ pub mod history;
 pub mod internal;
 pub mod modal;
 pub mod probe;
+pub mod softening;
 pub mod state;
 pub mod stiffness;
 pub mod stress;

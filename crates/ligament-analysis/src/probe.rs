@@ -112,25 +112,23 @@ impl Reading {
                 }
                 PointField::Stress(component) => {
                     let deformations = &balanced.deformations;
-                    let stress = virial::point_stress(system, &state.intact, deformations, *point);
+                    let stress = virial::point_stress(system, state.bonds(), deformations, *point);
                     stress[*component as usize]
                 }
                 PointField::StrainEnergyDensity => fields::point_energy_density(
                     system,
-                    &state.intact,
+                    state.bonds(),
                     &balanced.deformations,
                     *point,
                 ),
             },
             Self::SectionForce { bonds, component } => bonds
                 .iter()
-                .filter(|(bond, _)| state.intact[*bond as usize])
-                .map(|&(bond, first_is_left)| {
-                    let forces = system
-                        .element(bond as usize)
-                        .end_forces(&balanced.deformations[bond as usize]);
+                .filter_map(|&(bond, first_is_left)| {
+                    let element = state.bonds().element(system, bond as usize)?;
+                    let forces = element.end_forces(&balanced.deformations[bond as usize]);
                     // The end force is what holds the end in place against the bond: the bond pulls the other way.
-                    -forces[usize::from(!first_is_left)][component.index()]
+                    Some(-forces[usize::from(!first_is_left)][component.index()])
                 })
                 .sum(),
         }

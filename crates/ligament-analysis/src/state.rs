@@ -1,10 +1,12 @@
 //! What changes during a run.
 
 use ligament_model::BondSystem;
+use ligament_model::element::{BondElement, Element, Remaining};
 
+use crate::softening::Softening;
 use crate::unknowns::COMPONENTS;
 
-/// Motion of the points and which bonds are left.
+/// Motion of the points and what is left of the bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Load factor.
@@ -13,6 +15,12 @@ pub struct State {
     pub displacement: Vec<f64>,
     /// Which bonds are unbroken, shape (n_bonds).
     pub intact: Vec<bool>,
+    /// Criterion by which each broken bond broke, shape (n_bonds).
+    pub broken_by: Vec<Option<u8>>,
+    /// How far unbroken bonds are past their limits; empty where no bond softens.
+    pub softening: Softening,
+    /// Energy that each bond has taken for good, shape (n_bonds), J.
+    pub dissipated: Vec<f64>,
     /// Degrees of freedom held because nothing else would hold them, shape (3 n_points).
     pub held: Vec<bool>,
 }
@@ -20,11 +28,14 @@ pub struct State {
 impl State {
     /// The unloaded body with all its bonds.
     pub fn fresh(system: &BondSystem) -> Self {
-        let n = COMPONENTS * system.cloud.len();
+        let (n, n_bonds) = (COMPONENTS * system.cloud.len(), system.bonds.len());
         Self {
             load_factor: 0.0,
             displacement: vec![0.0; n],
-            intact: vec![true; system.bonds.len()],
+            intact: vec![true; n_bonds],
+            broken_by: vec![None; n_bonds],
+            softening: Softening::default(),
+            dissipated: vec![0.0; n_bonds],
             held: vec![false; n],
         }
     }
@@ -32,5 +43,68 @@ impl State {
     /// Number of broken bonds.
     pub fn broken_bonds(&self) -> usize {
         self.intact.iter().filter(|intact| !**intact).count()
+    }
+
+    /// What is left of the bonds.
+    pub fn bonds(&self) -> BondsLeft<'_> {
+        BondsLeft {
+            intact: &self.intact,
+            remaining: &self.softening.remaining,
+        }
+    }
+}
+
+/// Which bonds are left, and how much of their stiffness.
+#[derive(Debug, Clone, Copy)]
+pub struct BondsLeft<'a> {
+    /// Which are unbroken, shape (n_bonds).
+    pub intact: &'a [bool],
+    /// What is left of their stiffness, shape (n_bonds); empty where that is all of it.
+    pub remaining: &'a [Remaining],
+}
+
+impl<'a> BondsLeft<'a> {
+    /// Unbroken bonds (n_bonds) with all of their stiffness.
+    pub fn whole(intact: &'a [bool]) -> Self {
+        Self {
+            intact,
+            remaining: &[],
+        }
+    }
+
+    /// What is left of a bond, nothing if it is broken.
+    #[inline]
+    pub fn of(self, bond: usize) -> Remaining {
+        if self.intact[bond] {
+            let remaining = self.remaining.get(bond);
+            remaining.copied().unwrap_or(Remaining::WHOLE)
+        } else {
+            Remaining::NOTHING
+        }
+    }
+
+    /// The element of a bond with what is left of it; None if it is broken.
+    #[inline]
+    pub fn typed_element<E: Element>(self, system: &BondSystem, bond: usize) -> Option<E> {
+        if !self.intact[bond] {
+            return None;
+        }
+        let whole = E::of(system, bond);
+        Some(match self.remaining.get(bond) {
+            None => whole,
+            Some(remaining) => whole.weakened(remaining),
+        })
+    }
+
+    /// The element of a bond with what is left of it; None if it is broken.
+    pub fn element(self, system: &BondSystem, bond: usize) -> Option<BondElement> {
+        if !self.intact[bond] {
+            return None;
+        }
+        let whole = system.element(bond);
+        Some(match self.remaining.get(bond) {
+            None => whole,
+            Some(remaining) => whole.weakened(remaining),
+        })
     }
 }

@@ -1,14 +1,16 @@
 //! The stiffness of the intact bonds and its factor, kept up while bonds break.
 
+mod change;
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 pub use ligament_linalg::FactorKind;
 use ligament_linalg::{
-    Elimination, FactorError, Factorisation, Pattern, RankOne, Symbolic, SymmetricMatrix,
-    VANISHING_PIVOT,
+    Elimination, FactorError, Factorisation, Pattern, Symbolic, SymmetricMatrix, VANISHING_PIVOT,
 };
 use ligament_model::BondSystem;
+use ligament_model::element::Remaining;
 
 use crate::assembly;
 use crate::dissection;
@@ -120,7 +122,10 @@ pub struct Stiffness<'a> {
     held: Vec<usize>,
     /// Whether the factor was changed since it was made.
     is_changed: bool,
-    n_broken: usize,
+    /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
+    remaining: Vec<Remaining>,
+    /// Bonds that broke or changed so far.
+    n_changed: usize,
     pub(crate) costs: Costs,
 }
 
@@ -163,7 +168,8 @@ impl<'a> Stiffness<'a> {
             broken: Vec::new(),
             held: Vec::new(),
             is_changed: false,
-            n_broken: 0,
+            remaining: Vec::new(),
+            n_changed: 0,
             unknowns,
             costs: Costs {
                 analysis: start.elapsed(),
@@ -214,124 +220,9 @@ impl<'a> Stiffness<'a> {
         self.held.extend(held);
     }
 
-    /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
-    /// unknowns, shape (n_unknowns). None where nothing was noted or the factor has to be made anew.
-    ///
-    /// K' du = K_b u, K' = K - K_b + the terms of the holds (a positive diagonal entry of the size of the one that was
-    /// there). A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there: up to
-    /// rounding, which is taken away. For this the forces at the holds must be in the right-hand side.
-    pub(crate) fn follow(&mut self, state: &State) -> Option<Vec<f64>> {
-        let (broken, held) = (
-            std::mem::take(&mut self.broken),
-            std::mem::take(&mut self.held),
-        );
-        if broken.is_empty() && held.is_empty() {
-            return None;
-        }
-        let SolverChoice {
-            update,
-            rebuild_every,
-            most_bonds_in_place,
-            ..
-        } = self.choice;
-        let period_before = self.n_broken / rebuild_every;
-        self.n_broken += broken.len();
-        let in_place = update == Update::Incremental
-            && self.n_broken / rebuild_every == period_before
-            && broken.len() <= most_bonds_in_place;
-        if !in_place {
-            self.forget();
-        }
-        let mut factor = self.factor.take()?;
-        let start = Instant::now();
-        let terms = self.terms(&broken, &held);
-        let force = self.unbalanced_force(&broken, state);
-        let half_solved = factor.change(&terms, &force);
-        self.costs.change += start.elapsed();
-        self.costs.changes += 1;
-        // After a change that failed the factor is made anew, and that tells what is wrong if anything is.
-        let Ok(half_solved) = half_solved else {
-            self.stale = Some(factor);
-            return None;
-        };
-        let start = Instant::now();
-        let mut correction = factor.finish(half_solved);
-        self.keep_held(state, &mut correction);
-        self.costs.backward += start.elapsed();
-        self.costs.solves += 1;
-        self.is_changed = true;
-        self.factor = Some(factor);
-        Some(correction)
-    }
-
-    /// What holds add to the matrix and broken bonds take from it. The holds come first: no pivot vanishes in between.
-    fn terms(&self, broken: &[u32], held: &[usize]) -> Vec<RankOne> {
-        let holds = held.iter().filter_map(|&dof| {
-            let entries = vec![(self.number(dof)?, 1.0)];
-            let diagonal = self.whole_diagonal(dof).abs();
-            let weight = if diagonal == 0.0 { 1.0 } else { diagonal };
-            Some(RankOne { weight, entries })
-        });
-        let bonds = broken.iter().flat_map(|&bond| {
-            let [a, b] = self.system.bonds.ends[bond as usize].map(|end| COMPONENTS * end as usize);
-            let degrees_of_freedom = [a, a + 1, a + 2, b, b + 1, b + 2];
-            let modes = self.system.element(bond as usize).modes();
-            modes.into_iter().filter_map(move |(rigidity, gradient)| {
-                let entries: Vec<(usize, f64)> = degrees_of_freedom
-                    .into_iter()
-                    .zip(gradient)
-                    .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
-                    .filter(|&(_, value)| value != 0.0)
-                    .collect();
-                let matters = rigidity != 0.0 && !entries.is_empty();
-                matters.then_some(RankOne {
-                    weight: -rigidity,
-                    entries,
-                })
-            })
-        });
-        holds.chain(bonds).collect()
-    }
-
     /// Number of the unknown at a degree of freedom that the factor couples with others.
     fn number(&self, dof: usize) -> Option<usize> {
         self.unknowns.number(dof).filter(|_| !self.cut_off[dof])
-    }
-
-    /// Diagonal entry of the matrix with all bonds.
-    fn whole_diagonal(&self, dof: usize) -> f64 {
-        let (point, component) = (dof / COMPONENTS, dof % COMPONENTS);
-        let bonds = self.system.bonds.incidence.of(point as u32).iter();
-        bonds
-            .map(|&bond| {
-                let second = self.system.bonds.ends[bond as usize][1] as usize == point;
-                let place = COMPONENTS * usize::from(second) + component;
-                let modes = self.system.element(bond as usize).modes();
-                modes
-                    .iter()
-                    .map(|(rigidity, gradient)| rigidity * gradient[place] * gradient[place])
-                    .sum::<f64>()
-            })
-            .sum()
-    }
-
-    /// What the bonds exerted on their ends, as a force that nothing balances any more.
-    fn unbalanced_force(&self, broken: &[u32], state: &State) -> Vec<(usize, f64)> {
-        let mut force = Vec::with_capacity(2 * COMPONENTS * broken.len());
-        for &bond in broken {
-            let bond = bond as usize;
-            let deformation = self.system.deformation(bond, &state.displacement);
-            let end_forces = self.system.element(bond).end_forces(&deformation);
-            for (end, values) in self.system.bonds.ends[bond].iter().zip(end_forces) {
-                for (component, value) in values.into_iter().enumerate() {
-                    let dof = COMPONENTS * *end as usize + component;
-                    if let Some(unknown) = self.number(dof) {
-                        force.push((unknown, value));
-                    }
-                }
-            }
-        }
-        force
     }
 
     /// Makes the factor for the state's bonds if there is none; gives the unknowns whose pivots vanish. Those must be held,
@@ -360,6 +251,7 @@ impl<'a> Stiffness<'a> {
         if vanishing.is_empty() {
             self.factor = factor.ok();
             self.cut_off.clone_from(&state.held);
+            self.remaining.clone_from(&state.softening.remaining);
             self.is_changed = false;
         }
         Ok(vanishing)
@@ -371,7 +263,7 @@ impl<'a> Stiffness<'a> {
             self.system,
             &self.unknowns,
             &self.pattern,
-            &state.intact,
+            state.bonds(),
             &state.held,
         )
     }
@@ -425,7 +317,7 @@ impl<'a> Stiffness<'a> {
         };
         let alone: Vec<bool> = (0..state.held.len()).map(is_alone).collect();
         let pattern = Arc::new(assembly::pattern(self.system, &rotations)?);
-        let block = assembly::assemble(self.system, &rotations, &pattern, &state.intact, &alone);
+        let block = assembly::assemble(self.system, &rotations, &pattern, state.bonds(), &alone);
         let elimination = self.choice.ordering.elimination(self.system, &rotations);
         let symbolic = Arc::new(Symbolic::analyse(pattern, elimination)?);
         let factor = FactorKind::Ldlt.factorise(&symbolic, &block)?;

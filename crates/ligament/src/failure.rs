@@ -11,11 +11,13 @@ use ligament_model::{BondSystem, Isotropic, Material, Plane};
 use crate::case::{self, After, CaseError, CaseFile, CriterionKind, FrictionCalibration, Law};
 use crate::resolve;
 
-/// The criteria of a case on its bonds; none without a fracture section. Bonds of points marked in `no_fail` (n_points) never fail.
+/// The criteria of a case on its bonds; none without a fracture section. Bonds of points marked in `no_fail` (n_points)
+/// never fail.
 ///
 /// # Errors
 ///
-/// If the strengths of a material leave a criterion without a limit, or its fracture energy leaves nothing after the limit.
+/// If the strengths of a material leave a criterion without a limit, or its fracture energy leaves nothing after the
+/// limit.
 pub fn criteria(
     case: &CaseFile,
     system: &BondSystem,
@@ -38,8 +40,8 @@ pub fn criteria(
     })
 }
 
-/// The elastic constants that the law of the case makes of a material, which limits are made with: Young's modulus with the Poisson's
-/// ratio of central forces where the law knows no other. None for a material with axes.
+/// The elastic constants that the law of the case makes of a material, which limits are made with: Young's modulus with
+/// the Poisson's ratio of central forces where the law knows no other. None for a material with axes.
 pub(crate) fn constants(case: &CaseFile, material: &Material) -> Option<Isotropic> {
     let given = material.elasticity.isotropic()?;
     Some(if case.case.model.law.fixes_poisson() {
@@ -244,8 +246,8 @@ impl Limits<'_> {
         })
     }
 
-    /// What makes the lives of the bonds take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the
-    /// critical stretch of a brittle bond with that fracture energy.
+    /// What makes the lives of the bonds take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where
+    /// s_G is the critical stretch of a brittle bond with that fracture energy.
     fn spending_fracture_energy(
         &self,
         key: &str,

@@ -306,13 +306,13 @@ fn values_outside_of_their_range_are_refused() {
         ),
         (
             "steps = 100",
-            "steps = [0.1, 0.3, 0.2]",
-            "54:20: fracture.steps.2: must be greater than the load factor before it, 0.3, found 0.2",
+            "steps = [0.1, 0.2, 0.2]",
+            "54:20: fracture.steps.2: must be a number other than the load factor before it, 0.2, found 0.2",
         ),
         (
             "steps = 100",
             "steps = \"many\"",
-            "54:9: fracture.steps: expected a whole number of load steps or a rising list of load \
+            "54:9: fracture.steps: expected a whole number of load steps or a list of load \
              factors, found the string \"many\"",
         ),
         (

@@ -37,6 +37,9 @@ pub fn run(
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
+    if problem.criteria.soften() {
+        return Err(SetupError::Softening);
+    }
     let (mut path, at_one) =
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     let unloaded = match path.balance(0)? {

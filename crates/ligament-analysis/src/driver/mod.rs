@@ -1,5 +1,6 @@
 //! Drivers: one file for each way to follow a loading.
 
+mod dissipation;
 pub mod elastic;
 pub mod event;
 mod outcome;

@@ -8,6 +8,7 @@ use std::time::Instant;
 use ligament_model::element::BondDeformation;
 
 use super::Problem;
+use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
@@ -15,6 +16,7 @@ use crate::boundary::ControlKind;
 use crate::connectivity::Hold;
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, Termination, View};
+use crate::softening::Softening;
 use crate::state::State;
 
 /// Rules that end a run early.
@@ -85,7 +87,7 @@ impl<'a> Path<'a> {
             at_one,
         } = begin(problem, &mut equilibrium, observer)?;
         let solves = [equilibrium.costs().solves; 2];
-        let path = Self {
+        let mut path = Self {
             problem,
             observer,
             equilibrium,
@@ -102,6 +104,8 @@ impl<'a> Path<'a> {
             negative_eigenvalues: 0,
             started: Instant::now(),
         };
+        path.state.softening =
+            Softening::of_sound_bonds(problem.criteria, problem.system.bonds.len());
         Ok((path, at_one))
     }
 
@@ -118,6 +122,7 @@ impl<'a> Path<'a> {
         step: usize,
     ) -> Result<Result<Balanced, Unbalanced>, SetupError> {
         let displacement = self.state.displacement.clone();
+        let softening = self.state.softening.clone();
         let balanced = self.equilibrium.balance(&mut self.state, self.observer)?;
         let balanced = match balanced {
             Ok(Balanced {
@@ -129,6 +134,7 @@ impl<'a> Path<'a> {
         };
         let Ok(balanced) = balanced else {
             self.state.displacement = displacement;
+            self.state.softening = softening;
             return Ok(balanced);
         };
         if balanced.energy_is_negative && !std::mem::replace(&mut self.energy_was_negative, true) {
@@ -148,7 +154,8 @@ impl<'a> Path<'a> {
     ) -> Result<(), SetupError> {
         self.energies.add_work(self.problem, &self.state, balanced);
         self.energies
-            .add_released(self.problem, just_broken, balanced);
+            .add_released(self.problem, &self.state, just_broken, balanced);
+        dissipation::soften(self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
     }
@@ -182,6 +189,10 @@ impl<'a> Path<'a> {
         let records: Vec<BreakRecord> = bonds.iter().enumerate().filter_map(of_bond).collect();
         self.broken += bonds.len();
         self.observer.broke(&records)?;
+        for record in &records {
+            let deformation = &balanced.deformations[record.bond as usize];
+            dissipation::break_bond(self.problem, &mut self.state, record, deformation);
+        }
         let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
         self.collapsed |= self.load_came_loose(&holds);
         let fragments = self.equilibrium.fragments();
@@ -239,7 +250,8 @@ impl<'a> Path<'a> {
         {
             return Some(Termination::DisplacementReached { displacement });
         }
-        if self.broken == 0 {
+        // Bonds that soften take load away before any breaks.
+        if self.broken == 0 && (self.state.softening.remaining.is_empty() || self.peak == 0.0) {
             return None;
         }
         if reaction <= NO_LOAD * self.peak {

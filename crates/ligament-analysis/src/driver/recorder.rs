@@ -1,6 +1,6 @@
 //! Bookkeeping that every driver shares: energies and records.
 
-use ligament_model::element::BondDeformation;
+use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
@@ -16,12 +16,15 @@ use crate::unknowns::COMPONENTS;
 ///
 /// Between two states of equilibrium with the same bonds everything is linear, so the trapezoidal rule gives the work
 /// of supports and loads exactly; a breakage at fixed load releases 1/2 u^T K_b u' for each broken bond, with u before
-/// and u' after it.
+/// and u' after it. A bond whose secant falls from omega to omega' releases the same with (omega - omega') K_b: with the
+/// trapezoidal rule that leaves nothing over, whatever the step.
 #[derive(Debug, Clone)]
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
     loaded: Vec<Loaded>,
+    /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
+    last: Vec<(BondDeformation, Remaining)>,
 }
 
 /// A degree of freedom that something moves or loads, with its force and displacement in the last state.
@@ -39,6 +42,7 @@ impl Energies {
         Self {
             external_work: 0.0,
             released: 0.0,
+            last: Vec::new(),
             loaded: (loaded.into_iter())
                 .map(|degree_of_freedom| Loaded {
                     degree_of_freedom,
@@ -65,23 +69,36 @@ impl Energies {
         self.external_work += work;
     }
 
-    /// Adds what the breakage of bonds released, given their deformations before it.
+    /// Adds what the breakage of bonds released, given their deformations before it, and what softening did since the last
+    /// state.
     pub(super) fn add_released(
         &mut self,
         problem: &Problem<'_>,
+        state: &State,
         broken: &[(u32, BondDeformation)],
         balanced: &Balanced,
     ) {
+        let remaining = &state.softening.remaining;
         self.released += broken
             .iter()
             .map(|(bond, before)| {
                 let bond = *bond as usize;
-                problem
-                    .system
-                    .element(bond)
-                    .mutual_energy(before, &balanced.deformations[bond])
+                let left = remaining.get(bond).unwrap_or(&Remaining::WHOLE);
+                let element = problem.system.element(bond).weakened(left);
+                element.mutual_energy(before, &balanced.deformations[bond])
             })
             .sum::<f64>();
+        for (bond, (before, left_before)) in self.last.iter().enumerate() {
+            let lost = left_before.lost(&remaining[bond]);
+            if state.intact[bond] && lost != Remaining::NOTHING {
+                let element = problem.system.element(bond).weakened(&lost);
+                self.released += element.mutual_energy(before, &balanced.deformations[bond]);
+            }
+        }
+        let now = balanced.deformations.iter().zip(remaining);
+        self.last.clear();
+        self.last
+            .extend(now.map(|(deformation, left)| (*deformation, *left)));
     }
 }
 
@@ -119,6 +136,7 @@ pub(super) fn step_record(
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
+        dissipated_energy: state.dissipated.iter().sum(),
         broken_bonds: counters.broken,
         broken_in_step: counters.broken_in_step,
         largest_ratio: counters.largest_ratio,

@@ -16,7 +16,7 @@ use crate::history::{Observer, Termination};
 /// How to step and when to stop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteppedSettings {
-    /// Load factor at the end of each step, ascending.
+    /// Load factor at the end of each step; where it falls, the body is unloaded.
     pub load_factors: Vec<f64>,
     /// Divide what is left of the first breakage's step, after a step that ends exactly there, into so many; 0: off.
     pub refine_first_break: usize,
@@ -42,6 +42,7 @@ pub fn run(
         path,
         settings,
         last_step: load_factors.len(),
+        load_factor_before: 0.0,
     };
     let mut termination = Termination::StepsDone;
     for (step, &load_factor) in std::iter::once(&0.0).chain(&load_factors).enumerate() {
@@ -89,6 +90,8 @@ struct Stepping<'a> {
     path: Path<'a>,
     settings: &'a SteppedSettings,
     last_step: usize,
+    /// That of the step before.
+    load_factor_before: f64,
 }
 
 impl Stepping<'_> {
@@ -169,7 +172,12 @@ impl Stepping<'_> {
     ) -> Result<Option<Termination>, SetupError> {
         counters.largest_ratio =
             largest_ratio(&self.path.state, balanced, self.path.problem.criteria);
-        let end = interrupted.or_else(|| self.path.end_at_rest(balanced));
+        // A load that is taken back is no failure.
+        let load_factor = self.path.state.load_factor.abs();
+        let is_unloading = load_factor < self.load_factor_before.abs();
+        let at_rest = || self.path.end_at_rest(balanced).filter(|_| !is_unloading);
+        let end = interrupted.or_else(at_rest);
+        self.load_factor_before = self.path.state.load_factor;
         let is_last = end.is_some() || counters.step == self.last_step;
         self.path.record(balanced, counters, is_last)?;
         Ok(end)

@@ -6,6 +6,7 @@ use super::{Mode, ModeKind, Moving, Rotations};
 use crate::equilibrium::{ROUNDING, largest_point_stiffness};
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
+use crate::state::BondsLeft;
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
 
 /// Displacements closer than this (relative) to the largest one count as largest.
@@ -83,7 +84,12 @@ pub(super) fn inner(weight: &[f64], a: &[f64], b: &[f64]) -> f64 {
 
 /// omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds: exact to the square of the shape's error.
 pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
-    2.0 * internal::sweep(system, &vec![true; system.bonds.len()], shape).stored_energy
+    2.0 * internal::sweep(
+        system,
+        BondsLeft::whole(&vec![true; system.bonds.len()]),
+        shape,
+    )
+    .stored_energy
 }
 
 /// The mode of a normalised shape, rigid if its omega^2 is not above `rigid_below`.
@@ -100,7 +106,7 @@ pub(super) fn mode(
         deformations,
         internal,
         stored_energy,
-    } = internal::sweep(system, &intact, &shape);
+    } = internal::sweep(system, BondsLeft::whole(&intact), &shape);
     let eigenvalue = 2.0 * stored_energy;
     Mode {
         kind: if eigenvalue.abs() <= rigid_below {
@@ -111,7 +117,11 @@ pub(super) fn mode(
         eigenvalue,
         residual: residual(system, unknowns, masses, &shape, eigenvalue, internal),
         participation: moving.participation(masses, &shape),
-        strain_energy_density: fields::strain_energy_density(system, &intact, &deformations),
+        strain_energy_density: fields::strain_energy_density(
+            system,
+            BondsLeft::whole(&intact),
+            &deformations,
+        ),
         shape,
     }
 }

@@ -10,12 +10,11 @@
 pub mod traction;
 pub mod virial;
 
-use ligament_model::BondSystem;
-use ligament_model::element::BondDeformation;
+use ligament_model::element::{BondDeformation, BondElement};
 
 /// Force along x and y that the second end of a bond exerts on the first one, N.
-fn force_on_first(system: &BondSystem, bond: usize, deformation: &BondDeformation) -> [f64; 2] {
+fn force_on_first(element: &BondElement, deformation: &BondDeformation) -> [f64; 2] {
     // The end force is what holds the end in place against the bond: the bond pulls the other way.
-    let [[x, y, _], _] = system.element(bond).end_forces(deformation);
+    let [[x, y, _], _] = element.end_forces(deformation);
     [-x, -y]
 }

@@ -10,6 +10,7 @@ use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
 
 use super::force_on_first;
+use crate::state::BondsLeft;
 
 /// Stresses of the planes with normal x (xx, yx) and with normal y (yy, xy), Pa; the first letter is the force's direction.
 pub type Tractions = [f64; 4];
@@ -32,11 +33,11 @@ pub type Tractions = [f64; 4];
 /// Bonds within a plane do not cross it and do not count.
 pub fn stress(
     system: &BondSystem,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
 ) -> Vec<Tractions> {
     let squares = Squares::of(&system.cloud);
-    let on_planes = |normal: usize| through_planes(system, intact, deformations, &squares, normal);
+    let on_planes = |normal: usize| through_planes(system, bonds, deformations, &squares, normal);
     let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
     let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
     with_x.into_iter().zip(with_y).map(of_point).collect()
@@ -45,7 +46,7 @@ pub fn stress(
 /// Traction along x and y on the planes of each point with the given normal (0: x, 1: y), Pa.
 fn through_planes(
     system: &BondSystem,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
     squares: &Squares,
     normal: usize,
@@ -53,8 +54,10 @@ fn through_planes(
     let cloud = &system.cloud;
     let mut sums = vec![[0.0; 2]; cloud.len()];
     let mut crossed: Vec<(usize, f64)> = Vec::new();
-    let is_intact = |bond: &usize| intact[*bond];
-    for bond in (0..system.bonds.len()).filter(is_intact) {
+    for bond in 0..system.bonds.len() {
+        let Some(element) = bonds.element(system, bond) else {
+            continue;
+        };
         let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
         let band = Band {
             ends: [cloud.positions[a], cloud.positions[b]],
@@ -69,7 +72,7 @@ fn through_planes(
         }
         let area: f64 = crossed.iter().map(|(_, area)| area).sum();
         // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
-        let force = force_on_first(system, bond, &deformations[bond]);
+        let force = force_on_first(&element, &deformations[bond]);
         let force = force.map(|component| component * band.extent());
         for (point, part) in crossed.drain(..) {
             for (sum, component) in sums[point].iter_mut().zip(force) {

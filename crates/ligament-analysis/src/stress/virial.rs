@@ -5,6 +5,7 @@ use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
 use super::force_on_first;
+use crate::state::BondsLeft;
 
 /// Stresses xx, yy and xy, Pa.
 pub type SymmetricStress = [f64; 3];
@@ -12,12 +13,12 @@ pub type SymmetricStress = [f64; 3];
 /// Virial stress of every point, see [`point_stress`], shape (n_points).
 pub fn stress(
     system: &BondSystem,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
 ) -> Vec<SymmetricStress> {
     (0..system.cloud.len() as u32)
         .into_par_iter()
-        .map(|point| point_stress(system, intact, deformations, point))
+        .map(|point| point_stress(system, bonds, deformations, point))
         .collect()
 }
 
@@ -34,18 +35,18 @@ pub fn stress(
 /// for the energy does not make the stress on a free side zero.
 pub fn point_stress(
     system: &BondSystem,
-    intact: &[bool],
+    bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
     point: u32,
 ) -> SymmetricStress {
     let mut sum = [0.0; 3];
     for &bond in system.bonds.incidence.of(point) {
         let bond = bond as usize;
-        if !intact[bond] {
+        let Some(element) = bonds.element(system, bond) else {
             continue;
-        }
+        };
         // Seen from the second end force and vector both change sign.
-        let [f_x, f_y] = force_on_first(system, bond, &deformations[bond]);
+        let [f_x, f_y] = force_on_first(&element, &deformations[bond]);
         let [xi_x, xi_y] =
             system.bonds.direction[bond].map(|cosine| cosine * system.bonds.length[bond]);
         sum[0] += f_x * xi_x;

@@ -4,7 +4,7 @@
 //! the printed eq. 3 belong to clockwise rotations.
 
 use super::spring::SpringBond;
-use super::{BondDeformation, Element, UNKNOWNS};
+use super::{BondDeformation, Element, Remaining, UNKNOWNS};
 use crate::system::BondSystem;
 
 /// A pair of springs between points that turn, and a spring against their relative rotation.
@@ -22,6 +22,14 @@ impl Element for BeamBond {
         Self {
             springs: SpringBond::of(system, bond),
             rotational_rigidity: system.rotational_rigidity[bond],
+        }
+    }
+
+    #[inline]
+    fn weakened(self, remaining: &Remaining) -> Self {
+        Self {
+            springs: self.springs.weakened(remaining),
+            rotational_rigidity: remaining.rotational * self.rotational_rigidity,
         }
     }
 

@@ -40,10 +40,57 @@ pub struct BondDeformation {
     pub rotation: f64,
 }
 
+/// What is left of the stiffness of a bond: factors of its rigidities.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Remaining {
+    /// Of the axial one.
+    pub axial: f64,
+    /// Of the one against shear.
+    pub shear: f64,
+    /// Of the one against relative rotation.
+    pub rotational: f64,
+}
+
+impl Remaining {
+    /// All of it.
+    pub const WHOLE: Self = Self {
+        axial: 1.0,
+        shear: 1.0,
+        rotational: 1.0,
+    };
+
+    /// Nothing of it.
+    pub const NOTHING: Self = Self {
+        axial: 0.0,
+        shear: 0.0,
+        rotational: 0.0,
+    };
+
+    /// Whether some factor differs from the other's by more than a relative tolerance.
+    pub fn is_off(&self, other: &Self, tolerance: f64) -> bool {
+        let is_off = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
+        is_off(self.axial, other.axial)
+            || is_off(self.shear, other.shear)
+            || is_off(self.rotational, other.rotational)
+    }
+
+    /// What was lost from here to `later`.
+    pub fn lost(&self, later: &Self) -> Self {
+        Self {
+            axial: self.axial - later.axial,
+            shear: self.shear - later.shear,
+            rotational: self.rotational - later.rotational,
+        }
+    }
+}
+
 /// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
 pub trait Element: Copy {
     /// The element of a bond.
     fn of(system: &BondSystem, bond: usize) -> Self;
+
+    /// The element with its rigidities times what is left of them.
+    fn weakened(self, remaining: &Remaining) -> Self;
 
     /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation;
@@ -69,6 +116,14 @@ pub enum BondElement {
 }
 
 impl BondElement {
+    /// The element with its rigidities times what is left of them.
+    pub fn weakened(self, remaining: &Remaining) -> Self {
+        match self {
+            Self::Beam(bond) => Self::Beam(bond.weakened(remaining)),
+            Self::Spring(bond) => Self::Spring(bond.weakened(remaining)),
+        }
+    }
+
     /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
     pub fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         match self {

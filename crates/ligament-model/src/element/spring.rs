@@ -3,7 +3,7 @@
 //! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
 //! rigid rotation costs energy.
 
-use super::{BondDeformation, Element, UNKNOWNS};
+use super::{BondDeformation, Element, Remaining, UNKNOWNS};
 use crate::system::BondSystem;
 
 /// Geometry and rigidity of one bond.
@@ -27,6 +27,15 @@ impl Element for SpringBond {
             direction: system.bonds.direction[bond],
             axial_rigidity: system.axial_rigidity[bond],
             shear_rigidity: system.shear_rigidity[bond],
+        }
+    }
+
+    #[inline]
+    fn weakened(self, remaining: &Remaining) -> Self {
+        Self {
+            axial_rigidity: remaining.axial * self.axial_rigidity,
+            shear_rigidity: remaining.shear * self.shear_rigidity,
+            ..self
         }
     }
 

@@ -84,7 +84,8 @@ pub(super) fn write(
     rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {
-    let (system, state, balanced) = (view.system, view.state, view.balanced);
+    let (system, criteria, state, balanced) =
+        (view.system, view.criteria, view.state, view.balanced);
     let displacement = displacements(view);
     let rotation: Vec<f64> = state
         .displacement
@@ -92,7 +93,7 @@ pub(super) fn write(
         .map(|motion| motion[2])
         .collect();
     let damage = fields::damage(system, &state.intact);
-    let density = fields::strain_energy_density(system, &state.intact, &balanced.deformations);
+    let density = fields::strain_energy_density(system, state.bonds(), &balanced.deformations);
     let reactions = view
         .boundary
         .reactions(state.load_factor, &balanced.internal.values);
@@ -117,9 +118,16 @@ pub(super) fn write(
         Field::integer("held", &held),
         Field::integer(grid.tagged, &grid.tags),
     ];
+    let ways = fields::damages(system, criteria, state);
+    fields.extend((ways.iter()).map(|(name, values)| Field::scalar(name, values)));
+    let dissipated = (!criteria.list.is_empty())
+        .then(|| fields::dissipated_energy_density(system, &state.dissipated));
+    if let Some(values) = &dissipated {
+        fields.push(Field::scalar("dissipated_energy_density", values));
+    }
     let stress_virial = rule
         .virial
-        .then(|| virial::stress(system, &state.intact, &balanced.deformations));
+        .then(|| virial::stress(system, state.bonds(), &balanced.deformations));
     if let Some(stress) = &stress_virial {
         let values = stress.as_flattened();
         fields.push(Field::components(
@@ -130,7 +138,7 @@ pub(super) fn write(
     }
     let stress_traction = rule
         .traction
-        .then(|| traction::stress(system, &state.intact, &balanced.deformations));
+        .then(|| traction::stress(system, state.bonds(), &balanced.deformations));
     if let Some(stress) = &stress_traction {
         let values = stress.as_flattened();
         fields.push(Field::components(

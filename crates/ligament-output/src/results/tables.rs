@@ -8,7 +8,7 @@ use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 
-const HISTORY: [&str; 16] = [
+const HISTORY: [&str; 17] = [
     "step",
     "load_factor",
     "displacement",
@@ -25,6 +25,7 @@ const HISTORY: [&str; 16] = [
     "fragments",
     "at_rest",
     "negative_eigenvalues",
+    "dissipated_energy",
 ];
 const ITERATIONS: [&str; 7] = [
     "step",
@@ -174,6 +175,7 @@ impl Tables {
             record.fragments.into(),
             usize::from(record.at_rest).into(),
             record.negative_eigenvalues.into(),
+            record.dissipated_energy.into(),
         ];
         row.extend(
             record

@@ -69,7 +69,7 @@ pub enum BreakOrder {
 pub enum Steps {
     /// So many equal steps up to load factor 1.
     Uniform(u32),
-    /// These load factors, rising from above 0.
+    /// These load factors; where they fall, the body is unloaded.
     Factors(Vec<f64>),
 }
 
@@ -85,7 +85,7 @@ impl<'de> Visitor<'de> for StepsVisitor {
     type Value = Steps;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a whole number of load steps or a rising list of load factors")
+        formatter.write_str("a whole number of load steps or a list of load factors")
     }
 
     fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Steps, E> {
@@ -118,8 +118,10 @@ impl Steps {
                 )?;
                 let mut last = 0.0;
                 for (index, &factor) in factors.iter().enumerate() {
-                    let expected = format!("greater than the load factor before it, {last:?}");
-                    require(factor > last, || key.child(index), &expected, factor)?;
+                    let expected =
+                        format!("a number other than the load factor before it, {last:?}");
+                    let moves = factor.is_finite() && factor != last;
+                    require(moves, || key.child(index), &expected, factor)?;
                     last = factor;
                 }
                 Ok(())

@@ -1,0 +1,62 @@
+//! What the laws of the bonds take for good.
+
+use ligament_model::element::BondDeformation;
+
+use super::Problem;
+use crate::history::BreakRecord;
+use crate::softening::energy_at_limit;
+use crate::state::State;
+
+/// Brings the bonds that soften up to date with their extremes.
+pub(super) fn soften(problem: &Problem<'_>, state: &mut State) {
+    if state.softening.remaining.is_empty() {
+        return;
+    }
+    for bond in 0..problem.system.bonds.len() {
+        if state.intact[bond] {
+            state.dissipated[bond] = by_softening(problem, state, bond, None);
+        }
+    }
+}
+
+/// Adds what a bond that breaks takes with it, and notes by which criterion it broke.
+///
+/// A brittle bond takes what it stored when it reached its limit: its energy now over the square of its utilisation. One that
+/// softened takes the whole area under its law.
+pub(super) fn break_bond(
+    problem: &Problem<'_>,
+    state: &mut State,
+    record: &BreakRecord,
+    deformation: &BondDeformation,
+) {
+    let (bond, criterion) = (record.bond as usize, record.criterion);
+    let after = &problem.criteria.list[criterion].after;
+    state.dissipated[bond] = if after.is_brittle() {
+        let stored = state.bonds().element(problem.system, bond);
+        let stored = stored.map_or(0.0, |element| element.energy(deformation));
+        by_softening(problem, state, bond, None) + stored / record.ratio.powi(2)
+    } else {
+        by_softening(problem, state, bond, Some(criterion))
+    };
+    state.broken_by[bond] = u8::try_from(criterion).ok();
+}
+
+/// What the criteria that soften took from a bond; all of it from the one that is at its `end`.
+fn by_softening(problem: &Problem<'_>, state: &State, bond: usize, end: Option<usize>) -> f64 {
+    let of = |criterion: usize| {
+        let law = &problem.criteria.list[criterion];
+        let taken = if end == Some(criterion) {
+            law.after.total_dissipated(bond)
+        } else {
+            let softened = state.softening.of(problem.criteria, criterion, bond);
+            softened.dissipated
+        };
+        // A bond that never fails takes nothing, however far its limit is.
+        if taken == 0.0 {
+            0.0
+        } else {
+            taken * energy_at_limit(problem.system, law, bond)
+        }
+    };
+    (0..state.softening.largest.len()).map(of).sum()
+}

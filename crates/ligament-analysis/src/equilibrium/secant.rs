@@ -1,0 +1,84 @@
+//! Equilibrium of bonds that soften: Newton-Raphson with their secant stiffness.
+
+use super::{Balanced, Equilibrium, LARGEST_RESIDUAL, RESIDUAL_TOLERANCE, Unbalanced};
+use crate::history::{Observer, ObserverError};
+use crate::internal;
+use crate::state::State;
+
+/// Iterations after which a solve is given up.
+const ITERATION_LIMIT: usize = 1000;
+
+/// Iterations after which bonds keep the damage of the iterates: what has not settled by then is a sudden fall, in which bonds
+/// take turns. Damage that only grows comes to an end.
+const ONE_WAY_AFTER: usize = 60;
+
+impl Equilibrium<'_> {
+    /// Brings a state with softening bonds into equilibrium at its load factor.
+    ///
+    /// Every iterate decides what is left of the bonds, and K is that of what is left: the secants. These are positive, so that
+    /// K is definite where the elastic one is, and each correction solves the equations of the present secants exactly; what
+    /// remains as a residual is that the secants moved. It shrinks by a factor an iteration, slower the steeper bonds fall. The
+    /// iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-6, or with one below 1e-10.
+    ///
+    /// Extremes of iterates do not count unless equilibrium holds ([`Softening::follow`](crate::softening::Softening::follow)).
+    pub(super) fn balance_secants(
+        &mut self,
+        state: &mut State,
+        observer: &mut dyn Observer,
+    ) -> Result<Result<Balanced, Unbalanced>, ObserverError> {
+        self.prescribe(state);
+        let mut mechanisms = Vec::new();
+        let mut previous_energy = f64::NAN;
+        let mut iterations = 0;
+        if let Some(correction) = self.stiffness.follow(state) {
+            self.add_correction(state, &correction);
+            iterations = 1;
+        }
+        loop {
+            let deformations = internal::deformations(self.system, &state.displacement);
+            let is_one_way = iterations > ONE_WAY_AFTER;
+            let State {
+                softening, intact, ..
+            } = &mut *state;
+            softening.follow(self.criteria, intact, &deformations, is_one_way);
+            self.stiffness.weaken(state);
+            let mut balanced = self.measure_deformed(state, deformations);
+            if iterations > 0 {
+                observer.iteration(iterations, balanced.residual, balanced.stored_energy)?;
+            }
+            let Balanced {
+                residual,
+                stored_energy: energy,
+                ..
+            } = balanced;
+            let change = ((energy - previous_energy) / energy).abs();
+            let energy_settled = change < self.energy_tolerance && residual <= LARGEST_RESIDUAL;
+            if residual <= RESIDUAL_TOLERANCE || energy_settled {
+                state.softening.settle();
+                let forces = [
+                    balanced.internal.force_scale,
+                    balanced.internal.moment_scale,
+                ];
+                self.largest_forces = [0, 1].map(|k| self.largest_forces[k].max(forces[k]));
+                (balanced.iterations, balanced.mechanisms) = (iterations, mechanisms);
+                return Ok(Ok(balanced));
+            }
+            if iterations == ITERATION_LIMIT {
+                return Ok(Err(Unbalanced::NotConverged {
+                    residual,
+                    iterations,
+                }));
+            }
+            match self.factorise_if_stale(state) {
+                Ok(found) => mechanisms.extend(found),
+                Err(unbalanced) => return Ok(Err(unbalanced)),
+            }
+            let (boundary, internal) = (self.boundary, &balanced.internal);
+            let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
+            let correction = self.stiffness.solve(state, force);
+            self.add_correction(state, &correction);
+            previous_energy = energy;
+            iterations += 1;
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Bonds past their limits that are not broken yet.
+//!
+//! Of every criterion that softens, a bond remembers the largest e/e_0 so far (its running extreme), and from it comes what is
+//! left of its stiffness. What an opened bond lost it lacks in tension, shear and rotation, not in compression; see
+//! [`Weakened`].
+
+use ligament_model::BondSystem;
+use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
+use rayon::prelude::*;
+
+/// How far bonds are past their limits; empty where no bond softens.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Softening {
+    /// Largest e/e_0 of states of equilibrium, shape (n_bonds) for each criterion; empty for those that do not soften.
+    pub largest: Vec<Vec<f64>>,
+    /// The same with the iterate that equilibrium is sought from.
+    trial: Vec<Vec<f64>>,
+    /// What is left of the stiffness, for the deformations of the iterate, shape (n_bonds).
+    pub remaining: Vec<Remaining>,
+}
+
+impl Softening {
+    /// That of sound bonds.
+    pub fn of_sound_bonds(criteria: &Criteria, n_bonds: usize) -> Self {
+        if !criteria.soften() {
+            return Self::default();
+        }
+        let of = |it: &Criterion| vec![0.0; if it.after.is_brittle() { 0 } else { n_bonds }];
+        let largest: Vec<Vec<f64>> = criteria.list.iter().map(of).collect();
+        Self {
+            trial: largest.clone(),
+            largest,
+            remaining: vec![Remaining::WHOLE; n_bonds],
+        }
+    }
+
+    /// Takes the deformations of an iterate (n_bonds): decides what is left of the bonds now.
+    ///
+    /// A bond within its largest deformation keeps what it has; beyond, it follows its law; one beyond the end of its law keeps
+    /// what it has until its turn comes to break, so that the order of breaking decides as it does for brittle bonds. Where
+    /// `is_one_way` the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
+    pub fn follow(
+        &mut self,
+        criteria: &Criteria,
+        intact: &[bool],
+        deformations: &[BondDeformation],
+        is_one_way: bool,
+    ) {
+        for ((criterion, largest), trial) in
+            criteria.list.iter().zip(&self.largest).zip(&mut self.trial)
+        {
+            if largest.is_empty() {
+                continue;
+            }
+            trial.par_iter_mut().enumerate().for_each(|(bond, trial)| {
+                let utilisation = criterion.utilisation(bond, &deformations[bond]);
+                if intact[bond] && utilisation < criterion.after.end(bond) {
+                    let floor = if is_one_way { *trial } else { largest[bond] };
+                    *trial = floor.max(utilisation);
+                }
+            });
+        }
+        let trial = &self.trial;
+        (self.remaining.par_iter_mut().enumerate()).for_each(|(bond, remaining)| {
+            if intact[bond] {
+                let is_open = deformations[bond].stretch >= 0.0;
+                *remaining = remaining_of(criteria, trial, bond, is_open);
+            }
+        });
+    }
+
+    /// The iterate is in equilibrium: its extremes count from now on.
+    pub fn settle(&mut self) {
+        for (largest, trial) in self.largest.iter_mut().zip(&self.trial) {
+            largest.copy_from_slice(trial);
+        }
+    }
+
+    /// The bond under a criterion that softens, by its extreme in equilibrium; sound for one that does not.
+    pub fn of(&self, criteria: &Criteria, criterion: usize, bond: usize) -> Softened {
+        match self.largest.get(criterion).and_then(|it| it.get(bond)) {
+            None => Softened::SOUND,
+            Some(&largest) => criteria.list[criterion].after.at(bond, largest),
+        }
+    }
+}
+
+/// What the largest utilisations leave of a bond, the weakest of all criteria.
+fn remaining_of(
+    criteria: &Criteria,
+    largest: &[Vec<f64>],
+    bond: usize,
+    is_open: bool,
+) -> Remaining {
+    let [mut opening, mut crushing, mut sliding] = [1.0_f64; 3];
+    for (criterion, largest) in criteria.list.iter().zip(largest) {
+        let Some(&largest) = largest.get(bond) else {
+            continue;
+        };
+        let secant = criterion.after.at(bond, largest).secant;
+        let weakest = match criterion.measure.weakens() {
+            Weakened::Opening => &mut opening,
+            Weakened::Crushing => &mut crushing,
+            Weakened::Sliding => &mut sliding,
+        };
+        *weakest = weakest.min(secant);
+    }
+    Remaining {
+        axial: if is_open { opening } else { crushing },
+        shear: opening.min(crushing).min(sliding),
+        rotational: opening.min(crushing),
+    }
+}
+
+/// Energy that a bond stores at the limit of a criterion, by the rigidity that the criterion is about, J.
+pub fn energy_at_limit(system: &BondSystem, criterion: &Criterion, bond: usize) -> f64 {
+    let rigidity = match criterion.measure.weakens() {
+        Weakened::Opening | Weakened::Crushing => system.axial_rigidity[bond],
+        Weakened::Sliding => system.shear_rigidity[bond],
+    };
+    let limit = criterion.limit[bond];
+    if limit.is_finite() {
+        0.5 * rigidity * limit * limit
+    } else {
+        0.0
+    }
+}

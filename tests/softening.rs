@@ -1,0 +1,378 @@
+//! Bonds that soften: against closed forms, the brittle law in the limit, and balances of energy.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
+use ligament_analysis::driver::StopRules;
+use ligament_analysis::driver::stepped::SteppedSettings;
+use ligament_analysis::{Component, ControlKind, SetupError, fields};
+use ligament_model::failure::softening::exponential::LAST_FORCE;
+use ligament_model::failure::{AfterLimit, Weakened};
+use tempfile::TempDir;
+use verification::bench::{self, Bench, Run};
+use verification::numbers::relative_error;
+use verification::trusses::{Rod, Truss};
+
+/// Stiffness of the two rods in series, N/m, and elongation at the limit of the first, m.
+const STIFFNESS: [f64; 2] = [6.0, 4.0];
+const LIMIT: f64 = 0.1;
+
+/// A rod that softens and one that does not in series, pulled by 1 m at load factor one.
+fn series(after: AfterLimit) -> Truss {
+    let rods = [
+        Rod {
+            ends: [0, 1],
+            stiffness: STIFFNESS[0],
+            critical_elongation: LIMIT,
+        },
+        Rod {
+            ends: [1, 2],
+            stiffness: STIFFNESS[1],
+            critical_elongation: f64::INFINITY,
+        },
+    ];
+    let mut truss = Truss::new(&[0.0, 1.0, 3.0], &rods, ControlKind::Displacement, 2);
+    truss.hold(&[0, 2]);
+    let boundary = &mut truss.boundary;
+    boundary.prescribed[6] = Some(1.0);
+    boundary
+        .prescribe(&[1], Component::Y, 0.0)
+        .and_then(|()| boundary.prescribe(&[1], Component::Rotation, 0.0))
+        .unwrap();
+    truss.criteria.list[0].after = after;
+    truss
+}
+
+fn laws() -> [(&'static str, AfterLimit); 3] {
+    [
+        ("bilinear", AfterLimit::Bilinear { end: vec![5.0; 2] }),
+        (
+            "exponential",
+            AfterLimit::Exponential {
+                scale: vec![2.0; 2],
+            },
+        ),
+        ("plastic", AfterLimit::Plastic),
+    ]
+}
+
+/// Force over that at the limit, kappa times the limit from rest.
+fn force_factor(law: &str, kappa: f64) -> f64 {
+    match law {
+        _ if kappa <= 1.0 => kappa,
+        "bilinear" => (5.0 - kappa) / 4.0,
+        "exponential" => (-(kappa - 1.0) / 2.0).exp(),
+        "plastic" => 1.0,
+        other => panic!("{other}"),
+    }
+}
+
+/// Displacement of the end of the truss where the first rod has kappa times its limit elongation.
+fn displacement(law: &str, kappa: f64) -> f64 {
+    let force = STIFFNESS[0] * LIMIT * force_factor(law, kappa);
+    kappa * LIMIT + force / STIFFNESS[1]
+}
+
+/// Steps with these load factors, to the last digits.
+fn settings(load_factors: Vec<f64>) -> SteppedSettings {
+    SteppedSettings {
+        load_factors,
+        refine_first_break: 0,
+        rule: BreakingRule {
+            order: BreakingOrder::Excess,
+            bonds_per_iteration: 1,
+            tie_tolerance: 1e-8,
+        },
+        energy_tolerance: 1e-300,
+        round_limit: 10,
+        stop: StopRules::NONE,
+    }
+}
+
+/// Forces of the series by each law, on a path that is stable (the second rod is stiffer than the first falls) and so known.
+///
+/// 1e-9: the residual that ends the iteration is 1e-10 of the force.
+#[test]
+fn a_bond_follows_its_law() {
+    for (law, after) in laws() {
+        let kappas = [0.5, 1.0, 1.1, 1.7, 2.5, 3.9, 4.9];
+        let factors: Vec<f64> = kappas
+            .iter()
+            .map(|&kappa| displacement(law, kappa))
+            .collect();
+        let (outcome, _) = series(after).step(&settings(factors));
+        assert_eq!(outcome.history.len(), 1 + kappas.len());
+        for (step, kappa) in outcome.history[1..].iter().zip(kappas) {
+            let force = STIFFNESS[0] * LIMIT * force_factor(law, kappa);
+            assert!(
+                relative_error(step.reaction, force) < 1e-9,
+                "{law} at {kappa}: {step:?}"
+            );
+            assert_eq!(step.broken_bonds, 0);
+            // The trapezoidal rule balances whatever the step.
+            assert!(step.energy_error().abs() < 1e-9, "{law} at {kappa}");
+        }
+    }
+}
+
+/// What the whole life of the bond takes: areas under the laws, 1/2 k e_0^2 r and k e_0^2 (1/2 + f (1 - last force)).
+#[test]
+fn the_whole_life_takes_the_area_under_the_law() {
+    let unit = STIFFNESS[0] * LIMIT * LIMIT;
+    for ((law, after), (end, area)) in laws().into_iter().zip([
+        (5.0, 0.5 * 5.0 * unit),
+        (
+            1.0 - 2.0 * LAST_FORCE.ln(),
+            (0.5 + 2.0 * (1.0 - LAST_FORCE)) * unit,
+        ),
+    ]) {
+        let beyond = displacement(law, end) + 0.01;
+        let factors = (1..=400)
+            .map(|step| beyond * f64::from(step) / 400.0)
+            .collect();
+        let (outcome, watch) = series(after).step(&settings(factors));
+        let last = outcome.history.last().unwrap();
+        assert_eq!((last.broken_bonds, watch.breaks.len()), (1, 1), "{law}");
+        assert!(
+            relative_error(last.dissipated_energy, area) < 1e-12,
+            "{law}: {last:?}"
+        );
+        // 400 steps of a curve: what the trapezoidal rule calls released comes near.
+        assert!(
+            relative_error(last.released_energy, area) < 2e-3,
+            "{law}: {last:?}"
+        );
+        assert!(last.reaction.abs() < 1e-12);
+    }
+}
+
+/// Unloading is straight through the origin, reloading comes back to the law, and a bond that opened resists shortening as before.
+#[test]
+fn unloading_reloading_and_closing() {
+    for (law, after) in laws() {
+        let turn = displacement(law, 2.0);
+        let path = vec![
+            turn,
+            0.5 * turn,
+            0.0,
+            0.7 * turn,
+            turn,
+            displacement(law, 3.0),
+            -0.1,
+        ];
+        let (outcome, _) = series(after).step(&settings(path));
+        let forces: Vec<f64> = outcome.history[1..]
+            .iter()
+            .map(|step| step.reaction)
+            .collect();
+        let at_turn = STIFFNESS[0] * LIMIT * force_factor(law, 2.0);
+        let beyond = STIFFNESS[0] * LIMIT * force_factor(law, 3.0);
+        let elastic = 1.0 / STIFFNESS.iter().map(|k| 1.0 / k).sum::<f64>();
+        let expected = [1.0, 0.5, 0.0, 0.7, 1.0].map(|share| share * at_turn);
+        for (step, (found, expected)) in forces
+            .iter()
+            .zip(expected.into_iter().chain([beyond, -0.1 * elastic]))
+            .enumerate()
+        {
+            // 1e-9 of the forces, as above.
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{law}, step {}: {forces:?}",
+                step + 1
+            );
+        }
+        let dissipated = |step: usize| outcome.history[step].dissipated_energy;
+        let again = relative_error(dissipated(5), dissipated(1));
+        assert!(again < 1e-9, "{law}: nothing is taken twice, {again}");
+        assert!(dissipated(6) > dissipated(5));
+    }
+}
+
+/// Two points and the bond between them, which slides as far as it is told: the force of a plastic bond stays, and goes back to
+/// zero with the sliding.
+#[test]
+fn plastic_sliding_with_unloading() {
+    let text = r#"
+lattice = { cells = [2, 1], spacing = 0.01, set = { left = { left = 1 }, right = { right = 1 } } }
+material = { young = 10e9, poisson = 0.0, tensile_strength = 2e6 }
+model = { law = "pds", horizon_factor = 1.1 }
+support = [
+    { group = "left", displacement = { x = 0.0, y = 0.0 } },
+    { group = "right", displacement = { x = 0.0 } },
+]
+load = [{ group = "right", displacement = { y = 1e-5 } }]
+[fracture]
+steps = [0.05, 0.1, 0.4, 1.0, 0.5, 0.05]
+[[fracture.criterion]]
+kind = "sliding"
+after = "plastic"
+"#;
+    let bench = Bench::new(text, &[]);
+    // gamma_0 = s_0t/2 = 1e-4 at nu = 0 (MPPD eq. 49), which is a displacement of 1e-6 m: load factor 0.1.
+    assert!(relative_error(bench.limits()[0], 1e-4) < 1e-12);
+    let run = bench.break_up();
+    let limit_force = bench.model.system.shear_rigidity[0] * 1e-4 / 0.01;
+    let shares = [0.5, 1.0, 1.0, 1.0, 0.5, 0.05];
+    for (step, share) in run.outcome.history[1..].iter().zip(shares) {
+        assert!(
+            (step.reaction / limit_force - share).abs() < 1e-9,
+            "{step:?}"
+        );
+        assert_eq!(step.broken_bonds, 0);
+    }
+    let state = run.state();
+    let criteria = &bench.model.criteria;
+    let sliding = fields::damage_by(&bench.model.system, criteria, state, Weakened::Sliding);
+    // The printed mu of a plastic bond is 1 (MPPD eq. 50 with gamma_u to infinity): no damage, but energy is gone,
+    // gamma_0 (10 - 1) times the force.
+    assert_eq!(sliding, [0.0, 0.0]);
+    let gone = limit_force * 0.01 * 1e-4 * 9.0 / 2.0;
+    assert!(relative_error(run.last().dissipated_energy, gone) < 1e-9);
+}
+
+/// A notched plate of a lattice; tests bring the criterion along.
+const NOTCHED: &str = r#"
+lattice = { cells = [24, 24], spacing = 0.005, set = { bottom = { bottom = 3 }, top = { top = 3 } } }
+material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6, compressive_strength = 12e6, fracture_energy = 30.0 }
+model = { law = "mppd", horizon_factor = 3.0 }
+precrack = [{ points = [[-0.1, 0.06], [0.0301, 0.06]] }]
+support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "top", displacement = { y = 6e-5 } }]
+no_fail = [{ group = "bottom" }, { group = "top" }]
+"#;
+
+fn notched(fracture: &str, settings: &[&str]) -> (Bench, Run) {
+    let bench = Bench::new(&format!("{NOTCHED}{fracture}"), settings);
+    let run = bench.break_up();
+    (bench, run)
+}
+
+/// A bond that has nothing left just beyond its limit is a brittle one: the same bonds break in the same order at the same loads.
+#[test]
+fn the_limit_of_no_softening_is_brittle() {
+    let criterion = |after: &str| {
+        format!("fracture = {{ steps = 30, criterion = [{{ kind = \"strength\"{after} }}] }}\n")
+    };
+    let (_, brittle) = notched(&criterion(""), &[]);
+    let sudden = ", after = \"bilinear\", end = 1.000000001";
+    let (_, sudden) = notched(&criterion(sudden), &[]);
+    assert!(brittle.breaks.len() > 100, "{}", brittle.breaks.len());
+    let bonds = |run: &Run| -> Vec<u32> { run.breaks.iter().map(|it| it.bond).collect() };
+    assert_eq!(bonds(&brittle), bonds(&sudden));
+    for (one, other) in brittle.outcome.history.iter().zip(&sudden.outcome.history) {
+        // Residuals of 1e-6 end the secant iteration where the energy rests.
+        assert!(
+            (one.reaction - other.reaction).abs() < 1e-5 * brittle.outcome.peak().unwrap().reaction
+        );
+        assert_eq!(one.broken_bonds, other.broken_bonds);
+    }
+}
+
+/// Opening, crushing and sliding that soften together: the energy balances, damage stays within bounds and only grows, and a factor
+/// that is changed in place leads to the same path as one that is made anew.
+#[test]
+fn several_ways_of_softening_at_once() {
+    let fracture = r#"
+[fracture]
+steps = 20
+energy_tolerance = 1e-9
+[[fracture.criterion]]
+kind = "tension"
+after = "exponential"
+scale = 2.0
+[[fracture.criterion]]
+kind = "compression"
+after = "bilinear"
+end = 4.0
+[[fracture.criterion]]
+kind = "sliding"
+after = "bilinear"
+end = 6.0
+"#;
+    let (bench, anew) = notched(fracture, &["solver.update=refactor"]);
+    let (_, in_place) = notched(fracture, &["solver.update=incremental"]);
+    assert_eq!(anew.outcome.costs.changes, 0);
+    assert!(
+        in_place.outcome.costs.changes > 20,
+        "{:?}",
+        in_place.outcome.costs
+    );
+    let peak = anew.outcome.peak().unwrap().reaction;
+    for (one, other) in anew.outcome.history.iter().zip(&in_place.outcome.history) {
+        // Both end where the residual is below 1e-6 and the energy rests.
+        assert!(
+            (one.reaction - other.reaction).abs() < 1e-5 * peak,
+            "{one:?} {other:?}"
+        );
+        assert!(one.energy_error().abs() < 1e-5, "{one:?}");
+        assert_eq!(one.broken_bonds, other.broken_bonds);
+    }
+    assert_eq!(anew.outcome.history.len(), in_place.outcome.history.len());
+    let last = anew.last();
+    assert!(
+        last.reaction < 0.8 * peak,
+        "the test must see softening: {last:?}"
+    );
+    let dissipated = anew.outcome.history.windows(2);
+    assert!(
+        dissipated
+            .into_iter()
+            .all(|it| it[1].dissipated_energy >= it[0].dissipated_energy)
+    );
+    let (system, criteria) = (&bench.model.system, &bench.model.criteria);
+    let damages = fields::damages(system, criteria, anew.state());
+    let names: Vec<&str> = damages.iter().map(|(name, _)| *name).collect();
+    assert_eq!(
+        names,
+        ["damage_tension", "damage_compression", "damage_sliding"]
+    );
+    for (name, values) in &damages {
+        assert!(
+            values.iter().all(|value| (0.0..=1.0).contains(value)),
+            "{name}"
+        );
+    }
+    assert!(damages[0].1.iter().any(|value| *value > 0.3));
+}
+
+/// All tables and fields of a run with softening bonds have the same bits for one and for two threads.
+#[test]
+fn threads_do_not_change_a_bit() {
+    let folder = TempDir::new().unwrap();
+    let text = format!(
+        "{NOTCHED}fracture = {{ steps = 12, criterion = [{{ kind = \"bond-energy\" }}, \
+         {{ kind = \"tension\", after = \"bilinear\" }}] }}\n"
+    );
+    let run = |threads: usize| {
+        let settings = [
+            format!("solver.threads={threads}"),
+            "lattice.cells=[48, 48]".to_owned(),
+            "lattice.spacing=0.0025".to_owned(),
+            "fracture.stop.bonds=30".to_owned(),
+            "output.fields_every=1".to_owned(),
+        ];
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let out = folder.path().join(format!("{threads}"));
+        bench::run_program(&bench::case(&text, &settings), &out);
+        let table = |name: &str| std::fs::read(out.join(name)).unwrap();
+        [
+            "history.csv",
+            "iterations.csv",
+            "breaks.csv",
+            "fields_0003.vtu",
+        ]
+        .map(table)
+    };
+    let (one, two) = (run(1), run(2));
+    assert!(one.iter().all(|file| file.len() > 200));
+    assert!(one == two);
+}
+
+/// The exact path has nothing to say of bonds that bend its lines.
+#[test]
+fn the_exact_path_refuses_softening() {
+    let truss = series(AfterLimit::Plastic);
+    let (problem, mut watch) = (truss.problem(), bench::Watch::default());
+    let settings = verification::trusses::settings(StopRules::NONE);
+    let refused = ligament_analysis::driver::event::run(&problem, &settings, &mut watch);
+    assert!(matches!(refused, Err(SetupError::Softening)));
+}
