@@ -571,9 +571,24 @@ fn files(out: &Path) -> Vec<(String, Vec<u8>)> {
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
     let folder = TempDir::new().unwrap();
+    let disk_by = |criteria: &str| {
+        let properties =
+            "tensile_strength = 3.81e6, compressive_strength = 11.43e6, fracture_energy = 20.0";
+        DISK.replace("tensile_strength = 3.81e6", properties)
+            .replace(
+                "steps = 50",
+                &format!("steps = 50, criterion = [{criteria}]"),
+            )
+    };
+    let exact = |text: &str| text.replace("steps = 50", "control = \"event\"");
+    let friction = disk_by("{ kind = \"tension\" }, { kind = \"frictional\" }");
+    let energy = disk_by("{ kind = \"bond-energy\" }");
     for (name, text, output) in [
         ("stepped", DISK.to_owned(), "output.fields_every=10"),
         ("exact", on_the_exact_path(DISK), "output.fields_every=50"),
+        ("friction", exact(&friction), "output.fields_every=50"),
+        ("energy", exact(&energy), "output.fields_every=50"),
+        ("friction in steps", friction, "output.fields_every=10"),
     ] {
         let mesh = "mesh.file=../meshes/disk-2mm.msh";
         let run = |threads: usize| {

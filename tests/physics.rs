@@ -230,3 +230,60 @@ fn strength_of_a_brazilian_disk() {
     });
     assert!(near.count() * 10 > run.breaks.len() * 9);
 }
+
+/// Friction with F_c = 3 F_t against the strength alone, on the intact disk, from its elastic solution: by the strength the first
+/// bond fails stretched and inside the disk, where the closed form has tension on the loaded diameter; by friction the first
+/// fails shortened, within 5 mm of the end of a platen (|x| = 3 mm), where a flat stamp presses hardest (the stress of a
+/// rigid stamp has no bound there). Then a wedge below each platen shears off: of the first 300 bonds all lie within 16 mm
+/// (measured: 13.1) of the rim, 99 % fail by friction, and the disk is not yet split.
+#[test]
+fn friction_shears_wedges_below_the_platens() {
+    let text = DISK.replace(
+        "tensile_strength = 3.81e6",
+        "tensile_strength = 3.81e6, compressive_strength = 11.43e6",
+    );
+    let by = |criteria: &str| {
+        let fracture = format!("control = \"event\", criterion = [{criteria}]");
+        let text = text.replace("steps = 50", &fracture);
+        let mesh = "mesh.file=../meshes/disk-2mm.msh";
+        let bench = Bench::new(&text, &[mesh, "fracture.stop.bonds=300"]);
+        let [elastic, run] = [bench.solve(), bench.break_up()];
+        let bonds: Vec<usize> = run.breaks.iter().map(|it| it.bond as usize).collect();
+        let middles: Vec<[f64; 2]> = (bonds.iter())
+            .map(|&bond| {
+                let [a, b] = bench.model.system.bonds.ends[bond];
+                let [a, b] = [a, b].map(|end| bench.positions()[end as usize]);
+                [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+            })
+            .collect();
+        let first = bonds[0];
+        let [a, b] = bench.model.system.bonds.ends[first].map(|end| 3 * end as usize);
+        let u = elastic.displacement();
+        let [along_x, along_y] = bench.model.system.bonds.direction[first];
+        let lengthening = along_x * (u[b] - u[a]) + along_y * (u[b + 1] - u[a + 1]);
+        let frictional = run.breaks.iter().filter(|it| it.criterion == 1).count();
+        (lengthening, middles, frictional)
+    };
+    let (lengthening, middles, _) = by("{ kind = \"strength\" }");
+    println!("strength: {lengthening:.2e} m, first at {:?}", middles[0]);
+    assert!(lengthening > 0.0 && middles[0][1].abs() < 0.045);
+    let nearest = |middles: &[[f64; 2]]| {
+        let radii = middles.iter().map(|[x, y]| x.hypot(*y));
+        radii.fold(f64::INFINITY, f64::min)
+    };
+    let inside = nearest(&middles);
+    let (lengthening, middles, frictional) =
+        by("{ kind = \"tension\" }, { kind = \"frictional\" }");
+    let [x, y] = middles[0];
+    println!(
+        "friction: {lengthening:.2e} m, first at {x:.4}, {y:.4}, {frictional} bonds, innermost at {:.4} (strength {inside:.4})",
+        nearest(&middles)
+    );
+    assert!(lengthening < 0.0 && (x.abs() - 0.003).hypot(y.abs() - 0.05) < 0.005);
+    assert!(frictional >= 297 && nearest(&middles) > 0.034);
+    assert!(inside < 0.034, "the strength splits the disk from within");
+    for side in [-1.0, 1.0] {
+        let wedge = middles.iter().filter(|[_, y]| side * y > 0.0).count();
+        assert!(wedge > 60, "{wedge} bonds below one of the platens");
+    }
+}

@@ -20,6 +20,7 @@ mod anisotropy;
 mod disk;
 pub mod entry;
 mod frequencies;
+mod griffith;
 mod lamina;
 mod moduli;
 mod named_modes;
@@ -43,7 +44,7 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 9] = [
+pub static EXPERIMENTS: [Experiment; 10] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -53,6 +54,7 @@ pub static EXPERIMENTS: [Experiment; 9] = [
     yielding::EXPERIMENT,
     anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
+    griffith::EXPERIMENT,
 ];
 
 /// A published case, or several that belong together.
