@@ -281,6 +281,8 @@ pub struct Output {
     pub fields_every: u32,
     /// Whether the bonds are written too.
     pub bonds: bool,
+    /// Whether the model is written, which `ligament explain` reads.
+    pub model: bool,
     /// Which stresses the field files have.
     pub stress: Vec<StressField>,
 }
@@ -300,6 +302,7 @@ pub enum StressField {
 pub(super) struct RawOutput {
     fields_every: Option<u32>,
     bonds: bool,
+    model: Option<bool>,
     stress: Vec<StressField>,
 }
 
@@ -326,6 +329,7 @@ impl RawOutput {
         Ok(Output {
             fields_every: self.fields_every.unwrap_or(default),
             bonds: self.bonds,
+            model: self.model.unwrap_or(true),
             stress: self.stress,
         })
     }
