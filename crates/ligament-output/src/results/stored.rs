@@ -13,6 +13,8 @@ use crate::{Error, FieldLocation};
 /// The results of a run.
 #[derive(Debug)]
 pub struct StoredRun {
+    /// Where they are.
+    pub folder: PathBuf,
     /// Points, bonds and limits.
     pub model: StoredModel,
     /// Rows of the history, in their order.
@@ -139,6 +141,7 @@ impl StoredRun {
             history: steps(&Sheet::read(folder.join("history.csv"))?)?,
             breaks: breaks(&Sheet::read(folder.join("breaks.csv"))?, model.tagged)?,
             fields: field_files(folder)?,
+            folder: folder.to_path_buf(),
             model,
         })
     }
