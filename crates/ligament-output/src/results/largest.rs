@@ -8,6 +8,9 @@ use crate::vtu::Field;
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
+/// What is not larger by more than this factor is the same: seven digits are kept, and the first of several counts.
+const SAME: f64 = 1.0 + 2e-7;
+
 /// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Largest {
@@ -36,25 +39,32 @@ impl Largest {
         }
     }
 
-    /// Looks at the bonds that are intact at the end of a step. The first of equal criteria counts, and the first of equal steps.
+    /// Looks at the bonds that are intact at the end of a step.
     pub(super) fn see(&mut self, step: usize, view: &View<'_>) {
         let (criteria, intact) = (&view.criteria.list, &view.state.intact);
         let deformations = &view.balanced.deformations;
-        (self.of_bonds.par_iter_mut().enumerate())
-            .with_min_len(TASK)
-            .filter(|(bond, _)| intact[*bond])
-            .for_each(|(bond, seen)| {
-                for (criterion, it) in (0..).zip(criteria) {
-                    let utilisation = it.utilisation(bond, &deformations[bond]) as f32;
-                    if utilisation > seen.utilisation {
+        let parts = self.of_bonds.par_chunks_mut(TASK).enumerate();
+        parts.for_each(|(part, seen)| {
+            let bonds = part * TASK..part * TASK + seen.len();
+            let (intact, deformations) = (&intact[bonds.clone()], &deformations[bonds.clone()]);
+            for (number, criterion) in (0..).zip(criteria) {
+                let limits = &criterion.limit[bonds.clone()];
+                let arrays = intact.iter().zip(deformations).zip(limits);
+                for (bond, (seen, ((&is_intact, deformation), &limit))) in
+                    bonds.clone().zip(seen.iter_mut().zip(arrays))
+                {
+                    let measure = criterion.measure(bond, deformation);
+                    // Without a division; false for an infinite limit, which gives infinity or no number.
+                    if is_intact && measure > SAME * f64::from(seen.utilisation) * limit {
                         *seen = Seen {
-                            utilisation,
+                            utilisation: (measure / limit) as f32,
                             step: step as u32,
-                            criterion,
+                            criterion: number,
                         };
                     }
                 }
-            });
+            }
+        });
     }
 
     /// As arrays, with `n_absent` entries for what is no bond at their end.
