@@ -39,6 +39,7 @@ fn help_teaches_every_command() {
     for word in [
         "run",
         "check",
+        "explain",
         "inspect",
         "mesh",
         "verify",
@@ -48,7 +49,15 @@ fn help_teaches_every_command() {
     ] {
         assert!(stdout(&output).contains(word), "{word}");
     }
-    for command in ["run", "check", "inspect", "mesh", "verify", "completions"] {
+    for command in [
+        "run",
+        "check",
+        "explain",
+        "inspect",
+        "mesh",
+        "verify",
+        "completions",
+    ] {
         let output = ligament([command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
         assert!(stdout(&output).contains("Examples:"), "{command}");

@@ -253,7 +253,7 @@ fn it_says_why_there_is_no_bond_or_no_breakage() {
     assert!(held.contains(&why), "{held}");
     let upright = say(cell(4, 2), cell(4, 3));
     assert!(
-        upright.contains("no criterion ever saw anything"),
+        upright.contains("its utilisation was 0 all along"),
         "{upright}"
     );
     let slanted = say(cell(4, 2), cell(5, 3));
@@ -473,6 +473,18 @@ fn a_damaged_result_is_named() {
     fs::remove_file(results.join("fields_0004.vtu")).unwrap();
     let said = explain(&results, &["--point", "1"]);
     assert!(said.contains("10 of 11 steps have fields"), "{said}");
+}
+
+/// A run that found no equilibrium at all: there is a model, and no path.
+#[test]
+fn a_run_without_an_end_is_told_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    // A stiffness that is not positive definite.
+    let settings = ["material.poisson=0.38", "solver.factorisation=llt"];
+    let results = run(folder.path(), SHEARED, &settings);
+    let said = explain(&results, &["--bond", "25", "26"]);
+    assert!(said.contains("the run did not get to its end"), "{said}");
+    assert!(said.contains("its utilisation was 0 all along"), "{said}");
 }
 
 #[test]

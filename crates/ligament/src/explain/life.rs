@@ -240,12 +240,22 @@ impl Life {
         nearest
     }
 
-    /// State of the bond by a criterion in a moment, from the largest utilisation in the moments up to it.
-    pub(super) fn softened(&self, criterion: usize, moment: usize) -> Softened {
+    /// State of the bond by a criterion in a moment, from the largest utilisation that is known up to it.
+    pub(super) fn softened(
+        &self,
+        criterion: usize,
+        moments: &[StoredStep],
+        moment: usize,
+    ) -> Softened {
         let limit = &self.limits[criterion];
         let so_far = self.deformation[..=moment].iter();
         let kappa = so_far.map(|it| limit.utilisation(it)).fold(0.0, f64::max);
-        limit.after.at(0, kappa)
+        // It may have been larger between the moments.
+        let is_past = |it: &Nearest| it.criterion == criterion && it.step <= moments[moment].step;
+        let nearest = self.nearest.filter(is_past);
+        limit
+            .after
+            .at(0, nearest.map_or(kappa, |it| kappa.max(it.utilisation)))
     }
 }
 
@@ -255,5 +265,66 @@ pub(super) fn deformation_of(broke: &StoredBreak) -> BondDeformation {
         stretch: broke.stretch,
         shear: broke.shear,
         rotation: 0.0,
+    }
+}
+
+/// A bond with limits and deformations, for tests.
+#[cfg(test)]
+pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> Life {
+    Life {
+        pair: 0,
+        ends: [0, 1],
+        length: 1.0,
+        direction: [1.0, 0.0],
+        limits,
+        n_intact: deformation.len(),
+        deformation,
+        breakage: None,
+        nearest: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// mu = (r - kappa)/(r - 1) and omega = mu/kappa of the largest kappa so far, by hand for r = 4.
+    #[test]
+    fn softening_keeps_to_the_largest_utilisation() {
+        let limit = Limit {
+            name: "tension".to_owned(),
+            measure: Measure::Tension,
+            limit: 2.0,
+            coefficient: 0.0,
+            after: AfterLimit::Bilinear { end: vec![4.0] },
+        };
+        let stretched = |stretch| BondDeformation {
+            stretch,
+            ..Default::default()
+        };
+        let mut life = life_of(vec![limit], [1.0, 5.0, -3.0].map(stretched).to_vec());
+        let moments = [0, 5, 10].map(|step| StoredStep {
+            step,
+            load_factor: 0.0,
+            displacement: 0.0,
+            reaction: 0.0,
+        });
+        let state = |life: &Life, moment| {
+            let softened = life.softened(0, &moments, moment);
+            (softened.force, softened.secant)
+        };
+        assert_eq!(state(&life, 0), (1.0, 1.0));
+        assert_eq!(state(&life, 1), (0.5, 0.2));
+        assert_eq!(state(&life, 2), (0.5, 0.2));
+        assert_eq!(life.nearest_of_moments(&moments).map(|it| it.step), Some(5));
+        // Between the moments it was larger: kappa = 3.
+        life.nearest = Some(Nearest {
+            utilisation: 3.0,
+            step: 7,
+            criterion: 0,
+        });
+        assert_eq!(state(&life, 1), (0.5, 0.2));
+        let (force, secant) = state(&life, 2);
+        assert!((force - 1.0 / 3.0).abs() < 1e-15 && (secant - 1.0 / 9.0).abs() < 1e-15);
     }
 }

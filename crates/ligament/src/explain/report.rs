@@ -211,7 +211,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
                 "broken".to_owned()
             });
             if !limit.after.is_brittle() {
-                let softened = life.softened(criterion, place);
+                let softened = life.softened(criterion, &lives.moments, place);
                 let value = |value: f64| if is_intact { value } else { 0.0 };
                 row.extend([softened.force, softened.secant].map(|it| format!("{:.4}", value(it))));
             }

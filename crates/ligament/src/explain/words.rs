@@ -1,15 +1,16 @@
 //! What happened to bonds, in words.
 
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::Measure;
+use ligament_model::failure::{Measure, Softened};
 use ligament_output::results::Absence;
 use ligament_output::results::stored::StoredRun;
 
-use super::life::{Life, Lives, Nearest, deformation_of};
+use super::life::{Life, Limit, Lives, Nearest, deformation_of};
 
 /// A number as all reports have it.
 pub(super) fn number(value: f64) -> String {
-    format!("{value:.4e}")
+    // Without the sign of a zero.
+    format!("{:.4e}", value + 0.0)
 }
 
 /// The formula of a measure.
@@ -40,26 +41,25 @@ fn deformed(BondDeformation { stretch, shear, .. }: &BondDeformation) -> String 
 
 /// The limits of a bond, a line each; its name and what it says.
 pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
-    let words = |limit: &super::life::Limit| {
+    let words = |limit: &Limit| {
         let what = formula(limit.measure);
         let coefficient = match limit.measure {
             Measure::Friction | Measure::Energy => format!(", q = {}", number(limit.coefficient)),
             Measure::Tension | Measure::Compression | Measure::Sliding => String::new(),
         };
-        let after = if limit.limit.is_infinite() {
+        if limit.limit.is_infinite() {
             return format!("never fails by its {what}{coefficient}");
-        } else if limit.after.is_brittle() {
-            "breaks".to_owned()
+        }
+        let at = format!("{what} = {}{coefficient}", number(limit.limit));
+        let end = limit.limit * limit.after.end(0);
+        if limit.after.is_brittle() {
+            format!("breaks at {at}")
+        } else if end.is_infinite() {
+            format!("softens ({}) from {at}, never breaks", limit.after.word())
         } else {
-            let end = limit.limit * limit.after.end(0);
-            let breaks = if end.is_infinite() {
-                "never breaks".to_owned()
-            } else {
-                format!("breaks at {}", number(end))
-            };
-            format!("softens ({}), {breaks}", limit.after.word())
-        };
-        format!("at {what} = {}{coefficient}: {after}", number(limit.limit))
+            let law = limit.after.word();
+            format!("softens ({law}) from {at}, breaks at {}", number(end))
+        }
     };
     let each = life.limits.iter();
     each.map(|limit| (limit.name.clone(), words(limit)))
@@ -106,9 +106,10 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
     let mut lines = Vec::new();
     match life.nearest.filter(|it| it.utilisation > 0.0) {
         Some(nearest) => lines.push(nearest_words(lives, life, nearest)),
-        None => lines.push("It is intact: no criterion ever saw anything of it.".to_owned()),
+        None => lines.push("It is intact: its utilisation was 0 all along.".to_owned()),
     }
     lines.extend(end_words(lives, life));
+    lines.extend(softened_words(lives, life));
     lines
 }
 
@@ -141,32 +142,41 @@ fn nearest_words(lives: &Lives, life: &Life, nearest: Nearest) -> String {
     )
 }
 
-/// The state of an intact bond in the last moment.
-fn end_words(lives: &Lives, life: &Life) -> Vec<String> {
-    let (Some(moment), Some(deformation)) = (lives.moments.last(), life.deformation.last()) else {
-        return Vec::new();
-    };
+/// The state of an intact bond in the last moment, if that is not the one nearest to its limit.
+fn end_words(lives: &Lives, life: &Life) -> Option<String> {
+    let (moment, deformation) = (lives.moments.last()?, life.deformation.last()?);
+    let is_told = |it: Nearest| it.step == moment.step && it.utilisation > 0.0;
+    if life.nearest.is_some_and(is_told) {
+        return None;
+    }
     let largest = life.limits.iter().map(|it| it.utilisation(deformation));
     let largest = largest.fold(0.0, f64::max);
-    let mut words = format!("At the end (step {}) it is ", moment.step);
-    words += &match (largest > 0.0, deformation.stretch < 0.0) {
-        (true, _) => format!("{largest:.4}"),
-        (false, true) => {
-            "nothing: the bond is in compression, which no criterion of it sees".to_owned()
-        }
-        (false, false) => "nothing".to_owned(),
+    let why = if largest == 0.0 && deformation.stretch < 0.0 {
+        ": it is compressed, which none of its criteria counts"
+    } else {
+        ""
     };
-    let mut lines = vec![format!("{words} ({}).", deformed(deformation))];
-    for (criterion, limit) in life.limits.iter().enumerate() {
-        let softened = life.softened(criterion, lives.moments.len() - 1);
-        if softened.force < 1.0 || softened.secant < 1.0 {
-            lines.push(format!(
-                "Past the limit of `{}`: mu = {:.4} of the force at the limit, omega = {:.4} of the stiffness.",
-                limit.name, softened.force, softened.secant
-            ));
-        }
-    }
-    lines
+    let (step, deformed) = (moment.step, deformed(deformation));
+    Some(format!(
+        "At the end (step {step}) its utilisation is {largest:.4}{why} ({deformed})."
+    ))
+}
+
+/// What is left of a bond that passed limits, in the last moment.
+fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
+    let Some(last) = lives.moments.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let each = life.limits.iter().enumerate();
+    each.map(|(criterion, limit)| (&limit.name, life.softened(criterion, &lives.moments, last)))
+        .filter(|(_, softened)| *softened != Softened::SOUND)
+        .map(|(name, softened)| {
+            format!(
+                "Past the limit of `{name}`: mu = {:.4} of the force there is left, omega = {:.4} of the stiffness.",
+                softened.force, softened.secant
+            )
+        })
+        .collect()
 }
 
 /// What happened to a bond, in a few words.
@@ -210,4 +220,56 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
         ),
     });
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use ligament_model::failure::AfterLimit;
+
+    use super::*;
+    use crate::explain::life::life_of;
+
+    fn said(measure: Measure, limit: f64, after: AfterLimit) -> String {
+        let limit = Limit {
+            name: "own".to_owned(),
+            measure,
+            limit,
+            coefficient: 0.5,
+            after,
+        };
+        limits(&life_of(vec![limit], Vec::new())).remove(0).1
+    }
+
+    #[test]
+    fn limits_in_words() {
+        let bilinear = AfterLimit::Bilinear { end: vec![4.0] };
+        for (measure, limit, after, expected) in [
+            (
+                Measure::Tension,
+                2e-4,
+                AfterLimit::Brittle,
+                "breaks at stretch s = 2.0000e-4",
+            ),
+            (
+                Measure::Friction,
+                2e-4,
+                AfterLimit::Plastic,
+                "softens (plastic) from |gamma| + q s = 2.0000e-4, q = 5.0000e-1, never breaks",
+            ),
+            (
+                Measure::Compression,
+                2e-4,
+                bilinear,
+                "softens (bilinear) from shortening -s = 2.0000e-4, breaks at 8.0000e-4",
+            ),
+            (
+                Measure::Sliding,
+                f64::INFINITY,
+                AfterLimit::Brittle,
+                "never fails by its sliding |gamma|",
+            ),
+        ] {
+            assert_eq!(said(measure, limit, after), expected);
+        }
+    }
 }
