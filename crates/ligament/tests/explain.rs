@@ -293,6 +293,21 @@ stop = { bonds = 12 }
 fields_every = 1
 "#;
 
+/// A hole takes the middle column but its ends: no cell there has a bond across, and the tags count what is left.
+#[test]
+fn a_hole_parts_its_sides() {
+    let folder = tempfile::tempdir().unwrap();
+    let hole = "remove = [{ rectangle = [[0.04, 0.01], [0.05, 0.04]] }]\n[lattice.set]";
+    let results = run(folder.path(), &BAR.replacen("[lattice.set]", hole, 1), &[]);
+    // Row 0 is whole; rows 1 and 2 have 8 cells each: columns 3 and 5 of row 2 are beside the hole.
+    let [left, right] = [9 + 8 + 4, 9 + 8 + 5].map(|tag| tag.to_string());
+    let said = explain(&results, &["--bond", &left, &right]);
+    assert!(said.contains("distance is 2.0000e-2 m"), "{said}");
+    assert!(said.contains("a hole lies between them"), "{said}");
+    let family = explain(&results, &["--point", &left]);
+    assert!(family.contains("across a hole"), "{family}");
+}
+
 /// Along the exact path a bond is at its limit in the event in which it breaks, and before it in proportion to the load: with
 /// rotations of the points, from fields that know nothing of limits.
 #[test]

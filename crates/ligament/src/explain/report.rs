@@ -173,7 +173,7 @@ fn path_title(lives: &Lives) -> String {
     let when = if lives.before_breakages {
         "events with fields, just before their bonds break"
     } else {
-        "steps with fields, at rest"
+        "steps with fields, at their end"
     };
     format!("path ({when})")
 }
