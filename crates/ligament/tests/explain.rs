@@ -7,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use ligament_output::results::stored::StoredRun;
 use serde_json::Value;
 
 fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
@@ -192,6 +193,31 @@ fn a_uniform_strain_gives_the_closed_form() {
             }
         }
     }
+}
+
+/// The stored largest utilisation is that of the steps in which a bond was intact, not of the gap that it left.
+#[test]
+fn a_broken_bond_has_the_largest_utilisation_from_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = StoredRun::open(&run(folder.path(), BAR, &[]))
+        .unwrap()
+        .model;
+    let [a, b] = [cell(2, 2), cell(5, 2)].map(|tag| tag - 1);
+    let pair = model
+        .bonds
+        .ends
+        .iter()
+        .position(|ends| *ends == [a, b])
+        .unwrap();
+    let [_, stretch, limit] = closed_form(3.0, 0.0);
+    let breaks_in = (1..=10)
+        .find(|step| f64::from(*step) / 10.0 * stretch >= limit)
+        .unwrap();
+    let largest = model.largest.unwrap();
+    let expected = f64::from(breaks_in - 1) / 10.0 * stretch / limit;
+    // Seven digits.
+    assert!((largest.utilisation[pair] - expected).abs() < 1e-7);
+    assert_eq!(largest.step[pair], i64::from(breaks_in - 1));
 }
 
 /// What `explain` says of the order of breaking is what `breaks.csv` says.
