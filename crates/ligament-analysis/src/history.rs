@@ -1,6 +1,7 @@
 //! What a run reports while it goes on, and how it ends.
 
 use ligament_model::BondSystem;
+use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
@@ -88,6 +89,8 @@ pub struct BreakRecord {
     pub criterion: usize,
     /// Its measure over the limit, s/s_0 for most, when the bond broke.
     pub ratio: f64,
+    /// Deformation of the bond then.
+    pub deformation: BondDeformation,
 }
 
 /// Something that a user should know.

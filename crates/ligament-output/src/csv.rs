@@ -1,5 +1,7 @@
 //! CSV tables (RFC 4180 quoting) of scalars over the steps.
 
+pub mod read;
+
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;

@@ -1,4 +1,4 @@
-//! What can go wrong when results are written.
+//! What can go wrong when results are written or read.
 
 use std::fmt;
 use std::io;
@@ -22,7 +22,7 @@ impl fmt::Display for FieldLocation {
     }
 }
 
-/// A failure to write results. The path is that of the file or folder meant, the cause is in `source`.
+/// A failure to write results, or to read them back. The path is that of the file or folder meant, the cause is in `source`.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The operating system refused to write a file.
@@ -32,6 +32,30 @@ pub enum Error {
         path: PathBuf,
         /// The cause.
         source: io::Error,
+    },
+    /// The operating system refused to read a file.
+    #[error("cannot read {path}")]
+    ReadFile {
+        /// The file meant.
+        path: PathBuf,
+        /// The cause.
+        source: io::Error,
+    },
+    /// A result file that is not as this program writes it.
+    #[error("cannot use {path}: {reason}")]
+    Unreadable {
+        /// The file meant.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A folder that should hold the results of a run and does not.
+    #[error("{path} holds no results of a run: {reason}")]
+    NoResults {
+        /// The folder meant.
+        path: PathBuf,
+        /// Why not, and what to do.
+        reason: String,
     },
     /// A grid without points or without cells, which VTU readers do not accept.
     #[error(

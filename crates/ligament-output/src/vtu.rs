@@ -4,6 +4,7 @@
 //! exactly. The format is that of VTK XML files, version 1.0 (<https://vtk.org/Wiki/VTK_XML_Formats>).
 
 mod data_array;
+pub mod read;
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -56,6 +57,8 @@ impl Cell {
 pub enum FieldValues<'a> {
     /// Numbers.
     Scalar(&'a [f64]),
+    /// Numbers of seven digits, in half of the space.
+    Single(&'a [f32]),
     /// Vectors; planar ones have a third component of 0, which VTK requires.
     Vector(&'a [[f64; 3]]),
     /// Integers, such as numbers of bonds or flags.
@@ -73,6 +76,7 @@ impl FieldValues<'_> {
     fn len(&self) -> usize {
         match self {
             Self::Scalar(values) => values.len(),
+            Self::Single(values) => values.len(),
             Self::Vector(values) => values.len(),
             Self::Integer(values) => values.len(),
             Self::Components { names, values } => values.len() / names.len().max(1),
@@ -93,6 +97,12 @@ impl<'a> Field<'a> {
     /// A field of numbers.
     pub fn scalar(name: &'a str, values: &'a [f64]) -> Self {
         let values = FieldValues::Scalar(values);
+        Self { name, values }
+    }
+
+    /// A field of numbers of seven digits.
+    pub fn single(name: &'a str, values: &'a [f32]) -> Self {
+        let values = FieldValues::Single(values);
         Self { name, values }
     }
 
@@ -117,6 +127,9 @@ impl<'a> Field<'a> {
     fn to_xml(self) -> String {
         match self.values {
             FieldValues::Scalar(values) => float_array(self.name, 1, &[], values),
+            FieldValues::Single(values) => {
+                data_array(self.name, "Float32", 1, &[], values, f32::to_le_bytes)
+            }
             FieldValues::Vector(values) => float_array(self.name, 3, &[], values.as_flattened()),
             FieldValues::Integer(values) => integer_array(self.name, values),
             FieldValues::Components { names, values } => {
@@ -251,7 +264,12 @@ fn cell_arrays(cells: &[Cell]) -> [String; 3] {
 /// The element `PointData` or `CellData`. It names the first scalar and the first vector, which readers show first; an
 /// index is none of them.
 fn push_fields(xml: &mut String, element: &str, fields: &[Field<'_>]) {
-    let scalar = |field: &&Field<'_>| matches!(field.values, FieldValues::Scalar(_));
+    let scalar = |field: &&Field<'_>| {
+        matches!(
+            field.values,
+            FieldValues::Scalar(_) | FieldValues::Single(_)
+        )
+    };
     let vector = |field: &&Field<'_>| matches!(field.values, FieldValues::Vector(_));
     let arrays: Vec<String> = fields.par_iter().map(|field| field.to_xml()).collect();
     // Writing to a string cannot fail.

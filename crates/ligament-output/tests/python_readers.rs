@@ -36,6 +36,7 @@ fn write_sample(folder: &Path) {
     let displacement: Vec<[f64; 3]> = points.iter().map(|&[x, y]| [x * y, -x, 0.0]).collect();
     let mut damage: Vec<f64> = points.iter().map(|&[x, y]| x / (1.0 + y)).collect();
     damage[1..4].copy_from_slice(&[f64::NAN, f64::NEG_INFINITY, -0.0]);
+    let single: Vec<f32> = damage.iter().map(|&it| it as f32).collect();
     let stress: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, x - y]).collect();
     let n_bonds: Vec<i64> = (0..i64::from(N_ROW * N_ROW)).map(|i| i - 5).collect();
     let mut material: Vec<i64> = (0..cells.len() as i64).collect();
@@ -47,6 +48,7 @@ fn write_sample(folder: &Path) {
             Field::scalar("damage", &damage),
             Field::vector("displacement", &displacement),
             Field::integer("n_bonds <&>", &n_bonds),
+            Field::single("single", &single),
             Field::components("stress", &["xx", "yy", "xy"], &stress),
         ],
         cell_fields: &[Field::integer("material", &material)],

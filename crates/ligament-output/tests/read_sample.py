@@ -27,6 +27,7 @@ def expected():
     material[:2] = limits.max, limits.min
     displacement = np.column_stack([x * y, -x, zero])
     point_fields = {"damage": damage, "displacement": displacement, "n_bonds <&>": index - 5}
+    point_fields["single"] = damage.astype(np.float32)
     point_fields["stress"] = np.column_stack([x, y, x - y])
     return np.column_stack([x, y, zero]), cells, point_fields, {"material": material}
 

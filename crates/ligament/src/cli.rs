@@ -26,6 +26,7 @@ Examples:
   ligament inspect disk.msh                 its groups, for the case file to name
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
+  ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
 Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage.";
@@ -43,6 +44,13 @@ pub enum Command {
     /// memory.
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
+    /// Tell why a bond broke or did not, from the results of a run
+    ///
+    /// Prints the life of a bond, or of all bonds of a point: horizon, factors, limits, how near it came
+    /// to them along the path, and when, in which order and by which criterion bonds broke. Reads the
+    /// folder of the results alone.
+    #[command(after_help = EXPLAIN_EXAMPLES)]
+    Explain(ExplainArgs),
     /// Show what is in a mesh: cells, size, edge lengths, groups
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArgs),
@@ -89,6 +97,17 @@ Examples:
   ligament check case.toml --set model.horizon_factor=4
   ligament check case.toml --model-only    points and bonds alone, no matrix: for large meshes
   ligament check case.toml --out check     writes check/points.vtu to look at in ParaView";
+
+const EXPLAIN_EXAMPLES: &str = "\
+Examples:
+  ligament explain results/disk --point 812         all bonds of node 812
+  ligament explain results/disk --at 0.01,-0.02     of the point nearest to x, y (m)
+  ligament explain results/disk --bond 812 815      the bond between two nodes
+  ligament explain results/disk --bond 812 815 --csv bond.csv
+
+Nodes have the tags of the mesh file, cells of a lattice count from 1 row by row: both as in the
+result files. Bonds are seen in the steps that have fields (output.fields_every); the largest
+utilisation and the breakages are those of all steps.";
 
 const INSPECT_EXAMPLES: &str = "\
 Examples:
@@ -174,6 +193,38 @@ pub struct CaseArgs {
     /// Threads to compute with [default: solver.threads of the case, or one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
+}
+
+/// `ligament explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The folder with the results of a run
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+    /// What to explain.
+    #[command(flatten)]
+    pub subject: SubjectArgs,
+    /// Write a table with a row a bond and step, replacing what is there
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write limits, breakages and paths as JSON, replacing what is there
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+/// What `explain` explains: one of these.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub struct SubjectArgs {
+    /// All bonds of the point with this tag
+    #[arg(long, value_name = "TAG")]
+    pub point: Option<i64>,
+    /// The bond between the points with these tags
+    #[arg(long, value_names = ["A", "B"], num_args = 2)]
+    pub bond: Option<Vec<i64>>,
+    /// All bonds of the point nearest to this position, in the coordinates of the mesh, m
+    #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
+    pub at: Option<[f64; 2]>,
 }
 
 /// `ligament inspect`.
@@ -322,6 +373,17 @@ mod tests {
     #[test]
     fn the_definition_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn positions_are_two_numbers() {
+        assert_eq!(position("-0.01, 2e-3"), Ok([-0.01, 2e-3]));
+        for wrong in ["0.01", "0.01,", "1,2,3", "1,nan"] {
+            assert!(
+                position(wrong).is_err_and(|error| error.contains("X,Y")),
+                "{wrong}"
+            );
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@ pub mod body;
 pub mod case;
 pub mod check;
 pub mod cli;
+pub mod explain;
 pub mod failure;
 pub mod formulation;
 pub mod gauges;

@@ -8,9 +8,10 @@ use clap::{CommandFactory, Parser};
 use ligament::case::{CaseError, CaseFile};
 use ligament::check::Extent;
 use ligament::cli::{
-    CaseArgs, CheckArgs, Cli, Command, CompletionsArgs, InspectArgs, MeshArgs, RunArgs, VerifyArgs,
-    YieldArgs, YieldCalibration,
+    CaseArgs, CheckArgs, Cli, Command, CompletionsArgs, ExplainArgs, InspectArgs, MeshArgs,
+    RunArgs, VerifyArgs, YieldArgs, YieldCalibration,
 };
+use ligament::explain::{self, Request, Subject};
 use ligament::mesh_command::{MeshRequest, make_mesh};
 use ligament::progress::ProgressMode;
 use ligament::verify::table::Extent as VerifyExtent;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run(args),
         Command::Check(args) => check(args),
+        Command::Explain(args) => explain(args),
         Command::Inspect(args) => inspect(&args),
         Command::Mesh(args) => mesh(args),
         Command::Yield(args) => yielding(args),
@@ -65,6 +67,26 @@ fn load(args: CaseArgs) -> Result<CaseFile, CaseError> {
     let threads = &mut case.case.solver.threads;
     *threads = args.threads.or(*threads);
     Ok(case)
+}
+
+fn explain(args: ExplainArgs) -> anyhow::Result<()> {
+    let subject = match (
+        args.subject.point,
+        args.subject.bond.as_deref(),
+        args.subject.at,
+    ) {
+        (Some(tag), ..) => Subject::Point(tag),
+        (_, Some(&[a, b]), _) => Subject::Bond([a, b]),
+        (_, _, Some(position)) => Subject::At(position),
+        _ => unreachable!("one of them is required, and a bond has two ends"),
+    };
+    let request = Request {
+        folder: args.results,
+        subject,
+        csv: args.csv,
+        json: args.json,
+    };
+    explain::explain(&request, &mut io::stdout().lock())
 }
 
 fn inspect(args: &InspectArgs) -> anyhow::Result<()> {

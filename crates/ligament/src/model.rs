@@ -5,7 +5,7 @@ use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
-use ligament_output::results::FixedFields;
+use ligament_output::results::{Absence, AbsentBond, FixedFields};
 
 use crate::body::{self, Body};
 use crate::case::{CaseError, CaseFile, CorrectionDomain};
@@ -65,9 +65,10 @@ pub(crate) fn model_of(
         body.cloud(thickness, &material_of_cell, case.case.materials.len())
     });
     let horizons = resolve::horizons(case, &cloud);
-    let (bonds, across_holes) = stages.time("bonds", || {
+    let (bonds, mut absent) = stages.time("bonds", || {
         around_holes(BondSet::search(&cloud, &horizons), &*body, &cloud)
     });
+    let across_holes = absent.len();
     require_neighbours(case, &*body, &bonds)?;
     progress.stage(&format!("{} points, {} bonds", cloud.len(), bonds.len()));
     let precracks = resolve::precracks(case);
@@ -77,6 +78,8 @@ pub(crate) fn model_of(
         let precrack_share = precrack_share(&bonds, &is_cut);
         (is_cut, touched, precrack_share)
     });
+    absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
+    absent.sort_unstable_by_key(|it| it.ends);
     let corrected = stages.time("correction", || {
         correct(case, &cloud, &horizons, bonds, &is_cut)
     });
@@ -96,13 +99,17 @@ pub(crate) fn model_of(
         precrack_share,
         energy_ratios,
         domain_factor: correction.domain_factor,
+        no_fail,
+        absent,
     };
     let (alpha, omega) = (correction.length_factor, &fixed.domain_factor);
     let system = stages.time("rigidities", || {
         let element = formulation::element(case.case.model.law);
         BondSystem::new(cloud, bonds, element, stiffness, alpha, omega)
     });
-    let criteria = stages.time("criteria", || failure::criteria(case, &system, &no_fail))?;
+    let criteria = stages.time("criteria", || {
+        failure::criteria(case, &system, &fixed.no_fail)
+    })?;
     Ok(Model {
         warnings: warnings::of_model(
             case,
@@ -116,7 +123,7 @@ pub(crate) fn model_of(
         correction_range,
         across_holes,
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
-        no_fail_points: no_fail.iter().filter(|marked| **marked).count(),
+        no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
         body,
         system,
         fixed,
@@ -124,15 +131,28 @@ pub(crate) fn model_of(
     })
 }
 
-/// The bonds without those across holes of the body, and the number of those.
-fn around_holes(bonds: BondSet, body: &dyn Body, cloud: &PointCloud) -> (BondSet, usize) {
+/// The bonds without those across holes of the body, and those.
+fn around_holes(bonds: BondSet, body: &dyn Body, cloud: &PointCloud) -> (BondSet, Vec<AbsentBond>) {
     if body.holes().is_empty() {
-        return (bonds, 0);
+        return (bonds, Vec::new());
     }
     let crosses = bonds_across(body.holes(), &bonds, cloud);
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
-    let across = crosses.iter().filter(|crosses| **crosses).count();
-    (bonds.retained(&keep), across)
+    let absent = absent_bonds(&bonds, &crosses, Absence::Hole);
+    (bonds.retained(&keep), absent)
+}
+
+/// The bonds for which `is_absent` (n_bonds) is true, as what is none.
+fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<AbsentBond> {
+    (bonds.ends.iter().zip(&bonds.horizon))
+        .zip(is_absent)
+        .filter(|(_, is_absent)| **is_absent)
+        .map(|((&ends, &horizon), _)| AbsentBond {
+            ends,
+            horizon,
+            absence,
+        })
+        .collect()
 }
 
 /// The error of points that have no neighbour at all: no correction gives them a stiffness.

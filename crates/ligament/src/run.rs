@@ -87,6 +87,7 @@ fn follow_loads(
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
+        model: case.case.output.model,
         virial: case.case.output.stress.contains(&StressField::Virial),
         traction: case.case.output.stress.contains(&StressField::Traction),
         time: match case.case.fracture.as_ref().map(|it| &it.control) {

@@ -39,6 +39,7 @@ fn help_teaches_every_command() {
     for word in [
         "run",
         "check",
+        "explain",
         "inspect",
         "mesh",
         "yield",
@@ -52,6 +53,7 @@ fn help_teaches_every_command() {
     for command in [
         "run",
         "check",
+        "explain",
         "inspect",
         "mesh",
         "yield",

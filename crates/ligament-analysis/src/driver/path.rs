@@ -172,8 +172,8 @@ impl<'a> Path<'a> {
         let [displacement, reaction] = self.control(balanced);
         let criteria = self.problem.criteria;
         let of_bond = |(place, &bond): (usize, &u32)| {
-            let verdict =
-                criteria.breaking(bond as usize, &balanced.deformations[bond as usize])?;
+            let deformation = balanced.deformations[bond as usize];
+            let verdict = criteria.breaking(bond as usize, &deformation)?;
             Some(BreakRecord {
                 order: self.broken + place + 1,
                 step,
@@ -184,6 +184,7 @@ impl<'a> Path<'a> {
                 bond,
                 criterion: verdict.criterion,
                 ratio: verdict.ratio(),
+                deformation,
             })
         };
         let records: Vec<BreakRecord> = bonds.iter().enumerate().filter_map(of_bond).collect();

@@ -33,6 +33,26 @@ pub enum Weakened {
 }
 
 impl Measure {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Tension,
+        Self::Compression,
+        Self::Sliding,
+        Self::Friction,
+        Self::Energy,
+    ];
+
+    /// The word for it in results.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Tension => "tension",
+            Self::Compression => "compression",
+            Self::Sliding => "sliding",
+            Self::Friction => "friction",
+            Self::Energy => "energy",
+        }
+    }
+
     /// The measure of a deformation, with the coefficient q of the bond where the measure has one.
     #[inline]
     pub fn of(self, deformation: &BondDeformation, coefficient: f64) -> f64 {
@@ -63,14 +83,6 @@ impl Measure {
 mod tests {
     use super::*;
 
-    const ALL: [Measure; 5] = [
-        Measure::Tension,
-        Measure::Compression,
-        Measure::Sliding,
-        Measure::Friction,
-        Measure::Energy,
-    ];
-
     fn deformation(stretch: f64, shear: f64) -> BondDeformation {
         BondDeformation {
             stretch,
@@ -81,7 +93,7 @@ mod tests {
 
     #[test]
     fn values_by_hand() {
-        let of = |stretch, shear| ALL.map(|it| it.of(&deformation(stretch, shear), 0.25));
+        let of = |stretch, shear| Measure::ALL.map(|it| it.of(&deformation(stretch, shear), 0.25));
         assert_eq!(of(3.0, -8.0), [3.0, -3.0, 8.0, 8.75, 5.0]);
         assert_eq!(of(-4.0, 2.0), [-4.0, 4.0, 2.0, 1.0, 1.0]);
     }
@@ -93,7 +105,7 @@ mod tests {
 
     #[test]
     fn measures_grow_with_the_load() {
-        for measure in ALL {
+        for measure in Measure::ALL {
             let [once, twice] =
                 [1.0, 2.0].map(|it| measure.of(&deformation(it * 0.3, it * -0.7), 0.5));
             assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");

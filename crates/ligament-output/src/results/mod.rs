@@ -5,14 +5,19 @@
 //! | `history.csv` | a row a load step, or an event of the exact path |
 //! | `iterations.csv` | a row a Newton-Raphson iteration |
 //! | `breaks.csv` | a row a broken bond, in the order of breaking |
+//! | `criteria.csv` | a row a failure criterion: what it looks at, what happens after its limit |
+//! | `model.vtu` | points and bonds as they were at the start, limits of the bonds; at the end how near each came to them |
 //! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+mod largest;
+mod model_file;
 mod modes;
 mod point_fields;
+pub mod stored;
 mod tables;
 
 use ligament_analysis::ControlKind;
@@ -24,6 +29,8 @@ use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+use largest::Largest;
+pub use model_file::{Absence, AbsentBond};
 pub use modes::write_modes;
 pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
 use tables::Tables;
@@ -35,6 +42,8 @@ pub struct WriteRule {
     pub fields_every: usize,
     /// Whether to write the bonds as well.
     pub bonds: bool,
+    /// Whether to write the model, by which a bond can be explained later.
+    pub model: bool,
     /// Whether the fields have the virial stress.
     pub virial: bool,
     /// Whether the fields have the traction on planes through the points.
@@ -56,8 +65,7 @@ pub enum Time {
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
-    /// Ends of each bond, shape (n_bonds).
-    ends: &'a [[u32; 2]],
+    problem: Problem<'a>,
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
@@ -65,6 +73,8 @@ pub struct ResultWriter<'a> {
     bonds_collection: Collection,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
+    /// How near each bond came to its limits, where the model is written.
+    largest: Option<Largest>,
 }
 
 impl<'a> ResultWriter<'a> {
@@ -76,10 +86,16 @@ impl<'a> ResultWriter<'a> {
         rule: WriteRule,
         problem: &Problem<'a>,
     ) -> Result<Self, Error> {
+        if rule.model {
+            model_file::write(folder, grid, fixed, problem, None)?;
+        }
+        let can_fail = !problem.criteria.list.is_empty();
+        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.bonds.len()));
         Ok(Self {
             folder,
             grid,
-            ends: &problem.system.bonds.ends,
+            largest,
+            problem: *problem,
             fixed,
             rule,
             tables: Tables::create(folder, problem, grid.tagged)?,
@@ -185,7 +201,8 @@ impl Observer for ResultWriter<'_> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
         }
-        failed(self.tables.breaks(records, &self.grid.tags, self.ends))
+        let ends = &self.problem.system.bonds.ends;
+        failed(self.tables.breaks(records, &self.grid.tags, ends))
     }
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
@@ -197,6 +214,19 @@ impl Observer for ResultWriter<'_> {
             failed(self.write_fields(record, view))?;
             if self.rule.bonds {
                 failed(self.write_bonds(record, view))?;
+            }
+        }
+        if let Some(largest) = &mut self.largest {
+            largest.see(record.step, view);
+            if view.is_last {
+                let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
+                failed(model_file::write(
+                    folder,
+                    grid,
+                    fixed,
+                    &self.problem,
+                    Some(largest),
+                ))?;
             }
         }
         failed(self.tables.step(record, view))

@@ -7,7 +7,7 @@ use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::stress::{traction, virial};
 
-use super::WriteRule;
+use super::{AbsentBond, WriteRule};
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
@@ -45,6 +45,10 @@ pub struct FixedFields {
     pub energy_ratios: [Vec<f64>; 4],
     /// Omega of each bond, shape (n_bonds).
     pub domain_factor: Vec<f64>,
+    /// Points whose bonds never fail, shape (n_points).
+    pub no_fail: Vec<bool>,
+    /// Pairs within a horizon that are no bonds, in the order of their ends.
+    pub absent: Vec<AbsentBond>,
 }
 
 impl FixedFields {

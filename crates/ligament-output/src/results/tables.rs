@@ -55,13 +55,46 @@ const TIMINGS: [&str; 8] = [
     "connectivity_s",
 ];
 
+const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
+
+/// Names of the failure criteria in results: each its own, a second one of a name ends in -2.
+pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut labels: Vec<String> = Vec::new();
+    let mut seen: Vec<&str> = Vec::new();
+    for name in names {
+        seen.push(name);
+        labels.push(match seen.iter().filter(|it| **it == name).count() {
+            1 => name.to_owned(),
+            count => format!("{name}-{count}"),
+        });
+    }
+    labels
+}
+
+/// What each criterion looks at and what happens after its limit.
+fn write_criteria(
+    folder: &ResultFolder,
+    problem: &Problem<'_>,
+    labels: &[String],
+) -> Result<(), Error> {
+    let mut table = Table::create(folder.file("criteria.csv"), &CRITERIA)?;
+    for (criterion, label) in problem.criteria.list.iter().zip(labels) {
+        table.append(&[
+            label.as_str().into(),
+            criterion.measure.word().into(),
+            criterion.after.word().into(),
+        ])?;
+    }
+    Ok(())
+}
+
 pub(super) struct Tables {
     history: Table,
     iterations: Table,
     breaks: Table,
     timings: Table,
     /// Names of the failure criteria.
-    criteria: Vec<&'static str>,
+    criteria: Vec<String>,
     step: usize,
     round: usize,
     load_factor: f64,
@@ -76,6 +109,8 @@ impl Tables {
         problem: &Problem<'_>,
         tagged: &str,
     ) -> Result<Self, Error> {
+        let criteria = labels(problem.criteria.list.iter().map(|it| it.name));
+        write_criteria(folder, problem, &criteria)?;
         let groups = problem.boundary.groups.iter();
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
@@ -90,14 +125,14 @@ impl Tables {
         let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
         let breaks_columns: Vec<&str> = (BREAKS.into_iter())
             .chain(ends.iter().map(String::as_str))
-            .chain(["utilisation", "criterion"])
+            .chain(["utilisation", "criterion", "stretch", "shear"])
             .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
             iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
             breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
             timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
-            criteria: problem.criteria.list.iter().map(|it| it.name).collect(),
+            criteria,
             step: 0,
             round: 0,
             load_factor: 0.0,
@@ -151,7 +186,9 @@ impl Tables {
                 a.into(),
                 b.into(),
                 record.ratio.into(),
-                self.criteria[record.criterion].into(),
+                self.criteria[record.criterion].as_str().into(),
+                record.deformation.stretch.into(),
+                record.deformation.shear.into(),
             ])?;
         }
         Ok(())
@@ -204,5 +241,19 @@ impl Tables {
             seconds(costs.bonds, before.bonds),
             seconds(costs.connectivity, before.connectivity),
         ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::labels;
+
+    #[test]
+    fn criteria_of_one_name_are_told_apart() {
+        let names = ["tension", "sliding", "tension", "tension"];
+        assert_eq!(
+            labels(names.into_iter()),
+            ["tension", "sliding", "tension-2", "tension-3"]
+        );
     }
 }

@@ -301,6 +301,8 @@ pub struct Output {
     pub fields_every: u32,
     /// Whether the bonds are written too.
     pub bonds: bool,
+    /// Whether the model is written, which `ligament explain` reads.
+    pub model: bool,
     /// Which stresses the field files have.
     pub stress: Vec<StressField>,
 }
@@ -320,6 +322,7 @@ pub enum StressField {
 pub(super) struct RawOutput {
     fields_every: Option<u32>,
     bonds: bool,
+    model: Option<bool>,
     stress: Vec<StressField>,
 }
 
@@ -346,6 +349,7 @@ impl RawOutput {
         Ok(Output {
             fields_every: self.fields_every.unwrap_or(default),
             bonds: self.bonds,
+            model: self.model.unwrap_or(true),
             stress: self.stress,
         })
     }

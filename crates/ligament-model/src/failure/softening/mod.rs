@@ -48,6 +48,35 @@ impl Softened {
 }
 
 impl AfterLimit {
+    /// The word for it in a case file, and in results.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Brittle => "brittle",
+            Self::Bilinear { .. } => "bilinear",
+            Self::Exponential { .. } => "exponential",
+            Self::Plastic => "plastic",
+        }
+    }
+
+    /// What it has for each bond, shape (n_bonds); empty where it has nothing.
+    pub fn parameter(&self) -> &[f64] {
+        match self {
+            Self::Brittle | Self::Plastic => &[],
+            Self::Bilinear { end: values } | Self::Exponential { scale: values } => values,
+        }
+    }
+
+    /// What goes by this word, with the [`parameter`](Self::parameter) of each bond; None for any other word.
+    pub fn from_word(word: &str, parameter: Vec<f64>) -> Option<Self> {
+        Some(match word {
+            "brittle" => Self::Brittle,
+            "bilinear" => Self::Bilinear { end: parameter },
+            "exponential" => Self::Exponential { scale: parameter },
+            "plastic" => Self::Plastic,
+            _ => return None,
+        })
+    }
+
     /// State of a bond whose largest e/e_0 so far is `kappa`, short of its [`end`](Self::end).
     pub fn at(&self, bond: usize, kappa: f64) -> Softened {
         if kappa <= 1.0 {
@@ -141,6 +170,15 @@ mod tests {
         assert!(
             (exponential.at(0, exponential.end(0)).force - exponential::LAST_FORCE).abs() < 1e-15
         );
+    }
+
+    #[test]
+    fn words_and_parameters_lead_back() {
+        for law in laws().into_iter().chain([AfterLimit::Brittle]) {
+            let parameter = law.parameter().to_vec();
+            assert_eq!(AfterLimit::from_word(law.word(), parameter), Some(law));
+        }
+        assert_eq!(AfterLimit::from_word("britle", Vec::new()), None);
     }
 
     #[test]

@@ -1,0 +1,167 @@
+//! Reads CSV tables back.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+
+/// A table in memory, all values as texts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sheet {
+    path: PathBuf,
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Sheet {
+    /// Reads a table. A last row without its line feed is one that a run was just writing, and is left out.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, or a row has not as many values as there are columns.
+    pub fn read(path: impl Into<PathBuf>) -> Result<Self, Error> {
+        let path = path.into();
+        let text = fs::read_to_string(&path).map_err(|source| Error::ReadFile {
+            path: path.clone(),
+            source,
+        })?;
+        let mut records = records(&text).into_iter();
+        let columns = records.next().unwrap_or_default();
+        let rows: Vec<Vec<String>> = records.collect();
+        if let Some(place) = rows.iter().position(|row| row.len() != columns.len()) {
+            return Err(Error::Unreadable {
+                reason: format!(
+                    "row {} has {} values, the header has {}",
+                    place + 1,
+                    rows[place].len(),
+                    columns.len()
+                ),
+                path,
+            });
+        }
+        Ok(Self {
+            path,
+            columns,
+            rows,
+        })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Names of the columns.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The texts of a column; None where there is no such column.
+    pub fn texts(&self, column: &str) -> Option<impl Iterator<Item = &str>> {
+        let place = self.columns.iter().position(|name| name == column)?;
+        Some(self.rows.iter().map(move |row| row[place].as_str()))
+    }
+
+    /// The values of a column, parsed.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such column, or something else in it.
+    pub fn values<T: std::str::FromStr>(&self, column: &str) -> Result<Vec<T>, Error> {
+        let strange = |reason: String| Error::Unreadable {
+            path: self.path.clone(),
+            reason,
+        };
+        let texts = self.texts(column);
+        let texts = texts.ok_or_else(|| strange(format!("it has no column `{column}`")))?;
+        texts
+            .enumerate()
+            .map(|(row, text)| {
+                let parsed = text.parse();
+                parsed.map_err(|_| {
+                    strange(format!(
+                        "`{text}` in column `{column}`, row {}, is no value",
+                        row + 1
+                    ))
+                })
+            })
+            .collect()
+    }
+}
+
+/// The records of a text that end in a line feed; what is quoted may hold commas, quotes (doubled) and line feeds.
+fn records(text: &str) -> Vec<Vec<String>> {
+    let (mut records, mut record, mut value) = (Vec::new(), Vec::new(), String::new());
+    let mut is_quoted = false;
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if is_quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                value.push('"');
+            }
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => record.push(std::mem::take(&mut value)),
+            '\n' if !is_quoted => {
+                record.push(std::mem::take(&mut value));
+                records.push(std::mem::take(&mut record));
+            }
+            other => value.push(other),
+        }
+    }
+    records
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::csv::Table;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn tables_read_back(rows in proptest::collection::vec((any::<String>(), any::<f64>(), any::<i64>()), 0..8)) {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("table.csv");
+            let mut table = Table::create(&path, &["a, \"text\"", "number", "count"]).unwrap();
+            for (text, number, count) in &rows {
+                table.append(&[text.as_str().into(), (*number).into(), (*count).into()]).unwrap();
+            }
+            let sheet = Sheet::read(&path).unwrap();
+            let texts: Vec<&str> = sheet.texts("a, \"text\"").unwrap().collect();
+            prop_assert_eq!(texts, rows.iter().map(|row| row.0.as_str()).collect::<Vec<_>>());
+            let numbers: Vec<f64> = sheet.values("number").unwrap();
+            let same = |(read, row): (&f64, &(String, f64, i64))| {
+                read.to_bits() == row.1.to_bits() || (read.is_nan() && row.1.is_nan())
+            };
+            prop_assert!(numbers.iter().zip(&rows).all(same));
+            let counts: Vec<i64> = sheet.values("count").unwrap();
+            prop_assert_eq!(counts, rows.iter().map(|row| row.2).collect::<Vec<_>>());
+        }
+    }
+
+    fn read(text: &str) -> Result<Sheet, Error> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        fs::write(&path, text).unwrap();
+        Sheet::read(path)
+    }
+
+    #[test]
+    fn a_row_that_is_not_finished_is_left_out() {
+        let sheet = read("step,load\n1,0.5\n2,0.").unwrap();
+        assert_eq!(sheet.values::<f64>("load").unwrap(), [0.5]);
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused_with_its_place() {
+        let message = |text: &str| read(text).unwrap_err().to_string();
+        assert!(message("step,load\n1,2\n3\n").ends_with("row 2 has 1 values, the header has 2"));
+        let sheet = read("step,load\n1,x\n").unwrap();
+        let message = sheet.values::<f64>("load").unwrap_err().to_string();
+        assert!(message.ends_with("`x` in column `load`, row 1, is no value"));
+        let message = sheet.values::<f64>("force").unwrap_err().to_string();
+        assert!(message.ends_with("it has no column `force`"));
+    }
+}

@@ -1,0 +1,97 @@
+//! How near bonds came to their limits.
+
+use ligament_analysis::history::View;
+use rayon::prelude::*;
+
+use crate::vtu::Field;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 4096;
+
+/// What is not larger by more than this factor is the same: seven digits are kept, and the first of several counts.
+const SAME: f64 = 1.0 + 2e-7;
+
+/// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Largest {
+    of_bonds: Vec<Seen>,
+}
+
+/// The largest utilisation of a bond so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Seen {
+    utilisation: f32,
+    step: u32,
+    criterion: u32,
+}
+
+/// The arrays of a file.
+pub(super) struct Columns {
+    utilisation: Vec<f32>,
+    step: Vec<i64>,
+    criterion: Vec<i64>,
+}
+
+impl Largest {
+    pub(super) fn new(n_bonds: usize) -> Self {
+        Self {
+            of_bonds: vec![Seen::default(); n_bonds],
+        }
+    }
+
+    /// Looks at the bonds that are intact at the end of a step.
+    pub(super) fn see(&mut self, step: usize, view: &View<'_>) {
+        let (criteria, intact) = (&view.criteria.list, &view.state.intact);
+        let deformations = &view.balanced.deformations;
+        let parts = self.of_bonds.par_chunks_mut(TASK).enumerate();
+        parts.for_each(|(part, seen)| {
+            let bonds = part * TASK..part * TASK + seen.len();
+            let (intact, deformations) = (&intact[bonds.clone()], &deformations[bonds.clone()]);
+            for (number, criterion) in (0..).zip(criteria) {
+                let limits = &criterion.limit[bonds.clone()];
+                let arrays = intact.iter().zip(deformations).zip(limits);
+                for (bond, (seen, ((&is_intact, deformation), &limit))) in
+                    bonds.clone().zip(seen.iter_mut().zip(arrays))
+                {
+                    let measure = criterion.measure(bond, deformation);
+                    // Without a division; false for an infinite limit, which gives infinity or no number.
+                    if is_intact && measure > SAME * f64::from(seen.utilisation) * limit {
+                        *seen = Seen {
+                            utilisation: (measure / limit) as f32,
+                            step: step as u32,
+                            criterion: number,
+                        };
+                    }
+                }
+            }
+        });
+    }
+
+    /// As arrays, with `n_absent` entries for what is no bond at their end.
+    pub(super) fn columns(&self, n_absent: usize) -> Columns {
+        let nothing = Seen {
+            utilisation: f32::NAN,
+            ..Default::default()
+        };
+        let all = || {
+            self.of_bonds
+                .iter()
+                .chain(std::iter::repeat_n(&nothing, n_absent))
+        };
+        Columns {
+            utilisation: all().map(|it| it.utilisation).collect(),
+            step: all().map(|it| i64::from(it.step)).collect(),
+            criterion: all().map(|it| i64::from(it.criterion)).collect(),
+        }
+    }
+}
+
+impl Columns {
+    pub(super) fn fields(&self) -> [Field<'_>; 3] {
+        [
+            Field::single("largest_utilisation", &self.utilisation),
+            Field::integer("step_of_largest", &self.step),
+            Field::integer("criterion_of_largest", &self.criterion),
+        ]
+    }
+}

@@ -1,0 +1,145 @@
+//! The model of a run as a file: points, bonds and their limits, from which a bond can be explained later.
+//!
+//! `model.vtu` has the points with their tags, volumes and horizons, and the bonds as lines between them. Lengths and directions
+//! of bonds are those of the lines. Factors and horizons have seven digits: they are for people; the limits have all.
+//!
+//! | cell field | of a bond |
+//! |---|---|
+//! | `absent` | 0; 1 where a pre-crack cut it, 2 where a hole lies between its ends: such pairs are no bonds, and have no numbers |
+//! | `horizon` | H, m |
+//! | `length_factor`, `domain_factor` | alpha, Omega |
+//! | `limit.NAME` | limit of the criterion; infinite where it never fails by it |
+//! | `coefficient.NAME` | coefficient q of its measure, where that has one |
+//! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
+//! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
+
+use ligament_analysis::driver::Problem;
+
+use super::largest::Largest;
+use super::point_fields::{BodyGrid, FixedFields};
+use super::tables::labels;
+use crate::Error;
+use crate::folder::ResultFolder;
+use crate::vtu::{self, Field, UnstructuredGrid};
+
+/// Name of the file.
+pub(super) const MODEL: &str = "model.vtu";
+
+/// A pair of points, one in the horizon of the other, that is no bond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AbsentBond {
+    /// Points A < B.
+    pub ends: [u32; 2],
+    /// Bond horizon H, m.
+    pub horizon: f64,
+    /// What separates them.
+    pub absence: Absence,
+}
+
+/// Why two points within a horizon are not bonded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Absence {
+    /// A pre-crack cut the bond.
+    PreCrack,
+    /// A hole lies between them.
+    Hole,
+}
+
+impl Absence {
+    /// Its number in files.
+    pub(super) fn number(self) -> i64 {
+        match self {
+            Self::PreCrack => 1,
+            Self::Hole => 2,
+        }
+    }
+
+    /// That of a number in a file; None for a bond.
+    pub(super) fn from_number(number: i64) -> Option<Self> {
+        [Self::PreCrack, Self::Hole]
+            .into_iter()
+            .find(|it| it.number() == number)
+    }
+}
+
+/// Writes the model, and how near its bonds came to their limits once that is known.
+pub(super) fn write(
+    folder: &ResultFolder,
+    grid: &BodyGrid,
+    fixed: &FixedFields,
+    problem: &Problem<'_>,
+    largest: Option<&Largest>,
+) -> Result<(), Error> {
+    let (system, absent) = (problem.system, &fixed.absent);
+    let n_absent = absent.len();
+    let lines: Vec<vtu::Cell> = (system.bonds.ends.iter())
+        .chain(absent.iter().map(|it| &it.ends))
+        .map(|&ends| vtu::Cell::Line(ends))
+        .collect();
+    let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
+    let absence: Vec<i64> = std::iter::repeat_n(0, system.bonds.len())
+        .chain(absent.iter().map(|it| it.absence.number()))
+        .collect();
+    let horizon: Vec<f32> = (system.bonds.horizon.iter())
+        .chain(absent.iter().map(|it| &it.horizon))
+        .map(|&horizon| horizon as f32)
+        .collect();
+    let nothing = std::iter::repeat_n(f32::NAN, n_absent);
+    let alpha: Vec<f32> = (system.weight.iter().zip(&fixed.domain_factor))
+        .map(|(weight, omega)| (weight / omega) as f32)
+        .chain(nothing.clone())
+        .collect();
+    let omega: Vec<f32> = (fixed.domain_factor.iter().map(|&omega| omega as f32))
+        .chain(nothing)
+        .collect();
+    let limits = limits(problem, n_absent);
+    let largest = largest.map(|it| it.columns(n_absent));
+
+    let mut cell_fields = vec![
+        Field::integer("absent", &absence),
+        Field::single("horizon", &horizon),
+        Field::single("length_factor", &alpha),
+        Field::single("domain_factor", &omega),
+    ];
+    cell_fields.extend(
+        limits
+            .iter()
+            .map(|(name, values)| Field::scalar(name, values)),
+    );
+    cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
+    let grid = UnstructuredGrid {
+        points: &grid.positions,
+        cells: &lines,
+        point_fields: &[
+            Field::scalar("volume", &system.cloud.volumes),
+            Field::scalar("horizon", &fixed.horizon),
+            Field::integer("no_fail", &no_fail),
+            Field::integer(grid.tagged, &grid.tags),
+        ],
+        cell_fields: &cell_fields,
+    };
+    vtu::write_vtu(folder.file(MODEL), &grid)
+}
+
+/// What the criteria have for each bond, with the names of the fields.
+fn limits(problem: &Problem<'_>, n_absent: usize) -> Vec<(String, Vec<f64>)> {
+    let criteria = &problem.criteria.list;
+    let mut found = Vec::new();
+    for (criterion, label) in criteria
+        .iter()
+        .zip(labels(criteria.iter().map(|it| it.name)))
+    {
+        for (what, values) in [
+            ("limit", criterion.limit.as_slice()),
+            ("coefficient", &criterion.coefficient),
+            ("after", criterion.after.parameter()),
+        ] {
+            if !values.is_empty() {
+                let nothing = std::iter::repeat_n(f64::NAN, n_absent);
+                let all = values.iter().copied().chain(nothing);
+                found.push((format!("{what}.{label}"), all.collect()));
+            }
+        }
+    }
+    found
+}

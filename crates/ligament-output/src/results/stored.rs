@@ -1,0 +1,414 @@
+//! The results of a run, read back from their folder alone.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::model_file::{Absence, MODEL};
+use crate::csv::read::Sheet;
+use crate::folder::RESOLVED_CASE;
+use crate::vtu::read::VtuFile;
+use crate::{Error, FieldLocation};
+
+/// The results of a run.
+#[derive(Debug)]
+pub struct StoredRun {
+    /// Where they are.
+    pub folder: PathBuf,
+    /// Points, bonds and limits.
+    pub model: StoredModel,
+    /// Rows of the history, in their order.
+    pub history: Vec<StoredStep>,
+    /// Broken bonds, in the order of breaking.
+    pub breaks: Vec<StoredBreak>,
+    /// Steps of which there are fields, with their files.
+    fields: BTreeMap<usize, PathBuf>,
+}
+
+/// The model of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredModel {
+    /// What a tag is one of: `node` or `cell`.
+    pub tagged: &'static str,
+    /// Tags of the points, shape (n_points).
+    pub tags: Vec<i64>,
+    /// Positions, shape (n_points), m.
+    pub positions: Vec<[f64; 2]>,
+    /// Volumes, shape (n_points), m^3.
+    pub volumes: Vec<f64>,
+    /// Horizons, shape (n_points), m.
+    pub horizon: Vec<f64>,
+    /// Whether the bonds of a point never fail, shape (n_points).
+    pub no_fail: Vec<bool>,
+    /// Bonds, and pairs that are none.
+    pub bonds: StoredBonds,
+    /// The failure criteria, in the order of the case.
+    pub criteria: Vec<StoredCriterion>,
+    /// How near bonds came to their limits; None where the run did not get to its end.
+    pub largest: Option<StoredLargest>,
+}
+
+/// The bonds of a model, and the pairs within a horizon that are none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredBonds {
+    /// Ends, shape (n_bonds).
+    pub ends: Vec<[u32; 2]>,
+    /// Why a pair is no bond, shape (n_bonds).
+    pub absence: Vec<Option<Absence>>,
+    /// Bond horizons H, shape (n_bonds), m.
+    pub horizon: Vec<f64>,
+    /// alpha, shape (n_bonds).
+    pub length_factor: Vec<f64>,
+    /// Omega, shape (n_bonds).
+    pub domain_factor: Vec<f64>,
+}
+
+/// A failure criterion with its limits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredCriterion {
+    /// Its name.
+    pub name: String,
+    /// The word for its measure.
+    pub measure: String,
+    /// The word for what happens after the limit.
+    pub after: String,
+    /// Limits, shape (n_bonds).
+    pub limit: Vec<f64>,
+    /// Coefficients of the measure, shape (n_bonds) or empty.
+    pub coefficient: Vec<f64>,
+    /// Numbers of the law after the limit, shape (n_bonds) or empty.
+    pub parameter: Vec<f64>,
+}
+
+/// The largest utilisation of each bond over the load steps, or events, in which it was intact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredLargest {
+    /// The utilisation, shape (n_bonds).
+    pub utilisation: Vec<f64>,
+    /// The step, shape (n_bonds).
+    pub step: Vec<i64>,
+    /// The number of the criterion, shape (n_bonds).
+    pub criterion: Vec<i64>,
+}
+
+/// A row of the history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StoredStep {
+    /// Number of the step or event.
+    pub step: usize,
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacement of the first load, m.
+    pub displacement: f64,
+    /// Its force, N.
+    pub reaction: f64,
+}
+
+/// A broken bond.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredBreak {
+    /// Place in the order of all breakages, from 1.
+    pub order: usize,
+    /// Round of breaking in the step, from 1.
+    pub round: usize,
+    /// Step and load at the breakage.
+    pub at: StoredStep,
+    /// Tags of its ends.
+    pub tags: [i64; 2],
+    /// Name of the criterion.
+    pub criterion: String,
+    /// Its measure over the limit of breakage.
+    pub utilisation: f64,
+    /// Stretch then.
+    pub stretch: f64,
+    /// Shear deformation then, rad.
+    pub shear: f64,
+}
+
+/// Displacements along x and y and rotation of each point, shape (n_points).
+pub type Motions = Vec<[f64; 3]>;
+
+impl StoredRun {
+    /// Opens the results in a folder.
+    ///
+    /// # Errors
+    ///
+    /// If there are none, what a bond needs was not written, or a file cannot be used.
+    pub fn open(folder: &Path) -> Result<Self, Error> {
+        require_run(folder)?;
+        let model = StoredModel::read(folder)?;
+        Ok(Self {
+            history: steps(&Sheet::read(folder.join("history.csv"))?)?,
+            breaks: breaks(&Sheet::read(folder.join("breaks.csv"))?, model.tagged)?,
+            fields: field_files(folder)?,
+            folder: folder.to_path_buf(),
+            model,
+        })
+    }
+
+    /// The steps of which there are fields, ascending.
+    pub fn field_steps(&self) -> impl Iterator<Item = usize> {
+        self.fields.keys().copied()
+    }
+
+    /// The row of the history of a step.
+    pub fn step(&self, step: usize) -> Option<&StoredStep> {
+        self.history.iter().find(|row| row.step == step)
+    }
+
+    /// The motions of the points in a step; None where it has no fields.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be used.
+    pub fn motions(&self, step: usize) -> Result<Option<Motions>, Error> {
+        let Some(path) = self.fields.get(&step) else {
+            return Ok(None);
+        };
+        let file = VtuFile::open(path)?;
+        // The fields of a lattice are on its cells.
+        let location = if self.model.tagged == "cell" {
+            FieldLocation::Cell
+        } else {
+            FieldLocation::Point
+        };
+        let displacement = required(&file, location, "displacement", VtuFile::numbers)?;
+        let rotation = required(&file, location, "rotation", VtuFile::numbers)?;
+        let n_points = self.model.positions.len();
+        if displacement.len() != 3 * n_points || rotation.len() != n_points {
+            return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
+        }
+        let motions = displacement.chunks_exact(3).zip(rotation);
+        Ok(Some(motions.map(|(u, turn)| [u[0], u[1], turn]).collect()))
+    }
+}
+
+fn require_run(folder: &Path) -> Result<(), Error> {
+    let no_results = |reason: &str| {
+        Err(Error::NoResults {
+            path: folder.to_path_buf(),
+            reason: reason.to_owned(),
+        })
+    };
+    if !folder.exists() {
+        return no_results("there is no such folder");
+    }
+    if folder.is_file() {
+        return no_results(
+            "it is a file; name the folder that `ligament run` wrote its results to",
+        );
+    }
+    if !folder.join(RESOLVED_CASE).is_file() {
+        return no_results(&format!(
+            "it has no {RESOLVED_CASE}; name the folder that `ligament run` wrote its results to"
+        ));
+    }
+    if folder.join("modes.csv").is_file() {
+        return no_results(
+            "it has natural modes, in which no bond is loaded or breaks; explain needs a static analysis or one of fracture",
+        );
+    }
+    if !folder.join(MODEL).is_file() {
+        return no_results(&format!(
+            "it has no {MODEL}: the case has `output.model = false`, or an earlier version ran it; run it again with \
+             --set output.model=true"
+        ));
+    }
+    if !folder.join("history.csv").is_file() {
+        return no_results("it has no history.csv");
+    }
+    Ok(())
+}
+
+type Read<T> = fn(&VtuFile, FieldLocation, &str) -> Result<Option<Vec<T>>, Error>;
+
+fn required<T>(
+    file: &VtuFile,
+    location: FieldLocation,
+    name: &str,
+    read: Read<T>,
+) -> Result<Vec<T>, Error> {
+    let values = read(file, location, name)?;
+    values.ok_or_else(|| file.strange(format!("it has no {location} field {name}")))
+}
+
+impl StoredModel {
+    fn read(folder: &Path) -> Result<Self, Error> {
+        let file = VtuFile::open(folder.join(MODEL))?;
+        let numbers = |name| required(&file, FieldLocation::Point, name, VtuFile::numbers);
+        let mut found = None;
+        for tagged in ["node", "cell"] {
+            let tags = file.integers(FieldLocation::Point, tagged)?;
+            found = found.or(tags.map(|tags| (tagged, tags)));
+        }
+        let (tagged, tags) = found.ok_or_else(|| file.strange("its points have no tags"))?;
+        let no_fail = required(&file, FieldLocation::Point, "no_fail", VtuFile::integers)?;
+        let model = Self {
+            tagged,
+            positions: file.points()?,
+            volumes: numbers("volume")?,
+            horizon: numbers("horizon")?,
+            no_fail: no_fail.into_iter().map(|it| it != 0).collect(),
+            bonds: StoredBonds::read(&file, tags.len())?,
+            criteria: criteria(folder, &file)?,
+            largest: StoredLargest::read(&file)?,
+            tags,
+        };
+        let n_points = model.tags.len();
+        let of_points = [
+            model.positions.len(),
+            model.volumes.len(),
+            model.horizon.len(),
+            model.no_fail.len(),
+        ];
+        if of_points.iter().any(|len| *len != n_points) || !model.bonds_are_complete() {
+            return Err(file.strange("its fields are not equally long"));
+        }
+        Ok(model)
+    }
+
+    fn bonds_are_complete(&self) -> bool {
+        let n_bonds = self.bonds.ends.len();
+        let bonds = &self.bonds;
+        let largest = self.largest.iter();
+        let of_bonds = [
+            bonds.absence.len(),
+            bonds.horizon.len(),
+            bonds.length_factor.len(),
+            bonds.domain_factor.len(),
+        ];
+        let of_criteria = self.criteria.iter().all(|it| {
+            let may_be_empty = [&it.coefficient, &it.parameter];
+            let fits = |values: &&Vec<f64>| values.is_empty() || values.len() == n_bonds;
+            it.limit.len() == n_bonds && may_be_empty.iter().all(fits)
+        });
+        let mut of_largest =
+            largest.flat_map(|it| [it.utilisation.len(), it.step.len(), it.criterion.len()]);
+        of_criteria
+            && of_bonds.iter().all(|len| *len == n_bonds)
+            && of_largest.all(|len| len == n_bonds)
+    }
+}
+
+impl StoredBonds {
+    fn read(file: &VtuFile, n_points: usize) -> Result<Self, Error> {
+        let numbers = |name| required(file, FieldLocation::Cell, name, VtuFile::numbers);
+        let end = |point: &i64| {
+            let inside = u32::try_from(*point).ok();
+            inside.filter(|point| (*point as usize) < n_points)
+        };
+        let connectivity = file.connectivity()?;
+        let ends: Option<Vec<[u32; 2]>> = (connectivity.chunks(2))
+            .map(|pair| match pair {
+                [a, b] => Some([end(a)?, end(b)?]),
+                _ => None,
+            })
+            .collect();
+        let absent = required(file, FieldLocation::Cell, "absent", VtuFile::integers)?;
+        Ok(Self {
+            ends: ends.ok_or_else(|| file.strange("its cells are no pairs of its points"))?,
+            absence: absent.into_iter().map(Absence::from_number).collect(),
+            horizon: numbers("horizon")?,
+            length_factor: numbers("length_factor")?,
+            domain_factor: numbers("domain_factor")?,
+        })
+    }
+}
+
+fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error> {
+    let sheet = Sheet::read(folder.join("criteria.csv"))?;
+    let column = |name| sheet.values::<String>(name);
+    let (names, measures, after) = (column("criterion")?, column("measure")?, column("after")?);
+    let of_row = |((name, measure), after): ((String, String), String)| {
+        let field = |what: &str| {
+            file.numbers(FieldLocation::Cell, &format!("{what}.{name}"))
+                .map(Option::unwrap_or_default)
+        };
+        Ok(StoredCriterion {
+            limit: field("limit")?,
+            coefficient: field("coefficient")?,
+            parameter: field("after")?,
+            name,
+            measure,
+            after,
+        })
+    };
+    names
+        .into_iter()
+        .zip(measures)
+        .zip(after)
+        .map(of_row)
+        .collect()
+}
+
+impl StoredLargest {
+    fn read(file: &VtuFile) -> Result<Option<Self>, Error> {
+        let location = FieldLocation::Cell;
+        let Some(utilisation) = file.numbers(location, "largest_utilisation")? else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            utilisation,
+            step: required(file, location, "step_of_largest", VtuFile::integers)?,
+            criterion: required(file, location, "criterion_of_largest", VtuFile::integers)?,
+        }))
+    }
+}
+
+fn steps(sheet: &Sheet) -> Result<Vec<StoredStep>, Error> {
+    let number = |name| sheet.values::<f64>(name);
+    let step: Vec<usize> = sheet.values("step")?;
+    let (factors, displacements) = (number("load_factor")?, number("displacement")?);
+    let rows = step.into_iter().zip(factors).zip(displacements);
+    Ok((rows.zip(number("reaction")?))
+        .map(
+            |(((step, load_factor), displacement), reaction)| StoredStep {
+                step,
+                load_factor,
+                displacement,
+                reaction,
+            },
+        )
+        .collect())
+}
+
+fn breaks(sheet: &Sheet, tagged: &str) -> Result<Vec<StoredBreak>, Error> {
+    let tags = |end| sheet.values::<i64>(&format!("{tagged}_{end}"));
+    let count = |name| sheet.values::<usize>(name);
+    let number = |name| sheet.values::<f64>(name);
+    let (a, b, at) = (tags("a")?, tags("b")?, steps(sheet)?);
+    let (order, round) = (count("order")?, count("round")?);
+    let (utilisation, stretch, shear) =
+        (number("utilisation")?, number("stretch")?, number("shear")?);
+    let criterion: Vec<String> = sheet.values("criterion")?;
+    let of_row = |(row, criterion)| StoredBreak {
+        order: order[row],
+        round: round[row],
+        at: at[row],
+        tags: [a[row], b[row]],
+        criterion,
+        utilisation: utilisation[row],
+        stretch: stretch[row],
+        shear: shear[row],
+    };
+    Ok(criterion.into_iter().enumerate().map(of_row).collect())
+}
+
+/// The files `fields_NNNN.vtu` by their steps.
+fn field_files(folder: &Path) -> Result<BTreeMap<usize, PathBuf>, Error> {
+    let failed = |source| Error::Folder {
+        action: "list",
+        path: folder.to_path_buf(),
+        source,
+    };
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let name = path.file_name().and_then(|name| name.to_str());
+        let number = name.and_then(|it| it.strip_prefix("fields_")?.strip_suffix(".vtu"));
+        if let Some(Ok(step)) = number.map(str::parse) {
+            files.insert(step, path);
+        }
+    }
+    Ok(files)
+}

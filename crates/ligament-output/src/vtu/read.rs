@@ -1,0 +1,375 @@
+//! Reads back the VTU files of this program, array by array.
+//!
+//! Only what [`write_vtu`](super::write_vtu) writes is read: one piece, arrays in blocks compressed by zlib. The text is searched
+//! once for the places of the arrays, and an array is decoded when it is asked for: a file of fields has some twenty.
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
+use rayon::prelude::*;
+
+use crate::xml::{attribute, unescape};
+use crate::{Error, FieldLocation};
+
+/// Bytes of a number in the header of an array.
+const HEADER_ENTRY: usize = 8;
+
+/// A VTU file with the places of its arrays.
+#[derive(Debug)]
+pub struct VtuFile {
+    path: PathBuf,
+    text: String,
+    arrays: Vec<Entry>,
+}
+
+/// What an array belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Section {
+    Fields(FieldLocation),
+    Points,
+    Cells,
+}
+
+/// An array that was found.
+#[derive(Debug)]
+struct Entry {
+    section: Section,
+    name: String,
+    vtk_type: String,
+    /// Where its base64 text is.
+    content: Range<usize>,
+}
+
+impl VtuFile {
+    /// Reads a file and finds its arrays.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, or is no VTU file as this program writes them.
+    pub fn open(path: impl Into<PathBuf>) -> Result<Self, Error> {
+        let path = path.into();
+        let bytes = fs::read(&path).map_err(|source| Error::ReadFile {
+            path: path.clone(),
+            source,
+        })?;
+        let strange = |reason: &str| Error::Unreadable {
+            path: path.clone(),
+            reason: reason.to_owned(),
+        };
+        let text = String::from_utf8(bytes).map_err(|_| strange("it is no text"))?;
+        let arrays = arrays(&text).map_err(strange)?;
+        Ok(Self { path, text, arrays })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Names of the fields on the points or cells, in their order.
+    pub fn fields(&self, location: FieldLocation) -> impl Iterator<Item = &str> {
+        let section = Section::Fields(location);
+        let of_section = self.arrays.iter().filter(move |it| it.section == section);
+        of_section.map(|it| it.name.as_str())
+    }
+
+    /// The numbers of a field, point by point or cell by cell; None where there is no such field.
+    ///
+    /// # Errors
+    ///
+    /// If it is damaged, or does not hold numbers.
+    pub fn numbers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<f64>>, Error> {
+        self.find(Section::Fields(location), name)
+            .map(|entry| self.floats(entry))
+            .transpose()
+    }
+
+    /// The integers of a field; None where there is no such field.
+    ///
+    /// # Errors
+    ///
+    /// If it is damaged, or does not hold integers.
+    pub fn integers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<i64>>, Error> {
+        self.find(Section::Fields(location), name)
+            .map(|entry| self.whole(entry))
+            .transpose()
+    }
+
+    /// Positions of the points, shape (n_points).
+    ///
+    /// # Errors
+    ///
+    /// If they are damaged or missing.
+    pub fn points(&self) -> Result<Vec<[f64; 2]>, Error> {
+        let values = self.floats(self.required(Section::Points, "Points")?)?;
+        Ok(values.chunks_exact(3).map(|p| [p[0], p[1]]).collect())
+    }
+
+    /// Points of all cells, one cell after the other.
+    ///
+    /// # Errors
+    ///
+    /// If they are damaged or missing.
+    pub fn connectivity(&self) -> Result<Vec<i64>, Error> {
+        self.whole(self.required(Section::Cells, "connectivity")?)
+    }
+
+    /// The error of something in the file that is not as it should be.
+    pub(crate) fn strange(&self, reason: impl Into<String>) -> Error {
+        Error::Unreadable {
+            path: self.path.clone(),
+            reason: reason.into(),
+        }
+    }
+
+    fn find(&self, section: Section, name: &str) -> Option<&Entry> {
+        let is_meant = |it: &&Entry| it.section == section && it.name == name;
+        self.arrays.iter().find(is_meant)
+    }
+
+    fn required(&self, section: Section, name: &str) -> Result<&Entry, Error> {
+        self.find(section, name)
+            .ok_or_else(|| self.strange(format!("it has no array {name}")))
+    }
+
+    fn floats(&self, entry: &Entry) -> Result<Vec<f64>, Error> {
+        match entry.vtk_type.as_str() {
+            "Float64" => self.values(entry, f64::from_le_bytes),
+            "Float32" => self.values(entry, |bytes| f64::from(f32::from_le_bytes(bytes))),
+            other => Err(self.strange(format!("array {} has {other}, no numbers", entry.name))),
+        }
+    }
+
+    fn whole(&self, entry: &Entry) -> Result<Vec<i64>, Error> {
+        match entry.vtk_type.as_str() {
+            "Int64" => self.values(entry, i64::from_le_bytes),
+            other => Err(self.strange(format!("array {} has {other}, no integers", entry.name))),
+        }
+    }
+
+    fn values<T, const SIZE: usize>(
+        &self,
+        entry: &Entry,
+        from_bytes: impl Fn([u8; SIZE]) -> T,
+    ) -> Result<Vec<T>, Error> {
+        let damaged = || self.strange(format!("array {} is damaged", entry.name));
+        let bytes = decode(self.text[entry.content.clone()].trim()).ok_or_else(damaged)?;
+        let (values, rest) = bytes.as_chunks::<SIZE>();
+        if rest.is_empty() {
+            Ok(values.iter().map(|bytes| from_bytes(*bytes)).collect())
+        } else {
+            Err(damaged())
+        }
+    }
+}
+
+/// The arrays of a text. Base64 has no `<`, so that tags are what lies between the angles.
+fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
+    let mut found = Vec::new();
+    let mut section = None;
+    let mut is_known_format = false;
+    let mut at = 0;
+    while let Some(start) = text[at..].find('<').map(|offset| at + offset + 1) {
+        let end = text[start..].find('>').ok_or("it ends in a tag")? + start;
+        let tag = &text[start..end];
+        at = end + 1;
+        let name_end = tag.find([' ', '\n', '/']).unwrap_or(tag.len());
+        match &tag[..name_end] {
+            "VTKFile" => is_known_format = is_ours(tag),
+            "PointData" => section = Some(Section::Fields(FieldLocation::Point)),
+            "CellData" => section = Some(Section::Fields(FieldLocation::Cell)),
+            "Points" => section = Some(Section::Points),
+            "Cells" => section = Some(Section::Cells),
+            "DataArray" => {
+                let of = |key| attribute(tag, key).ok_or("an array has no name or type");
+                let length = text[at..].find('<').ok_or("it ends in an array")?;
+                found.push(Entry {
+                    section: section.ok_or("an array is out of place")?,
+                    name: unescape(of("Name")?),
+                    vtk_type: of("type")?.to_owned(),
+                    content: at..at + length,
+                });
+            }
+            _ => {}
+        }
+    }
+    if !is_known_format {
+        return Err("it is no VTU file of this program");
+    }
+    if !text.trim_end().ends_with("</VTKFile>") {
+        return Err("its end is missing");
+    }
+    Ok(found)
+}
+
+fn is_ours(tag: &str) -> bool {
+    [
+        ("type", "UnstructuredGrid"),
+        ("byte_order", "LittleEndian"),
+        ("header_type", "UInt64"),
+        ("compressor", "vtkZLibDataCompressor"),
+    ]
+    .into_iter()
+    .all(|(key, value)| attribute(tag, key) == Some(value))
+}
+
+/// The bytes of an array: a header in base64, then the compressed blocks in base64 of their own. None where they are damaged.
+fn decode(text: &str) -> Option<Vec<u8>> {
+    // Three bytes take four letters; the first three entries take 24 bytes.
+    let start = BASE64_STANDARD.decode(text.get(..32)?).ok()?;
+    let entry = |bytes: &[u8], place: usize| -> Option<usize> {
+        let bytes = bytes.get(place * HEADER_ENTRY..(place + 1) * HEADER_ENTRY)?;
+        usize::try_from(u64::from_le_bytes(bytes.try_into().ok()?)).ok()
+    };
+    let n_blocks = entry(&start, 0)?;
+    let header_bytes = n_blocks.checked_add(3)?.checked_mul(HEADER_ENTRY)?;
+    let header_letters = header_bytes.div_ceil(3).checked_mul(4)?;
+    let header = BASE64_STANDARD.decode(text.get(..header_letters)?).ok()?;
+    let compressed = BASE64_STANDARD.decode(&text[header_letters..]).ok()?;
+    let (whole, last) = (entry(&header, 1)?, entry(&header, 2)?);
+    let mut blocks = Vec::with_capacity(n_blocks);
+    let mut from = 0_usize;
+    for block in 0..n_blocks {
+        let to = from.checked_add(entry(&header, 3 + block)?)?;
+        let size = if block + 1 == n_blocks && last > 0 {
+            last
+        } else {
+            whole
+        };
+        blocks.push((compressed.get(from..to)?, size));
+        from = to;
+    }
+    let inflated: Option<Vec<Vec<u8>>> = (blocks.par_iter())
+        .map(|(block, size)| {
+            let bytes = decompress_to_vec_zlib_with_limit(block, *size).ok()?;
+            (bytes.len() == *size).then_some(bytes)
+        })
+        .collect();
+    Some(inflated?.concat())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+    use proptest::prelude::*;
+
+    /// Numbers with all bits, also those of what is no number.
+    fn floats(len: usize) -> impl Strategy<Value = Vec<f64>> {
+        proptest::collection::vec(any::<u64>().prop_map(f64::from_bits), len)
+    }
+
+    fn bits(values: &[f64]) -> Vec<u64> {
+        values.iter().map(|it| it.to_bits()).collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// A block has 4096 numbers: lengths about it and about its double.
+        #[test]
+        fn what_was_written_is_read(
+            (numbers, integers) in prop_oneof![1_usize..9, 4094_usize..4099, 8191_usize..8194]
+                .prop_flat_map(|len| (floats(len), proptest::collection::vec(any::<i64>(), len))),
+            name: String,
+        ) {
+            let n_points = numbers.len();
+            let points: Vec<[f64; 2]> = numbers.iter().map(|it| [*it, -*it]).collect();
+            let cells: Vec<Cell> = (0..n_points as u32 - 1)
+                .map(|point| Cell::Line([point, point + 1]))
+                .chain([Cell::Vertex([0])])
+                .collect();
+            let single: Vec<f32> = (0..n_points).map(|it| it as f32 / 7.0).collect();
+            let vectors: Vec<[f64; 3]> = numbers.iter().map(|it| [*it, 0.0, -*it]).collect();
+            let grid = UnstructuredGrid {
+                points: &points,
+                cells: &cells,
+                point_fields: &[Field::scalar(&name, &numbers), Field::single("f32", &single)],
+                cell_fields: &[Field::integer(&name, &integers), Field::vector("v", &vectors)],
+            };
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a.vtu");
+            write_vtu(&path, &grid).unwrap();
+
+            let file = VtuFile::open(&path).unwrap();
+            let (on_points, on_cells) = (FieldLocation::Point, FieldLocation::Cell);
+            let read = file.numbers(on_points, &name).unwrap().unwrap();
+            prop_assert_eq!(bits(&read), bits(&numbers));
+            let read = file.numbers(on_points, "f32").unwrap().unwrap();
+            prop_assert!(read.iter().zip(&single).all(|(a, b)| *a == f64::from(*b)));
+            prop_assert_eq!(read.len(), n_points);
+            prop_assert_eq!(file.integers(on_cells, &name).unwrap(), Some(integers));
+            let read = file.numbers(on_cells, "v").unwrap().unwrap();
+            prop_assert_eq!(bits(&read), bits(vectors.as_flattened()));
+            let read = file.points().unwrap();
+            prop_assert_eq!(bits(read.as_flattened()), bits(points.as_flattened()));
+            let of_cells: Vec<i64> = (cells.iter().flat_map(Cell::points))
+                .map(|&point| i64::from(point))
+                .collect();
+            prop_assert_eq!(file.connectivity().unwrap(), of_cells);
+            prop_assert_eq!(file.numbers(on_cells, "w").unwrap(), None);
+            prop_assert!(file.numbers(on_cells, &name).is_err(), "integers are no numbers");
+        }
+    }
+
+    fn sample() -> (tempfile::TempDir, PathBuf, String) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.vtu");
+        let grid = UnstructuredGrid {
+            points: &[[0.0, 1.0], [2.0, 3.0]],
+            cells: &[Cell::Line([0, 1])],
+            point_fields: &[Field::scalar("damage", &[0.25, 0.5])],
+            cell_fields: &[],
+        };
+        write_vtu(&path, &grid).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        (folder, path, text)
+    }
+
+    /// No damage of a file panics or gives numbers that were not written.
+    #[test]
+    fn damaged_files_are_refused_or_read_as_they_were() {
+        let (_folder, path, text) = sample();
+        for cut in 0..text.len() {
+            fs::write(&path, &text[..cut]).unwrap();
+            let whole_but_for_its_last_line_feed = cut + 1 == text.len();
+            assert_eq!(
+                VtuFile::open(&path).is_ok(),
+                whole_but_for_its_last_line_feed,
+                "{cut}"
+            );
+        }
+        let mut refused = 0;
+        for place in 0..text.len() {
+            let mut bytes = text.clone().into_bytes();
+            bytes[place] = if bytes[place] == b'A' { b'B' } else { b'A' };
+            fs::write(&path, &bytes).unwrap();
+            let read =
+                VtuFile::open(&path).and_then(|file| file.numbers(FieldLocation::Point, "damage"));
+            match read {
+                Err(_) | Ok(None) => refused += 1,
+                Ok(Some(values)) => assert_eq!(values, [0.25, 0.5], "{place}"),
+            }
+        }
+        assert!(refused > 100, "{refused}");
+    }
+
+    #[test]
+    fn what_is_no_result_file_is_named() {
+        let (_folder, path, text) = sample();
+        let message = |text: &str| {
+            fs::write(&path, text).unwrap();
+            VtuFile::open(&path).unwrap_err().to_string()
+        };
+        assert!(message("mesh").ends_with("a.vtu: it is no VTU file of this program"));
+        let other = text.replace("vtkZLibDataCompressor", "vtkLZ4DataCompressor");
+        assert!(message(&other).ends_with("it is no VTU file of this program"));
+        let open = VtuFile::open(path.with_file_name("b.vtu"));
+        assert!(matches!(open, Err(Error::ReadFile { .. })));
+    }
+}

@@ -1,0 +1,148 @@
+//! An explanation as a table and as JSON.
+
+use std::path::Path;
+
+use anyhow::Context;
+use ligament_output::csv::{Table, Value};
+use ligament_output::results::Absence;
+use ligament_output::results::stored::StoredRun;
+use serde_json::json;
+
+use super::life::{Life, Lives};
+use super::report::angle;
+
+/// Writes a row a bond and step with fields.
+pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::Result<()> {
+    let tagged = run.model.tagged;
+    let mut columns: Vec<String> = ["a", "b"].map(|end| format!("{tagged}_{end}")).to_vec();
+    let loads = ["step", "load_factor", "displacement", "reaction", "intact"];
+    columns.extend(loads.map(str::to_owned));
+    columns.extend(["stretch", "shear"].map(str::to_owned));
+    for criterion in &run.model.criteria {
+        let of = |what: &str| format!("{what}.{}", criterion.name);
+        columns.extend(["limit", "measure", "utilisation"].map(of));
+        if criterion.after != "brittle" {
+            columns.extend(["mu", "omega"].map(of));
+        }
+    }
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    let mut table = Table::create(path, &columns)?;
+    for life in &lives.of_bonds {
+        let tags = life.ends.map(|end| run.model.tags[end as usize]);
+        for (place, (moment, deformation)) in
+            lives.moments.iter().zip(&life.deformation).enumerate()
+        {
+            let is_intact = place < life.n_intact;
+            let mut row: Vec<Value<'_>> = vec![
+                tags[0].into(),
+                tags[1].into(),
+                moment.step.into(),
+                moment.load_factor.into(),
+                moment.displacement.into(),
+                moment.reaction.into(),
+                usize::from(is_intact).into(),
+                deformation.stretch.into(),
+                deformation.shear.into(),
+            ];
+            for (criterion, limit) in life.limits.iter().enumerate() {
+                let utilisation = if is_intact {
+                    limit.utilisation(deformation)
+                } else {
+                    f64::NAN
+                };
+                let measure = limit.measure(deformation);
+                row.extend([limit.limit, measure, utilisation].map(Value::from));
+                if !limit.after.is_brittle() {
+                    let softened = life.softened(criterion, &lives.moments, place);
+                    let left = |value: f64| Value::from(if is_intact { value } else { 0.0 });
+                    row.extend([left(softened.force), left(softened.secant)]);
+                }
+            }
+            table.append(&row)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes bonds with their limits, breakages and paths; what is infinite is `null`.
+pub(super) fn write_json(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::Result<()> {
+    let tags = |ends: [u32; 2]| ends.map(|end| run.model.tags[end as usize]);
+    let absent = lives.absent.iter().map(|pair| {
+        let why = match run.model.bonds.absence[*pair] {
+            Some(Absence::PreCrack) => "pre-crack",
+            Some(Absence::Hole) => "hole",
+            None => "none",
+        };
+        json!({"ends": tags(run.model.bonds.ends[*pair]), "absent": why})
+    });
+    let bonds = lives.of_bonds.iter().map(|life| bond(run, lives, life));
+    let document = json!({
+        "tagged": run.model.tagged,
+        "bonds": bonds.collect::<Vec<_>>(),
+        "no_bonds": absent.collect::<Vec<_>>(),
+    });
+    let text = serde_json::to_string_pretty(&document)
+        .context("the explanation cannot be written as JSON")?;
+    std::fs::write(path, text + "\n").with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
+    let bonds = &run.model.bonds;
+    let limits = life.limits.iter().map(|limit| {
+        json!({
+            "criterion": limit.name,
+            "measure": limit.measure.word(),
+            "limit": limit.limit,
+            "coefficient": limit.coefficient,
+            "after": limit.after.word(),
+            "break_limit": limit.limit * limit.after.end(0),
+        })
+    });
+    let breakage = life.breakage.as_ref().map(|(broke, _)| {
+        json!({
+            "order": broke.order,
+            "step": broke.at.step,
+            "round": broke.round,
+            "load_factor": broke.at.load_factor,
+            "displacement": broke.at.displacement,
+            "reaction": broke.at.reaction,
+            "criterion": broke.criterion,
+            "utilisation": broke.utilisation,
+            "stretch": broke.stretch,
+            "shear": broke.shear,
+        })
+    });
+    let nearest = life.nearest.map(|it| {
+        json!({
+            "utilisation": it.utilisation,
+            "step": it.step,
+            "criterion": life.limits[it.criterion].name,
+        })
+    });
+    let path = lives.moments.iter().zip(&life.deformation).enumerate();
+    let path = path.map(|(place, (moment, deformation))| {
+        let utilisation = life.limits.iter().map(|it| it.utilisation(deformation));
+        json!({
+            "step": moment.step,
+            "load_factor": moment.load_factor,
+            "displacement": moment.displacement,
+            "reaction": moment.reaction,
+            "intact": place < life.n_intact,
+            "stretch": deformation.stretch,
+            "shear": deformation.shear,
+            "utilisation": utilisation.collect::<Vec<f64>>(),
+        })
+    });
+    json!({
+        "ends": life.ends.map(|end| run.model.tags[end as usize]),
+        "length": life.length,
+        "angle": angle(life),
+        "horizon": bonds.horizon[life.pair],
+        "alpha": bonds.length_factor[life.pair],
+        "omega": bonds.domain_factor[life.pair],
+        "limits": limits.collect::<Vec<_>>(),
+        "breakage": breakage,
+        "largest": nearest,
+        "path": path.collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,161 @@
+//! `ligament explain`: the life of a bond, or of all bonds of a point, from the results of a run alone.
+//!
+//! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and what a bond went
+//! through from the displacements and rotations of the fields, by the kinematics of the bonds.
+
+mod files;
+mod life;
+mod report;
+mod table;
+mod words;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use ligament_output::folder::RESOLVED_CASE;
+use ligament_output::results::stored::StoredRun;
+use thiserror::Error;
+
+use self::life::{Lives, bonds_of, pair_of};
+
+/// What to explain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Subject {
+    /// The family of the point with this tag.
+    Point(i64),
+    /// The bond between two points with these tags.
+    Bond([i64; 2]),
+    /// The family of the point nearest to a position (coordinates of the case), m.
+    At([f64; 2]),
+}
+
+/// What to explain, and where to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// Folder with the results of a run.
+    pub folder: PathBuf,
+    /// What to explain.
+    pub subject: Subject,
+    /// Table to write: a row a bond and step.
+    pub csv: Option<PathBuf>,
+    /// File to write everything to.
+    pub json: Option<PathBuf>,
+}
+
+/// Why nothing can be explained.
+#[derive(Debug, Error)]
+pub enum ExplainError {
+    /// No point has the tag.
+    #[error("there is no {tagged} {tag}: the tags go from {} to {}, the nearest {}", .range[0], .range[1], nearest_words(.nearest))]
+    UnknownTag {
+        /// `node` or `cell`.
+        tagged: &'static str,
+        /// The tag.
+        tag: i64,
+        /// First and last tag.
+        range: [i64; 2],
+        /// The tags before and after it.
+        nearest: Vec<i64>,
+    },
+    /// A bond from a point to itself.
+    #[error(
+        "a bond has two ends, and both are {tagged} {tag}; --point {tag} explains all bonds of it"
+    )]
+    OneEnd {
+        /// `node` or `cell`.
+        tagged: &'static str,
+        /// The tag.
+        tag: i64,
+    },
+}
+
+fn nearest_words(nearest: &[i64]) -> String {
+    let tags: Vec<String> = nearest.iter().map(i64::to_string).collect();
+    let verb = if tags.len() == 1 { "is" } else { "are" };
+    format!("{verb} {}", tags.join(" and "))
+}
+
+/// Explains a bond or a family: prints its life, and writes the files that were asked for.
+///
+/// # Errors
+///
+/// If the folder has no results that tell, there is no such point, or a file cannot be written.
+pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
+    let run = StoredRun::open(&request.folder)?;
+    let follows_path = follows_exact_path(&request.folder)?;
+    let (text, lives) = match request.subject {
+        Subject::Point(tag) => {
+            let point = point_of(&run, tag)?;
+            let lives = Lives::of(&run, bonds_of(&run, point), follows_path)?;
+            (report::family(&run, point, None, &lives), lives)
+        }
+        Subject::At(position) => {
+            let point = nearest_point(&run, position);
+            let lives = Lives::of(&run, bonds_of(&run, point), follows_path)?;
+            (report::family(&run, point, Some(position), &lives), lives)
+        }
+        Subject::Bond(tags) => {
+            let [a, b] = [point_of(&run, tags[0])?, point_of(&run, tags[1])?];
+            if a == b {
+                let (tagged, tag) = (run.model.tagged, tags[0]);
+                return Err(ExplainError::OneEnd { tagged, tag }.into());
+            }
+            let ends = [a.min(b), a.max(b)];
+            let pair = pair_of(&run, ends);
+            let lives = Lives::of(&run, pair.into_iter().collect(), follows_path)?;
+            (report::bond(&run, ends, &lives), lives)
+        }
+    };
+    let title = format!("{} in {}", text.title, request.folder.display());
+    writeln!(out, "{title}\n{}", text.body)?;
+    if let Some(path) = &request.csv {
+        files::write_csv(path, &run, &lives)?;
+        writeln!(out, "\ntable in {}", path.display())?;
+    }
+    if let Some(path) = &request.json {
+        files::write_json(path, &run, &lives)?;
+        writeln!(out, "\neverything in {}", path.display())?;
+    }
+    Ok(())
+}
+
+/// The point with a tag.
+fn point_of(run: &StoredRun, tag: i64) -> Result<u32, ExplainError> {
+    let tags = &run.model.tags;
+    if let Some(point) = tags.iter().position(|it| *it == tag) {
+        return Ok(point as u32);
+    }
+    let below = tags.iter().copied().filter(|it| *it < tag).max();
+    let above = tags.iter().copied().filter(|it| *it > tag).min();
+    let bound = |bound: Option<i64>| bound.unwrap_or_default();
+    Err(ExplainError::UnknownTag {
+        tagged: run.model.tagged,
+        tag,
+        range: [
+            bound(tags.iter().copied().min()),
+            bound(tags.iter().copied().max()),
+        ],
+        nearest: below.into_iter().chain(above).collect(),
+    })
+}
+
+/// The point nearest to a position, the first of several.
+fn nearest_point(run: &StoredRun, [x, y]: [f64; 2]) -> u32 {
+    let distance = |p: &[f64; 2]| (p[0] - x).hypot(p[1] - y);
+    let positions = run.model.positions.iter().enumerate();
+    let nearest = positions.min_by(|(_, p), (_, q)| distance(p).total_cmp(&distance(q)));
+    nearest.map_or(0, |(point, _)| point as u32)
+}
+
+/// Whether the rows of the history are events, each just before its bonds break.
+fn follows_exact_path(folder: &Path) -> anyhow::Result<bool> {
+    let path = folder.join(RESOLVED_CASE);
+    let text = std::fs::read_to_string(&path)
+        .with_context(|| format!("cannot read {}", path.display()))?;
+    let case: toml::Table = text
+        .parse()
+        .with_context(|| format!("cannot use {}", path.display()))?;
+    let control = case.get("fracture").and_then(|it| it.get("control"));
+    Ok(control.and_then(toml::Value::as_str) == Some("event"))
+}

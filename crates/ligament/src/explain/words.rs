@@ -1,0 +1,275 @@
+//! What happened to bonds, in words.
+
+use ligament_model::element::BondDeformation;
+use ligament_model::failure::{Measure, Softened};
+use ligament_output::results::Absence;
+use ligament_output::results::stored::StoredRun;
+
+use super::life::{Life, Limit, Lives, Nearest, deformation_of};
+
+/// A number as all reports have it.
+pub(super) fn number(value: f64) -> String {
+    // Without the sign of a zero.
+    format!("{:.4e}", value + 0.0)
+}
+
+/// The formula of a measure.
+pub(super) fn formula(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Tension => "stretch s",
+        Measure::Compression => "shortening -s",
+        Measure::Sliding => "sliding |gamma|",
+        Measure::Friction => "|gamma| + q s",
+        Measure::Energy => "sqrt(max(s, 0)^2 + q gamma^2)",
+    }
+}
+
+/// A point in words: "node 12".
+pub(super) fn label(run: &StoredRun, point: u32) -> String {
+    format!("{} {}", run.model.tagged, run.model.tags[point as usize])
+}
+
+/// A point in words, and where it is.
+pub(super) fn place(run: &StoredRun, point: u32) -> String {
+    let [x, y] = run.model.positions[point as usize];
+    format!("{} at ({x:.6}, {y:.6}) m", label(run, point))
+}
+
+fn deformed(BondDeformation { stretch, shear, .. }: &BondDeformation) -> String {
+    format!("s = {}, gamma = {}", number(*stretch), number(*shear))
+}
+
+/// The limits of a bond, a line each; its name and what it says.
+pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
+    let words = |limit: &Limit| {
+        let what = formula(limit.measure);
+        let coefficient = match limit.measure {
+            Measure::Friction | Measure::Energy => format!(", q = {}", number(limit.coefficient)),
+            Measure::Tension | Measure::Compression | Measure::Sliding => String::new(),
+        };
+        if limit.limit.is_infinite() {
+            return format!("never fails by its {what}{coefficient}");
+        }
+        let at = format!("{what} = {}{coefficient}", number(limit.limit));
+        let end = limit.limit * limit.after.end(0);
+        if limit.after.is_brittle() {
+            format!("breaks at {at}")
+        } else if end.is_infinite() {
+            format!("softens ({}) from {at}, never breaks", limit.after.word())
+        } else {
+            let law = limit.after.word();
+            format!("softens ({law}) from {at}, breaks at {}", number(end))
+        }
+    };
+    let each = life.limits.iter();
+    each.map(|limit| (limit.name.clone(), words(limit)))
+        .collect()
+}
+
+/// What happened to a bond, a sentence a line.
+pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
+    if let Some((broke, criterion)) = &life.breakage {
+        let mut lines = vec![format!(
+            "It broke in step {}, round {}, as number {} of {} broken bonds, by `{}`.",
+            broke.at.step,
+            broke.round,
+            broke.order,
+            run.breaks.len(),
+            broke.criterion
+        )];
+        let deformation = deformation_of(broke);
+        if let Some(limit) = criterion.map(|criterion| &life.limits[criterion]) {
+            lines.push(format!(
+                "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",
+                limit.name,
+                formula(limit.measure),
+                number(limit.measure(&deformation)),
+                broke.utilisation,
+                number(limit.limit * limit.after.end(0)),
+            ));
+        }
+        lines.push(format!("Then {}.", deformed(&deformation)));
+        lines.push(format!(
+            "Load factor {:.6}, displacement {} m, reaction {} N.",
+            broke.at.load_factor,
+            number(broke.at.displacement),
+            number(broke.at.reaction)
+        ));
+        return lines;
+    }
+    if life.limits.is_empty() {
+        return vec!["It is intact: nothing fails in an elastic analysis.".to_owned()];
+    }
+    if life.limits.iter().all(|limit| limit.limit.is_infinite()) {
+        return vec![format!("It is intact: {}.", never_fails(run, life))];
+    }
+    let mut lines = Vec::new();
+    match life.nearest.filter(|it| it.utilisation > 0.0) {
+        Some(nearest) => lines.push(nearest_words(lives, life, nearest)),
+        None => lines.push("It is intact: its utilisation was 0 all along.".to_owned()),
+    }
+    lines.extend(end_words(lives, life));
+    lines.extend(softened_words(lives, life));
+    lines
+}
+
+fn never_fails(run: &StoredRun, life: &Life) -> String {
+    let marked = life
+        .ends
+        .iter()
+        .filter(|end| run.model.no_fail[**end as usize]);
+    let marked: Vec<String> = marked.map(|end| label(run, *end)).collect();
+    match marked.as_slice() {
+        [] => "its materials give no criterion a limit".to_owned(),
+        [one] => format!("bonds of {one} never fail (`no_fail`)"),
+        both => format!("bonds of {} never fail (`no_fail`)", both.join(" and ")),
+    }
+}
+
+fn nearest_words(lives: &Lives, life: &Life, nearest: Nearest) -> String {
+    let limit = &life.limits[nearest.criterion];
+    let moment = lives.moments.iter().position(|it| it.step == nearest.step);
+    let seen = moment.map(|moment| {
+        let deformation = &life.deformation[moment];
+        format!(" ({})", deformed(deformation))
+    });
+    format!(
+        "It is intact: its largest utilisation was {:.4}, in step {}, by `{}`{}.",
+        nearest.utilisation,
+        nearest.step,
+        limit.name,
+        seen.unwrap_or_default()
+    )
+}
+
+/// The state of an intact bond in the last moment, if that is not the one nearest to its limit.
+fn end_words(lives: &Lives, life: &Life) -> Option<String> {
+    let (moment, deformation) = (lives.moments.last()?, life.deformation.last()?);
+    let is_told = |it: Nearest| it.step == moment.step && it.utilisation > 0.0;
+    if life.nearest.is_some_and(is_told) {
+        return None;
+    }
+    let largest = life.limits.iter().map(|it| it.utilisation(deformation));
+    let largest = largest.fold(0.0, f64::max);
+    let why = if largest == 0.0 && deformation.stretch < 0.0 {
+        ": it is compressed, which none of its criteria counts"
+    } else {
+        ""
+    };
+    let (step, deformed) = (moment.step, deformed(deformation));
+    Some(format!(
+        "At the end (step {step}) its utilisation is {largest:.4}{why} ({deformed})."
+    ))
+}
+
+/// What is left of a bond that passed limits, in the last moment.
+fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
+    let Some(last) = lives.moments.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let each = life.limits.iter().enumerate();
+    each.map(|(criterion, limit)| (&limit.name, life.softened(criterion, &lives.moments, last)))
+        .filter(|(_, softened)| *softened != Softened::SOUND)
+        .map(|(name, softened)| {
+            format!(
+                "Past the limit of `{name}`: mu = {:.4} of the force there is left, omega = {:.4} of the stiffness.",
+                softened.force, softened.secant
+            )
+        })
+        .collect()
+}
+
+/// What happened to a bond, in a few words.
+pub(super) fn short_fate(run: &StoredRun, life: &Life) -> String {
+    let is_free = life.limits.iter().all(|limit| limit.limit.is_infinite());
+    let is_held = life.ends.iter().any(|end| run.model.no_fail[*end as usize]);
+    let was_seen = life.nearest.is_some_and(|it| it.utilisation > 0.0);
+    let is_pressed = life.deformation.last().is_some_and(|it| it.stretch < 0.0);
+    match &life.breakage {
+        Some((broke, _)) => format!("broke, number {}", broke.order),
+        None if life.limits.is_empty() => "intact".to_owned(),
+        None if is_free && is_held => "intact: no_fail".to_owned(),
+        None if is_free => "intact: no limit".to_owned(),
+        None if !was_seen && is_pressed => "intact: compression".to_owned(),
+        None => "intact".to_owned(),
+    }
+}
+
+/// Why two points share no bond, a sentence a line.
+pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) -> Vec<String> {
+    let model = &run.model;
+    let [p, q] = [a, b].map(|end| model.positions[end as usize]);
+    let distance = (q[0] - p[0]).hypot(q[1] - p[1]);
+    let [h_a, h_b] = [a, b].map(|end| model.horizon[end as usize]);
+    let mut lines = vec![format!(
+        "Their distance is {} m; the horizons are {} m ({}) and {} m ({}).",
+        number(distance),
+        number(h_a),
+        label(run, a),
+        number(h_b),
+        label(run, b)
+    )];
+    lines.push(match pair.and_then(|pair| model.bonds.absence[pair]) {
+        Some(Absence::PreCrack) => {
+            "No bond: a pre-crack cut it before the first load. It counts as no damage.".to_owned()
+        }
+        Some(Absence::Hole) => "No bond: a hole lies between them.".to_owned(),
+        None => format!(
+            "No bond: neither lies in the horizon of the other; bonds of these two reach {} m.",
+            number(h_a.max(h_b))
+        ),
+    });
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use ligament_model::failure::AfterLimit;
+
+    use super::*;
+    use crate::explain::life::life_of;
+
+    fn said(measure: Measure, limit: f64, after: AfterLimit) -> String {
+        let limit = Limit {
+            name: "own".to_owned(),
+            measure,
+            limit,
+            coefficient: 0.5,
+            after,
+        };
+        limits(&life_of(vec![limit], Vec::new())).remove(0).1
+    }
+
+    #[test]
+    fn limits_in_words() {
+        let bilinear = AfterLimit::Bilinear { end: vec![4.0] };
+        for (measure, limit, after, expected) in [
+            (
+                Measure::Tension,
+                2e-4,
+                AfterLimit::Brittle,
+                "breaks at stretch s = 2.0000e-4",
+            ),
+            (
+                Measure::Friction,
+                2e-4,
+                AfterLimit::Plastic,
+                "softens (plastic) from |gamma| + q s = 2.0000e-4, q = 5.0000e-1, never breaks",
+            ),
+            (
+                Measure::Compression,
+                2e-4,
+                bilinear,
+                "softens (bilinear) from shortening -s = 2.0000e-4, breaks at 8.0000e-4",
+            ),
+            (
+                Measure::Sliding,
+                f64::INFINITY,
+                AfterLimit::Brittle,
+                "never fails by its sliding |gamma|",
+            ),
+        ] {
+            assert_eq!(said(measure, limit, after), expected);
+        }
+    }
+}
