@@ -104,5 +104,6 @@ experiments!(
     yielding,
     anisotropy,
     disk,
-    griffith
+    griffith,
+    softening
 );

@@ -238,7 +238,7 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         (
             "kind = \"strength\"\nlimit = 1e-3",
             "61:9: fracture.criterion.0.limit: `limit` does not apply with kind = \"strength\": its limits come from the \
-             material; \"tension\", \"compression\" and \"sliding\" take one; remove it",
+             material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one; remove it",
         ),
         (
             "kind = \"sliding\"\ncalibration = \"two-point\"",
@@ -325,7 +325,11 @@ fn criteria_name_what_they_lack_of_the_material() {
             "kind = \"critical-stretch\"",
             "\"critical-stretch\"",
         ),
-        (energy, "kind = \"bond-energy\"", "\"bond-energy\""),
+        (
+            energy,
+            "kind = \"bond-energy\"",
+            "\"bond-energy\" without `limit`",
+        ),
         (
             energy,
             "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"",

@@ -16,7 +16,7 @@ const MIXING_FROM: usize = 15;
 
 /// Iterations after which bonds keep the damage of the iterates: what has not settled by then is a sudden fall, in which bonds
 /// take turns. Damage that only grows comes to an end.
-const ONE_WAY_AFTER: usize = 60;
+const ONE_WAY_AFTER: usize = 150;
 
 impl Equilibrium<'_> {
     /// Brings a state with softening bonds into equilibrium at its load factor.

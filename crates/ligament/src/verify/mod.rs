@@ -28,6 +28,7 @@ mod poisson;
 pub mod printed;
 pub mod published;
 pub mod report;
+mod softening;
 mod statics;
 pub mod table;
 pub mod tally;
@@ -44,7 +45,7 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 10] = [
+pub static EXPERIMENTS: [Experiment; 11] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -55,6 +56,7 @@ pub static EXPERIMENTS: [Experiment; 10] = [
     anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
     griffith::EXPERIMENT,
+    softening::EXPERIMENT,
 ];
 
 /// A published case, or several that belong together.
