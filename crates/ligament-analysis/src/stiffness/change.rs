@@ -94,7 +94,7 @@ impl Stiffness<'_> {
             self.remaining[bond] = remaining[bond];
         }
         // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
-        terms.sort_by(|one, other| (one.weight < 0.0).cmp(&(other.weight < 0.0)));
+        terms.sort_by_key(|term| term.weight < 0.0);
         let changed = factor.change(&terms, &[]);
         self.costs.change += start.elapsed();
         self.costs.changes += 1;

@@ -54,7 +54,7 @@ fn through_planes(
     let cloud = &system.cloud;
     let mut sums = vec![[0.0; 2]; cloud.len()];
     let mut crossed: Vec<(usize, f64)> = Vec::new();
-    for bond in 0..system.bonds.len() {
+    for (bond, deformation) in deformations.iter().enumerate() {
         let Some(element) = bonds.element(system, bond) else {
             continue;
         };
@@ -72,7 +72,7 @@ fn through_planes(
         }
         let area: f64 = crossed.iter().map(|(_, area)| area).sum();
         // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
-        let force = force_on_first(&element, &deformations[bond]);
+        let force = force_on_first(&element, deformation);
         let force = force.map(|component| component * band.extent());
         for (point, part) in crossed.drain(..) {
             for (sum, component) in sums[point].iter_mut().zip(force) {
