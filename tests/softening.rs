@@ -288,8 +288,12 @@ kind = "sliding"
 after = "bilinear"
 end = 6.0
 "#;
-    let (bench, anew) = notched(fracture, &["solver.update=refactor"]);
-    let (_, in_place) = notched(fracture, &["solver.update=incremental"]);
+    let probes = ["tension", "compression", "sliding"].map(|way| {
+        format!("[[probe]]\nname = \"{way}\"\nat = [0.0325, 0.0575]\nfield = \"damage_{way}\"\n")
+    });
+    let fracture = format!("{fracture}{}", probes.concat());
+    let (bench, anew) = notched(&fracture, &["solver.update=refactor"]);
+    let (_, in_place) = notched(&fracture, &["solver.update=incremental"]);
     assert_eq!(anew.outcome.costs.changes, 0);
     assert!(
         in_place.outcome.costs.changes > 20,
@@ -331,6 +335,10 @@ end = 6.0
             "{name}"
         );
     }
+    let beside = system.cloud.nearest_point([0.0325, 0.0575]) as usize;
+    let probed = damages.iter().map(|(_, values)| values[beside]);
+    assert_eq!(last.probes, probed.collect::<Vec<_>>());
+    assert!(last.probes[0] > 0.0);
     assert!(damages[0].1.iter().any(|value| *value > 0.3));
 }
 

@@ -57,28 +57,37 @@ pub fn damage_by(
     state: &State,
     way: Weakened,
 ) -> Vec<f64> {
-    let fails_so: Vec<bool> = (criteria.list.iter())
-        .map(|criterion| criterion.measure.weakens() == way)
-        .collect();
+    gather(system, |point| {
+        point_damage_by(system, criteria, state, way, point)
+    })
+}
+
+/// Damage of one point by one way of failing, see [`damage_by`].
+pub fn point_damage_by(
+    system: &BondSystem,
+    criteria: &Criteria,
+    state: &State,
+    way: Weakened,
+    point: u32,
+) -> f64 {
+    let fails_so = |criterion: usize| criteria.list[criterion].measure.weakens() == way;
     let force = |bond: usize| {
-        let broke_so = state.broken_by[bond].is_some_and(|it| fails_so[usize::from(it)]);
+        let broke_so = state.broken_by[bond].is_some_and(|it| fails_so(usize::from(it)));
         if broke_so {
             return 0.0;
         }
-        let of = |criterion: usize| state.softening.of(criteria, criterion, bond).force;
-        let such = (0..fails_so.len()).filter(|&criterion| fails_so[criterion]);
-        such.map(of).fold(1.0, f64::min)
+        let such = (0..criteria.list.len()).filter(|&criterion| fails_so(criterion));
+        such.map(|criterion| state.softening.of(criteria, criterion, bond).force)
+            .fold(1.0, f64::min)
     };
-    gather(system, |point| {
-        let (mut lost, mut all) = (0.0, 0.0);
-        for &bond in system.bonds.incidence.of(point) {
-            let volume = system.cloud.volumes[system.bonds.neighbour(bond, point) as usize];
-            let weight = system.weight[bond as usize] * volume;
-            all += weight;
-            lost += (1.0 - force(bond as usize)) * weight;
-        }
-        if all > 0.0 { lost / all } else { 0.0 }
-    })
+    let (mut lost, mut all) = (0.0, 0.0);
+    for &bond in system.bonds.incidence.of(point) {
+        let volume = system.cloud.volumes[system.bonds.neighbour(bond, point) as usize];
+        let weight = system.weight[bond as usize] * volume;
+        all += weight;
+        lost += (1.0 - force(bond as usize)) * weight;
+    }
+    if all > 0.0 { lost / all } else { 0.0 }
 }
 
 /// Energy that the bonds of every point have taken for good, J/m^3: half of each bond's over the volume of the point.

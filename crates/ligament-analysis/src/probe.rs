@@ -2,7 +2,9 @@
 
 use ligament_model::BondSystem;
 use ligament_model::bonds::precrack::PreCrack;
+use ligament_model::failure::Weakened;
 
+use crate::driver::Problem;
 use crate::equilibrium::Balanced;
 use crate::fields;
 use crate::state::State;
@@ -49,6 +51,8 @@ pub enum Reading {
 pub enum PointField {
     /// Damage phi.
     Damage,
+    /// Damage by one way of failing, see [`fields::damage_by`].
+    DamageBy(Weakened),
     /// A displacement or the rotation, m or rad.
     Motion(Component),
     /// Strain energy density, J/m^3.
@@ -94,7 +98,8 @@ impl Reading {
     }
 
     /// The value in a state of equilibrium.
-    pub fn value(&self, system: &BondSystem, state: &State, balanced: &Balanced) -> f64 {
+    pub fn value(&self, problem: &Problem<'_>, state: &State, balanced: &Balanced) -> f64 {
+        let system = problem.system;
         match self {
             Self::RelativeDisplacement {
                 points: [first, second],
@@ -107,6 +112,9 @@ impl Reading {
             }
             Self::Field { point, field } => match field {
                 PointField::Damage => fields::point_damage(system, &state.intact, *point),
+                PointField::DamageBy(way) => {
+                    fields::point_damage_by(problem.system, problem.criteria, state, *way, *point)
+                }
                 PointField::Motion(component) => {
                     state.displacement[COMPONENTS * *point as usize + component.index()]
                 }

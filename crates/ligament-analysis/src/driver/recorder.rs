@@ -149,7 +149,7 @@ pub(super) fn step_record(
         probes: problem
             .probes
             .iter()
-            .map(|probe| probe.reading.value(problem.system, state, balanced))
+            .map(|probe| probe.reading.value(problem, state, balanced))
             .collect(),
     }
 }

@@ -61,6 +61,12 @@ pub enum Component {
 pub enum Field {
     /// Share of the point's bonds that are broken, 0 to 1.
     Damage,
+    /// Damage by opening of bonds, d_t, 0 to 1.
+    DamageTension,
+    /// Damage by crushing of bonds, d_c.
+    DamageCompression,
+    /// Damage by sliding of bonds, d_gamma.
+    DamageSliding,
     /// Displacement along x, m.
     DisplacementX,
     /// Displacement along y, m.

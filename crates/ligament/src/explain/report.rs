@@ -270,7 +270,7 @@ fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
             ],
             None => ["0", "-", "-"].map(str::to_owned),
         });
-        row.push(words::short_fate(run, life));
+        row.push(words::short_fate(run, lives, life));
         table.push(row);
     }
     table

@@ -162,25 +162,33 @@ fn end_words(lives: &Lives, life: &Life) -> Option<String> {
     ))
 }
 
-/// What is left of a bond that passed limits, in the last moment.
-fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
+/// What is left of a bond that passed limits, in the last moment, with the names of their criteria.
+fn softened<'a>(lives: &Lives, life: &'a Life) -> Vec<(&'a str, Softened)> {
     let Some(last) = lives.moments.len().checked_sub(1) else {
         return Vec::new();
     };
     let each = life.limits.iter().enumerate();
-    each.map(|(criterion, limit)| (&limit.name, life.softened(criterion, &lives.moments, last)))
-        .filter(|(_, softened)| *softened != Softened::SOUND)
-        .map(|(name, softened)| {
-            format!(
-                "Past the limit of `{name}`: mu = {:.4} of the force there is left, omega = {:.4} of the stiffness.",
-                softened.force, softened.secant
-            )
-        })
-        .collect()
+    each.map(|(criterion, limit)| {
+        let softened = life.softened(criterion, &lives.moments, last);
+        (limit.name.as_str(), softened)
+    })
+    .filter(|(_, softened)| *softened != Softened::SOUND)
+    .collect()
+}
+
+/// The same, a sentence a criterion.
+fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
+    let words = |(name, softened): (&str, Softened)| {
+        format!(
+            "Past the limit of `{name}`: mu = {:.4} of the force there is left, omega = {:.4} of the stiffness.",
+            softened.force, softened.secant
+        )
+    };
+    softened(lives, life).into_iter().map(words).collect()
 }
 
 /// What happened to a bond, in a few words.
-pub(super) fn short_fate(run: &StoredRun, life: &Life) -> String {
+pub(super) fn short_fate(run: &StoredRun, lives: &Lives, life: &Life) -> String {
     let is_free = life.limits.iter().all(|limit| limit.limit.is_infinite());
     let is_held = life.ends.iter().any(|end| run.model.no_fail[*end as usize]);
     let was_seen = life.nearest.is_some_and(|it| it.utilisation > 0.0);
@@ -191,7 +199,11 @@ pub(super) fn short_fate(run: &StoredRun, life: &Life) -> String {
         None if is_free && is_held => "intact: no_fail".to_owned(),
         None if is_free => "intact: no limit".to_owned(),
         None if !was_seen && is_pressed => "intact: compression".to_owned(),
-        None => "intact".to_owned(),
+        None => {
+            let left = softened(lives, life).into_iter().map(|(_, it)| it.force);
+            let least = left.reduce(f64::min);
+            least.map_or("intact".to_owned(), |mu| format!("softened: mu {mu:.3}"))
+        }
     }
 }
 

@@ -16,6 +16,7 @@ use ligament_analysis::probe::{PointField, Probe, Reading, StressComponent};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::{StopRule, Sweeps};
+use ligament_model::failure::Weakened;
 use ligament_model::{BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud};
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -211,6 +212,9 @@ fn reading(
             point: nearest(at),
             field: match field {
                 case::Field::Damage => PointField::Damage,
+                case::Field::DamageTension => PointField::DamageBy(Weakened::Opening),
+                case::Field::DamageCompression => PointField::DamageBy(Weakened::Crushing),
+                case::Field::DamageSliding => PointField::DamageBy(Weakened::Sliding),
                 case::Field::DisplacementX => PointField::Motion(Component::X),
                 case::Field::DisplacementY => PointField::Motion(Component::Y),
                 case::Field::Rotation => PointField::Motion(Component::Rotation),
