@@ -138,7 +138,7 @@ impl fmt::Display for Allowed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Digits => f.write_str("digits"),
-            Self::Relative(share) => write!(f, "{} %", 1e-6 * (1e8 * share).round()),
+            Self::Relative(share) => write!(f, "{} %", (1e8 * share).round() / 1e6),
             Self::Absolute(amount) => write!(f, "{amount}"),
             Self::Any => f.write_str("-"),
         }
@@ -183,6 +183,7 @@ mod tests {
     fn tolerances_and_differences_in_words() {
         assert_eq!(Allowed::Relative(0.03).to_string(), "3 %");
         assert_eq!(Allowed::Relative(0.003).to_string(), "0.3 %");
+        assert_eq!(Allowed::Relative(0.001).to_string(), "0.1 %");
         assert_eq!(Allowed::Absolute(0.04).to_string(), "0.04");
         let known = Printed::parse("0.3800").unwrap();
         assert_eq!(Difference::Share(-0.01234).words(&known), "-1.23 %");
