@@ -72,39 +72,30 @@ impl<'a> BondsLeft<'a> {
         }
     }
 
-    /// What is left of a bond, nothing if it is broken.
-    #[inline]
-    pub fn of(self, bond: usize) -> Remaining {
-        if self.intact[bond] {
-            let remaining = self.remaining.get(bond);
-            remaining.copied().unwrap_or(Remaining::WHOLE)
-        } else {
-            Remaining::NOTHING
-        }
-    }
-
     /// The element of a bond with what is left of it; None if it is broken.
     #[inline]
     pub fn typed_element<E: Element>(self, system: &BondSystem, bond: usize) -> Option<E> {
-        if !self.intact[bond] {
-            return None;
-        }
-        let whole = E::of(system, bond);
-        Some(match self.remaining.get(bond) {
-            None => whole,
-            Some(remaining) => whole.weakened(remaining),
-        })
+        self.left_of(bond, || E::of(system, bond), E::weakened)
     }
 
-    /// The element of a bond with what is left of it; None if it is broken.
+    /// The same, of whatever kind it is.
     pub fn element(self, system: &BondSystem, bond: usize) -> Option<BondElement> {
+        self.left_of(bond, || system.element(bond), BondElement::weakened)
+    }
+
+    #[inline]
+    fn left_of<E>(
+        self,
+        bond: usize,
+        whole: impl FnOnce() -> E,
+        weakened: impl FnOnce(E, &Remaining) -> E,
+    ) -> Option<E> {
         if !self.intact[bond] {
             return None;
         }
-        let whole = system.element(bond);
         Some(match self.remaining.get(bond) {
-            None => whole,
-            Some(remaining) => whole.weakened(remaining),
+            None => whole(),
+            Some(remaining) => weakened(whole(), remaining),
         })
     }
 }
