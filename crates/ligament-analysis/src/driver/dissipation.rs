@@ -1,7 +1,5 @@
 //! What the laws of the bonds take for good.
 
-use ligament_model::element::BondDeformation;
-
 use super::Problem;
 use crate::history::BreakRecord;
 use crate::softening::energy_at_limit;
@@ -23,17 +21,12 @@ pub(super) fn soften(problem: &Problem<'_>, state: &mut State) {
 ///
 /// A brittle bond takes what it stored when it reached its limit: its energy now over the square of its utilisation. One that
 /// softened takes the whole area under its law.
-pub(super) fn break_bond(
-    problem: &Problem<'_>,
-    state: &mut State,
-    record: &BreakRecord,
-    deformation: &BondDeformation,
-) {
+pub(super) fn break_bond(problem: &Problem<'_>, state: &mut State, record: &BreakRecord) {
     let (bond, criterion) = (record.bond as usize, record.criterion);
     let after = &problem.criteria.list[criterion].after;
     state.dissipated[bond] = if after.is_brittle() {
         let stored = state.bonds().element(problem.system, bond);
-        let stored = stored.map_or(0.0, |element| element.energy(deformation));
+        let stored = stored.map_or(0.0, |element| element.energy(&record.deformation));
         by_softening(problem, state, bond, None) + stored / record.ratio.powi(2)
     } else {
         by_softening(problem, state, bond, Some(criterion))

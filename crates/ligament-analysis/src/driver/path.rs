@@ -191,8 +191,7 @@ impl<'a> Path<'a> {
         self.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
-            let deformation = &balanced.deformations[record.bond as usize];
-            dissipation::break_bond(self.problem, &mut self.state, record, deformation);
+            dissipation::break_bond(self.problem, &mut self.state, record);
         }
         let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
         self.collapsed |= self.load_came_loose(&holds);
