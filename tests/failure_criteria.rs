@@ -676,6 +676,26 @@ fn bonds_between_materials_take_the_weaker_one() {
     }
 }
 
+/// Friction under central forces is made with their Poisson's ratio 1/3: a = s_t (1 + nu)(1 + sin phi)/(2 cos phi) and
+/// tan(beta) = (1 + nu) tan(phi) (MPPD eqs 55, 56) with sin(phi) = 1/2 for F_c = 3 F_t. 1e-14: rounding.
+#[test]
+fn friction_has_the_poisson_ratio_of_the_law() {
+    let bench = patch("kind = \"frictional\"", &["model.law=bbpd"]);
+    let criterion = &bench.model.criteria.list[0];
+    let (strain, per_nu) = (5e6 / YOUNG, 4.0 / 3.0);
+    let cosine = 0.75_f64.sqrt();
+    let expected = [0.5 * strain * per_nu * 1.5 / cosine, per_nu * 0.5 / cosine];
+    for bond in 0..criterion.limit.len() {
+        let found = [criterion.limit[bond], criterion.coefficient[bond]];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!(
+                relative_error(found, expected) < 1e-14,
+                "{found} {expected}"
+            );
+        }
+    }
+}
+
 /// What `ligament check` says of the criteria of the patch, whose limits follow from its constants: F/E = 2.5e-4 and
 /// 7.5e-4, (1 + nu)/2 of the first, e_u/e_0 = (s_G/s_0)^2 with s_G = sqrt(G_c/(M h)), M = 2 E/(pi (1 - nu))
 /// and bonds of one length h, the spacing.

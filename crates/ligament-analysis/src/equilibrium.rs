@@ -1,16 +1,16 @@
 //! Equilibrium of the intact bonds by Newton-Raphson (NHPD eqs 19 to 21).
 
 mod anderson;
+mod error;
 mod secant;
 
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, FactorKind, PatternError};
+use ligament_linalg::FactorKind;
 use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use crate::boundary::Boundary;
 use crate::connectivity::decremental::Connectivity;
@@ -21,6 +21,8 @@ use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::State;
 use crate::stiffness::{Costs, SolverChoice, Stiffness};
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
+
+pub use error::{SetupError, Unbalanced};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
 ///
@@ -99,70 +101,6 @@ impl Balanced {
             ..*self
         }
     }
-}
-
-/// Why no equilibrium was found: an outcome of the run, not an error.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Unbalanced {
-    /// Newton-Raphson did not get there.
-    #[error(
-        "Newton-Raphson did not converge: residual {residual:.1e} after {iterations} iterations"
-    )]
-    NotConverged {
-        /// Relative residual of the last iterate.
-        residual: f64,
-        /// Iterations done.
-        iterations: usize,
-    },
-    /// A pivot of the indefinite matrix vanished.
-    #[error(
-        "the stiffness lost stability: vanishing pivot at point {point}, component {component}"
-    )]
-    VanishingPivot {
-        /// Point index.
-        point: u32,
-        /// Component name.
-        component: &'static str,
-    },
-    /// L L^T was asked for where bonds have negative stiffness, and met a pivot that is not positive.
-    #[error(
-        "the stiffness is not positive definite, as L L^T needs (pivot at point {point}, component {component}): bonds \
-         have a negative shear stiffness (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\""
-    )]
-    NotPositiveDefinite {
-        /// Point index.
-        point: u32,
-        /// Component name.
-        component: &'static str,
-    },
-    /// The stored energy is negative.
-    #[error("the stiffness lost stability: negative stored energy {energy:.3e} J")]
-    NegativeEnergy {
-        /// Stored energy, J.
-        energy: f64,
-    },
-    /// The matrix could not be factorised.
-    #[error("the stiffness has no factor: {0}")]
-    NoFactor(FactorError),
-}
-
-/// What stops an analysis with an error.
-#[derive(Debug, Error)]
-pub enum SetupError {
-    /// The system of equations could not be set up.
-    #[error("the pattern of the stiffness matrix is broken: {0}")]
-    Pattern(#[from] PatternError),
-    /// The symbolic analysis failed.
-    #[error(transparent)]
-    Analysis(#[from] FactorError),
-    /// The exact path was asked for with bonds that soften.
-    #[error(
-        "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
-    )]
-    Softening,
-    /// An observer could not do its part.
-    #[error(transparent)]
-    Observer(#[from] ObserverError),
 }
 
 /// How many negative eigenvalues the stiffness has, and how many it should have.
@@ -312,17 +250,28 @@ impl<'a> Equilibrium<'a> {
             if is_changed && iterations >= 2 {
                 self.stiffness.forget();
             }
-            match self.factorise_if_stale(state) {
-                Ok(found) => mechanisms.extend(found),
+            let correction = match self.correction(state, &balanced, &mut mechanisms) {
+                Ok(correction) => correction,
                 Err(unbalanced) => return Ok(Err(unbalanced)),
-            }
-            let (boundary, internal) = (self.boundary, &balanced.internal);
-            let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
-            let correction = self.stiffness.solve(state, force);
+            };
             self.add_correction(state, &correction);
             previous_energy = energy;
             iterations += 1;
         }
+    }
+
+    /// The correction K du = F - K u of an iterate (NHPD eqs 19 and 20), shape (n_unknowns); adds mechanisms that the
+    /// factorisation met.
+    fn correction(
+        &mut self,
+        state: &mut State,
+        iterate: &Balanced,
+        mechanisms: &mut Vec<usize>,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        mechanisms.extend(self.factorise_if_stale(state)?);
+        let (boundary, internal) = (self.boundary, &iterate.internal);
+        let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
+        Ok(self.stiffness.solve(state, force))
     }
 
     /// Deformations, forces, residual and energy of a state.

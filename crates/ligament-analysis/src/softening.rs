@@ -124,7 +124,8 @@ fn remaining_of(
     }
 }
 
-/// Energy that a bond stores at the limit of a criterion, by the rigidity that the criterion is about, J.
+/// Energy 1/2 R e_0^2 that a bond stores at the limit e_0 of a criterion, with the rigidity R that the criterion is about, J; 0
+/// where the bond never gets there.
 pub fn energy_at_limit(system: &BondSystem, criterion: &Criterion, bond: usize) -> f64 {
     let rigidity = match criterion.measure.weakens() {
         Weakened::Opening | Weakened::Crushing => system.axial_rigidity[bond],

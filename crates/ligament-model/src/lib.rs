@@ -9,7 +9,7 @@
 //! | dual-horizon bonds | [`BondSet`] | [`bonds`] |
 //! | micromoduli | [`BondStiffness`] | [`law`] |
 //! | factors alpha and Omega | [`Correction`] | [`correction`] |
-//! | critical stretches | `Vec<f64>` | [`failure`] |
+//! | failure criteria with their limits | [`Criteria`](failure::Criteria) | [`failure`] |
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
 //!

@@ -149,7 +149,7 @@ impl Limits<'_> {
         let mut impossible = None;
         let conditions: Vec<Option<frictional::Friction>> = (self.materials.iter())
             .map(|material| {
-                let constants = material.elasticity.isotropic()?;
+                let constants = constants(self.case, material)?;
                 let strengths = [material.tensile_strength?, material.compressive_strength?];
                 let condition =
                     frictional::condition(&constants, strengths, self.plane, calibration);

@@ -1,6 +1,7 @@
 //! The exact equilibrium path under proportional loading, from breakage to breakage.
 //!
-//! Between two breakages the body is linear and its state proportional to the load factor: the next bond breaks where
+//! Between two breakages the body is linear and its state proportional to the load factor, and so are the measures of all
+//! criteria (s/s_0 stands here for measure over limit): the next bond breaks where
 //! the largest s/s_0 reaches one, lambda_next = lambda / max(s/s_0) over the intact bonds with s > 0. It breaks there, the
 //! load held; the new equilibrium is in general no longer admissible at this load (or admissible beyond it), and the path
 //! goes on along its line to the next critical load factor, which may be lower. So the path snaps back as it must, and

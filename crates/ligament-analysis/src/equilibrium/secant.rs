@@ -77,13 +77,10 @@ impl Equilibrium<'_> {
                     iterations,
                 }));
             }
-            match self.factorise_if_stale(state) {
-                Ok(found) => mechanisms.extend(found),
+            let correction = match self.correction(state, &balanced, &mut mechanisms) {
+                Ok(correction) => correction,
                 Err(unbalanced) => return Ok(Err(unbalanced)),
-            }
-            let (boundary, internal) = (self.boundary, &balanced.internal);
-            let force = |dof| boundary.force[dof] * state.load_factor - internal.values[dof];
-            let correction = self.stiffness.solve(state, force);
+            };
             let may_mix = iterations >= MIXING_FROM && !is_one_way && is_settled;
             if !may_mix || residual > previous_residual {
                 mixing.restart();

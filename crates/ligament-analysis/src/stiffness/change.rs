@@ -13,7 +13,8 @@ use crate::unknowns::COMPONENTS;
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
-/// Relative change of a bond's secant stiffness from which the factor is changed.
+/// Relative change of a bond's secant stiffness from which the factor is changed. On a softening bar 0.05 takes the iterations
+/// of exact secants with a third of the factorisations; with 0.15 the states after the peak were others.
 const SECANT_TOLERANCE: f64 = 0.05;
 
 impl Stiffness<'_> {

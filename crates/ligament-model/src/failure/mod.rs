@@ -9,7 +9,7 @@
 //! | [`stretch`] | tension, compression | F/E (MPPD eqs 44 to 46) |
 //! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
 //! | [`frictional`] | friction | a, tan(beta) (MPPD eqs 52 to 58) |
-//! | [`fracture_energy`] | tension, energy | from G_c, the horizon and the law |
+//! | [`fracture_energy`] | tension, energy | from G_c, the elastic moduli and the mean length of the bonds (Silling and Askari 2005) |
 
 pub mod fracture_energy;
 pub mod frictional;

@@ -5,7 +5,8 @@ use super::Softened;
 /// Force, relative to that at the limit, at which a bond breaks: an exponential never gets to zero.
 pub const LAST_FORCE: f64 = 1e-3;
 
-/// mu = exp(-(kappa - 1)/f) with f = e_f/e_0, omega = mu/kappa.
+/// mu = exp(-(kappa - 1)/f) with f = e_f/e_0, omega = mu/kappa; what is gone is twice the area under mu less that of unloading,
+/// 1 + 2 f (1 - mu) - mu kappa. The papers print no such law; only that the force falls is theirs.
 pub(super) fn at(scale: f64, kappa: f64) -> Softened {
     let force = (-(kappa - 1.0) / scale).exp();
     Softened {
