@@ -1,0 +1,251 @@
+//! What is told of bonds, against closed forms and the other files of a run.
+
+use super::*;
+
+/// Stretches, utilisations and steps of breaking of a bar under uniform strain, for bonds in three directions.
+///
+/// Horizons and factors are stored with seven digits, the rest with all; positions of the cells are rounded to 1e-17 of 1e-2.
+#[test]
+fn a_uniform_strain_gives_the_closed_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), BAR, &[]);
+    for (across, up) in [(1, 0), (2, 0), (3, 0), (2, 1), (1, 1), (1, 2), (0, 1)] {
+        let [length, stretch, limit] = closed_form(f64::from(across), f64::from(up));
+        let found = bond(&results, cell(2, 2), cell(2 + across, 2 + up));
+        assert!((number(&found["length"]) / length - 1.0).abs() < 1e-12);
+        assert!((number(&found["horizon"]) / 0.03 - 1.0).abs() < 1e-7);
+        assert_eq!(
+            (number(&found["alpha"]), number(&found["omega"])),
+            (1.0, 1.0)
+        );
+        let expected = f64::from(up).atan2(f64::from(across)).to_degrees();
+        assert!((number(&found["angle"]) - expected).abs() < 1e-9);
+        let of_criterion = &found["limits"][0];
+        assert_eq!(of_criterion["criterion"], "strength");
+        assert_eq!(of_criterion["measure"], "tension");
+        assert!((number(&of_criterion["limit"]) / limit - 1.0).abs() < 1e-12);
+
+        // It breaks in the first step in which s >= s_0.
+        let breaks_in = (1..=10).find(|step| *step as f64 / 10.0 * stretch >= limit);
+        let path = found["path"].as_array().unwrap();
+        assert_eq!(path.len(), 11);
+        for (step, moment) in path.iter().enumerate() {
+            let load_factor = step as f64 / 10.0;
+            assert!((number(&moment["load_factor"]) - load_factor).abs() < 1e-15);
+            assert!((number(&moment["stretch"]) - load_factor * stretch).abs() < 1e-15);
+            let expected = load_factor * stretch / limit;
+            assert!((number(&moment["utilisation"][0]) - expected).abs() < 1e-11);
+            let is_intact = breaks_in.is_none_or(|breaks_in| step < breaks_in);
+            assert_eq!(moment["intact"], is_intact, "{across}, {up} in step {step}");
+        }
+        match breaks_in {
+            Some(step) => {
+                let breakage = &found["breakage"];
+                assert_eq!(number(&breakage["step"]), step as f64);
+                assert_eq!(breakage["criterion"], "strength");
+                let ratio = step as f64 / 10.0 * stretch / limit;
+                assert!((number(&breakage["utilisation"]) - ratio).abs() < 1e-11);
+                assert!((number(&found["largest"]["utilisation"]) - ratio).abs() < 1e-11);
+            }
+            None => {
+                assert_eq!(found["breakage"], Value::Null);
+                // Seven digits.
+                let largest = number(&found["largest"]["utilisation"]);
+                assert!((largest - stretch / limit).abs() < 1e-7, "{largest}");
+            }
+        }
+    }
+}
+
+/// The stored largest utilisation is that of the steps in which a bond was intact, not of the gap that it left.
+#[test]
+fn a_broken_bond_has_the_largest_utilisation_from_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = StoredRun::open(&run(folder.path(), BAR, &[]))
+        .unwrap()
+        .model;
+    let [a, b] = [cell(2, 2), cell(5, 2)].map(|tag| tag - 1);
+    let pair = model
+        .bonds
+        .ends
+        .iter()
+        .position(|ends| *ends == [a, b])
+        .unwrap();
+    let [_, stretch, limit] = closed_form(3.0, 0.0);
+    let breaks_in = (1..=10)
+        .find(|step| f64::from(*step) / 10.0 * stretch >= limit)
+        .unwrap();
+    let largest = model.largest.unwrap();
+    let expected = f64::from(breaks_in - 1) / 10.0 * stretch / limit;
+    // Seven digits.
+    assert!((largest.utilisation[pair] - expected).abs() < 1e-7);
+    assert_eq!(largest.step[pair], i64::from(breaks_in - 1));
+}
+
+/// What `explain` says of the order of breaking is what `breaks.csv` says.
+#[test]
+fn breakages_are_those_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), BAR, &[]);
+    let table = fs::read_to_string(results.join("breaks.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').collect())
+        .collect();
+    let point = cell(4, 2).to_string();
+    let expected: Vec<(&str, &str)> = rows
+        .iter()
+        .filter(|row| row[6] == point || row[7] == point)
+        .map(|row| (row[0], if row[6] == point { row[7] } else { row[6] }))
+        .collect();
+    assert!(expected.len() > 8, "{}", expected.len());
+    let said = explain(&results, &["--point", &point]);
+    let told: Vec<(&str, &str)> = said
+        .lines()
+        .filter_map(|line| line.split_once("broke, number "))
+        .map(|(line, order)| (order, line.split_whitespace().next().unwrap()))
+        .collect();
+    assert_eq!(told, expected);
+    let count = format!("{} broke, from number {}", expected.len(), expected[0].0);
+    assert!(said.contains(&count), "{said}");
+    let of_all = format!("of {} broken bonds", rows.len());
+    let said = explain(&results, &["--bond", &point, expected[0].1]);
+    assert!(said.contains(&of_all), "{said}");
+}
+
+#[test]
+fn it_says_why_there_is_no_bond_or_no_breakage() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), BAR, &[]);
+    let say = |a: u32, b: u32| {
+        let tags = [a, b].map(|tag| tag.to_string());
+        explain(&results, &["--bond", &tags[0], &tags[1]])
+    };
+    let cut = say(cell(0, 2), cell(1, 2));
+    assert!(cut.contains("a pre-crack cut it"), "{cut}");
+    let far = say(cell(8, 4), cell(0, 0));
+    let distance = SPACING * 8_f64.hypot(4.0);
+    assert!(
+        far.contains(&format!("distance is {distance:.4e} m")),
+        "{far}"
+    );
+    assert!(
+        far.contains("neither lies in the horizon of the other"),
+        "{far}"
+    );
+    assert!(far.contains("reach 3.0000e-2 m"), "{far}");
+    let held = say(cell(6, 2), cell(8, 2));
+    assert!(held.contains("never fails by its stretch s"), "{held}");
+    let why = format!("bonds of cell {} never fail (`no_fail`)", cell(8, 2));
+    assert!(held.contains(&why), "{held}");
+    let upright = say(cell(4, 2), cell(4, 3));
+    assert!(
+        upright.contains("its utilisation was 0 all along"),
+        "{upright}"
+    );
+    let slanted = say(cell(4, 2), cell(5, 3));
+    let [_, stretch, limit] = closed_form(1.0, 1.0);
+    let largest = format!(
+        "largest utilisation was {:.4}, in step 10, by `strength`",
+        stretch / limit
+    );
+    assert!(slanted.contains(&largest), "{slanted}");
+}
+
+/// A hole takes the middle column but its ends: no cell there has a bond across, and the tags count what is left.
+#[test]
+fn a_hole_parts_its_sides() {
+    let folder = tempfile::tempdir().unwrap();
+    let hole = "remove = [{ rectangle = [[0.04, 0.01], [0.05, 0.04]] }]\n[lattice.set]";
+    let results = run(folder.path(), &BAR.replacen("[lattice.set]", hole, 1), &[]);
+    // Row 0 is whole; rows 1 and 2 have 8 cells each: columns 3 and 5 of row 2 are beside the hole.
+    let [left, right] = [9 + 8 + 4, 9 + 8 + 5].map(|tag| tag.to_string());
+    let said = explain(&results, &["--bond", &left, &right]);
+    assert!(said.contains("distance is 2.0000e-2 m"), "{said}");
+    assert!(said.contains("a hole lies between them"), "{said}");
+    let family = explain(&results, &["--point", &left]);
+    assert!(family.contains("across a hole"), "{family}");
+}
+
+/// Along the exact path a bond is at its limit in the event in which it breaks, and before it in proportion to the load: with
+/// rotations of the points, from fields that know nothing of limits.
+#[test]
+fn on_the_exact_path_bonds_break_at_their_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), SHEARED, &[]);
+    let table = fs::read_to_string(results.join("breaks.csv")).unwrap();
+    let mut seen = 0;
+    for row in table.lines().skip(1) {
+        let row: Vec<&str> = row.split(',').collect();
+        let step: usize = row[1].parse().unwrap();
+        let found = bonds(&results, &["--bond", row[6], row[7]]);
+        let path = found[0]["path"].as_array().unwrap();
+        let utilisation = |step: usize| number(&path[step]["utilisation"][0]);
+        // The fields hold the displacements to the last bit: rounding of their differences over a bond is left.
+        assert!((utilisation(step) - 1.0).abs() < 1e-9, "{row:?}");
+        assert_eq!(path[step]["intact"], true);
+        assert_eq!(path[step + 1]["intact"], false);
+        let broke = &found[0]["breakage"];
+        for quantity in ["stretch", "shear"] {
+            let (then, of_fields) = (number(&broke[quantity]), number(&path[step][quantity]));
+            assert!(
+                (then - of_fields).abs() < 1e-9 * number(&broke["stretch"]),
+                "{quantity}"
+            );
+        }
+        if step == 1 {
+            // The first event is the end of the line from the unloaded body.
+            let first_load: f64 = row[3].parse().unwrap();
+            assert!((number(&path[1]["load_factor"]) - first_load).abs() < 1e-12 * first_load);
+            seen += 1;
+        }
+    }
+    assert!(seen > 0);
+    // Before the first breakage everything grows with the load: a stepped run below it.
+    let first: Vec<&str> = table.lines().nth(1).unwrap().split(',').collect();
+    let critical: f64 = first[3].parse().unwrap();
+    let stepped = SHEARED.replace("control = \"event\"", "steps = [0.05, 0.1]");
+    let results = run(folder.path(), &stepped, &[]);
+    let found = bonds(&results, &["--bond", first[6], first[7]]);
+    for (step, factor) in [(1, 0.05), (2, 0.1)] {
+        if factor < critical {
+            let utilisation = number(&found[0]["path"][step]["utilisation"][0]);
+            assert!(
+                (utilisation - factor / critical).abs() < 1e-9,
+                "{utilisation}"
+            );
+        }
+    }
+}
+
+/// The largest utilisation is that of all events, also of those without fields, and the last is not the worst for all bonds.
+#[test]
+fn the_largest_utilisation_is_of_all_events() {
+    let folder = tempfile::tempdir().unwrap();
+    let point = ["--point", "25"];
+    let all = bonds(&run(folder.path(), SHEARED, &[]), &point);
+    let results = run(folder.path(), SHEARED, &["output.fields_every=0"]);
+    let history = fs::read_to_string(results.join("history.csv")).unwrap();
+    let note = format!("2 of {} steps have fields", history.lines().count() - 1);
+    assert!(explain(&results, &point).contains(&note), "{note}");
+    let few = bonds(&results, &point);
+    assert_eq!(all.len(), few.len());
+    let mut before_the_end = 0;
+    for (all, few) in all
+        .iter()
+        .zip(&few)
+        .filter(|(all, _)| all["breakage"].is_null())
+    {
+        let path = all["path"].as_array().unwrap();
+        let of_path = path.iter().map(|it| number(&it["utilisation"][0]));
+        let largest = of_path.fold(0.0, f64::max);
+        // Seven digits.
+        let told = number(&few["largest"]["utilisation"]);
+        assert!((told - largest).abs() <= 4e-7 * largest, "{told} {largest}");
+        let step = number(&few["largest"]["step"]) as usize;
+        assert!((number(&path[step]["utilisation"][0]) - largest).abs() <= 4e-7 * largest);
+        before_the_end += usize::from(0 < step && step + 1 < path.len());
+    }
+    assert!(before_the_end > 3, "{before_the_end}");
+}
