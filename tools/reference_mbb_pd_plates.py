@@ -120,21 +120,23 @@ def cylinder(d, nu, inner=1.5, outer=2.2, pressure=400e6):
 
 
 def plates(folder):
-    """Finite elements at points of a quarter or (`thermal-left`) a half of the plate: all (2 mm) or every second (1 mm)."""
+    """Finite elements at points of a quarter (`thermal`) or a half of the plate: all (2 mm) or every second (1 mm)."""
     elements, lattice = [], []
     for problem in PROBLEMS:
         for d, every in ((2e-3, 1), (1e-3, 2)):
             (at, force), (plate, u, lattice_force) = finite_elements(problem, d, 60), lattice_solution(problem, d)
             exact = at(plate.x)
-            error = np.linalg.norm(u - exact, axis=0) / np.linalg.norm(exact, axis=0)
+            # The heated plates are symmetric about their middle row, one of them and the sheared plate about x = 0.
+            some = (plate.row % every == 0) & (plate.column % every == 0)
+            some &= ((plate.x[:, 0] > 0) | (problem == "thermal-left")) & ((plate.x[:, 1] > 0) | (problem == "shear"))
+            relative = lambda of: np.linalg.norm((u - exact)[of], axis=0) / np.linalg.norm(exact[of], axis=0)
+            error, error_written = relative(slice(None)), relative(some)
             middle = np.flatnonzero((plate.column == plate.nx - 1) & (plate.row == plate.ny // 2))[0]
             lattice += [(problem, d, "", "error_x", error[0]), (problem, d, "", "error_y", error[1]),
+                        (problem, d, "", "error_written_x", error_written[0]), (problem, d, "", "error_written_y", error_written[1]),
                         (problem, d, "", "ux_middle", u[middle, 0]), (problem, d, "", "ux_middle_elements", exact[middle, 0])]
             if problem == "shear":
                 lattice += [(problem, d, "", "force", lattice_force), (problem, d, "", "force_elements", force)]
-            # u_x is even in x and u_y odd in shear; heated, they are odd and even.  All are symmetric about the middle row.
-            some = (plate.x[:, 1] > 0) & (plate.row % every == 0) & (plate.column % every == 0)
-            some &= (plate.x[:, 0] > 0) | (problem == "thermal-left")
             elements += [(problem, d * 1e3, *np.round(1e3 * plate.x[p], 1), *(float(f"{1e6 * v:.3f}") for v in exact[p]))
                          for p in np.flatnonzero(some)]
     for d in (2e-3, 1e-3):

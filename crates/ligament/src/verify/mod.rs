@@ -17,6 +17,7 @@ use ligament_output::folder::ResultFolder;
 use crate::suggestion::hint;
 
 mod anisotropy;
+mod cracks;
 mod disk;
 pub mod entry;
 mod frequencies;
@@ -24,6 +25,7 @@ mod griffith;
 mod lamina;
 mod moduli;
 mod named_modes;
+mod plates;
 mod poisson;
 pub mod printed;
 pub mod published;
@@ -45,7 +47,7 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 11] = [
+pub static EXPERIMENTS: [Experiment; 13] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -57,6 +59,8 @@ pub static EXPERIMENTS: [Experiment; 11] = [
     disk::EXPERIMENT,
     griffith::EXPERIMENT,
     softening::EXPERIMENT,
+    plates::EXPERIMENT,
+    cracks::EXPERIMENT,
 ];
 
 /// A published case, or several that belong together.
