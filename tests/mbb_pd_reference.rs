@@ -2,7 +2,12 @@
 //! small plates with cracks, a hole, anisotropy and temperature; the order in which bonds break.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::Termination;
+use std::collections::BTreeSet;
+
+use ligament_analysis::boundary::Expansion;
+use ligament_analysis::internal;
+use ligament_analysis::state::BondsLeft;
+use ligament_analysis::{COMPONENTS, Termination};
 use tempfile::TempDir;
 use verification::bench::Bench;
 use verification::numbers::{deviation, relative_error, short};
@@ -11,7 +16,7 @@ use verification::table::Table;
 /// 14 x 11 cells of 2 mm about the origin, held below and moved above.
 const PLATE: &str = r#"
 lattice = { cells = [14, 11], spacing = 0.002, corner = [-0.014, -0.011], thickness = 0.001, set = { base = { bottom = 1 }, end = { top = 1 } } }
-material = { young = 65.8e9, poisson = 0.3, thermal_expansion = 23e-6 }
+material = { young = 65.8e9, poisson = 0.3 }
 model = { law = "mbb-pd", horizon_factor = 3.0 }
 support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
 load = [{ group = "end", displacement = { x = 1e-5, y = 2e-5 } }]
@@ -42,7 +47,7 @@ const SETS: [(&str, &[&str]); 11] = [
     ("lamina", &[CRACKS, LAMINA]),
     ("hole", &[HOLE]),
     ("force", &[CRACKS, FORCE]),
-    ("thermal", &["load=[]"]),
+    ("thermal", &["load=[]", "material.thermal_expansion=23e-6"]),
 ];
 
 /// The plate of a set. That with a temperature has its field, dT = 40 + 1000 x - 500 y (K, m), in a file.
@@ -101,13 +106,16 @@ fn plates_are_those_of_the_independent_calculation() {
     }
 }
 
-/// Strains of the bonds of the plate with cracks and m = 2: those that carry some, by the numbers of their ends.
+/// Strains of the bonds of the plate with cracks and m = 2, by the numbers of their ends; of strains of 1e-3, to rounding times the
+/// condition of the displacements.
 #[test]
 fn strains_of_bonds_beside_cracks() {
     let expected = Table::reference("mbb-pd-bonds.csv");
     let bench = Bench::new(PLATE, &[CRACKS, "model.horizon_factor=2.0"]);
-    let found = bench.deformations();
-    let bonds = &bench.model.system.bonds;
+    let run = bench.solve();
+    let (system, intact) = (&bench.model.system, &run.state().intact);
+    let found = internal::deformations(system, intact, run.displacement(), Expansion::NONE);
+    let bonds = &system.bonds;
     let size = 1e-3;
     let mut worst = [0.0_f64; 3];
     for row in 0..expected.len() {
@@ -128,6 +136,36 @@ fn strains_of_bonds_beside_cracks() {
     assert!(worst.iter().all(|&error| error < 1e-10), "{worst:?}");
 }
 
+/// Forces on all points at a unit displacement of one: rows of the stiffness of the plate with cracks, at a corner and beside the ends
+/// of two cracks. Sums of some hundred terms of either sign: 1e-13 of the largest.
+#[test]
+fn stiffness_beside_cracks() {
+    let expected = Table::reference("mbb-pd-stiffness.csv");
+    let bench = Bench::new(PLATE, &[CRACKS]);
+    let system = &bench.model.system;
+    let intact = vec![true; system.bonds.len()];
+    let axis = |row: usize, column: &str| usize::from(expected.text(row, column) == "y");
+    let unknown = |row: usize, point: &str, of: &str| {
+        COMPONENTS * (expected.count(row, point) - 1) + axis(row, of)
+    };
+    let moved: BTreeSet<usize> = (0..expected.len())
+        .map(|row| unknown(row, "a", "i"))
+        .collect();
+    assert_eq!(moved.len(), 6);
+    for moved in moved {
+        let mut u = vec![0.0; COMPONENTS * bench.points()];
+        u[moved] = 1.0;
+        let sweep = internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE);
+        let mut row_of_stiffness = vec![0.0; u.len()];
+        for row in (0..expected.len()).filter(|&row| unknown(row, "a", "i") == moved) {
+            row_of_stiffness[unknown(row, "b", "j")] = expected.number(row, "stiffness");
+        }
+        let error = deviation(&sweep.internal.values, &row_of_stiffness);
+        println!("unknown {moved}: {error:.1e}");
+        assert!(error < 1e-13, "unknown {moved}: {error:e}");
+    }
+}
+
 /// The first 50 events of a plate with two pre-cracks that is pulled aslant, bond for bond, with load factor and energy. The two
 /// diagonals of a rectangle have the same strains and break together; no other decision of the reference is closer than 2.5e-5.
 ///
@@ -139,7 +177,7 @@ lattice = { cells = [20, 20], spacing = 0.001, corner = [-0.01, -0.01], thicknes
 material = { young = 65.8e9, poisson = 0.3, fracture_energy = 6137.0 }
 model = { law = "mbb-pd", horizon_factor = 3.0 }
 support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
-load = [{ group = "end", displacement = { x = 3e-5, y = 1e-4 } }]
+load = [{ group = "end", displacement = { x = 3e-4, y = 1e-3 } }]
 no_fail = [{ group = "lower" }, { group = "upper" }]
 precrack = [{ points = [[-0.011, -0.0013], [-0.0031, 0.00045]] }, { points = [[0.0022, 0.003], [0.0061, 0.0052]] }]
 fracture = { control = "event", criterion = [{ kind = "mixed-mode" }] }

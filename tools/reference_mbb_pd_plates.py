@@ -8,7 +8,7 @@ how far from it the model should be.  The bodies of the elements end where the p
     pip install -r tools/requirements-reference.txt
     python tools/reference_mbb_pd_plates.py [DIRECTORY]     # default: tests/reference beside this script's folder
 
-writes DIRECTORY/mbb-pd-elements.csv (mm and um) and mbb-pd-lattice.csv (SI), half a minute.
+writes DIRECTORY/mbb-pd-elements.csv (mm and um) and mbb-pd-lattice.csv (SI); four minutes.
 """
 import sys
 from pathlib import Path
@@ -119,6 +119,30 @@ def cylinder(d, nu, inner=1.5, outer=2.2, pressure=400e6):
     return np.linalg.norm((u * body.x).sum(1) / r - exact) / np.linalg.norm(exact)
 
 
+def griffith(crack, a, G_c=6137.0):
+    """Stress on the whole section (Pa) at which G = G_c: the plate of section 4.3 with a central crack of 2a, or edge cracks of a.
+
+    A quarter, pulled by its upper side (u_y alone) as the lattice is; G from the energies of two lengths, each tip h to
+    either side.  The error of the energy goes with the size h of the elements, and is extrapolated to h = 0.
+    """
+    found = []
+    for n in (100, 200):
+        half, h = SIDE / 2, SIDE / 2 / n
+        side = np.linspace(0, half, n + 1)
+        body = Continuum(CurvedMesh.from_mesh(MeshQuad.init_tensor(side, side)), isotropic_tensor(YOUNG, 0.3))
+        x, y = body.x
+        top = (y > half - 1e-9) & ~body.horizontal
+
+        def energy(a):                                          # of the quarter at 1/2 m of displacement
+            is_open = (x < a - 1e-9) if crack == "central" else (x > half - a + 1e-9)
+            held = ((x < 1e-9) & body.horizontal) | ((y < 1e-9) & ~is_open & ~body.horizontal) | top
+            u = body.solve(held, 0.5 * top)
+            return 0.5 * u @ (body.K @ u), (body.K @ u)[top].sum()
+        G = (energy(a - 2 * h)[0] - energy(a + 2 * h)[0]) / (2 * h * THICKNESS)
+        found.append(np.sqrt(G_c / G) * energy(a)[1] / (half * THICKNESS))
+    return 2 * found[1] - found[0]
+
+
 def plates(folder):
     """Finite elements at points of a quarter (`thermal`) or a half of the plate: all (2 mm) or every second (1 mm)."""
     elements, lattice = [], []
@@ -144,6 +168,8 @@ def plates(folder):
             lattice += [("tension-" + "xy"[axis], d, nu, "difference", tension(d, nu, axis)) for axis in (1, 0)]
     for d in (0.1, 0.05, 0.025):
         lattice += [("cylinder", d, nu, "error", cylinder(d, nu)) for nu in (0.1, -0.1)]
+    lattice += [("griffith-central", "", 0.3, "stress", griffith("central", 0.005)),
+                ("griffith-edges", "", 0.3, "stress", griffith("edges", 0.01))]
     write(folder / "mbb-pd-elements.csv", "problem,d_mm,x_mm,y_mm,ux_um,uy_um", elements)
     write(folder / "mbb-pd-lattice.csv", "problem,d,nu,quantity,value", lattice)
     for row in lattice:
