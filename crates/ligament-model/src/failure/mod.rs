@@ -10,10 +10,12 @@
 //! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
 //! | [`frictional`] | friction | a, tan(beta) (MPPD eqs 52 to 58) |
 //! | [`fracture_energy`] | tension, energy | from G_c, the elastic moduli and the mean length of the bonds (Silling and Askari 2005) |
+//! | [`mixed_mode`] | mixed mode, along x or y | from G_Ic, G_IIc and the bonds that a crack cuts (MBB-PD appendix C) |
 
 pub mod fracture_energy;
 pub mod frictional;
 mod measure;
+pub mod mixed_mode;
 pub mod sliding;
 pub mod softening;
 pub mod strength;
@@ -35,7 +37,7 @@ pub struct Criterion {
     pub measure: Measure,
     /// Limit of each bond; infinite where it never fails, shape (n_bonds).
     pub limit: Vec<f64>,
-    /// Coefficient q of the measure for each bond; empty where the measure has none, shape (n_bonds).
+    /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Vec<f64>,
     /// What happens after the limit.
     pub after: AfterLimit,
@@ -56,8 +58,18 @@ impl Criterion {
     /// The measure of a deformation of a bond.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
-        let coefficient = self.coefficient.get(bond).copied().unwrap_or(0.0);
-        self.measure.of(deformation, coefficient)
+        self.measure.of(deformation, self.coefficients(bond))
+    }
+
+    /// The coefficients of the measure for a bond, shape (n).
+    #[inline]
+    pub fn coefficients(&self, bond: usize) -> &[f64] {
+        let count = match self.coefficient.len() {
+            0 => return &[],
+            len if len == self.limit.len() => 1,
+            len => len / self.limit.len(),
+        };
+        &self.coefficient[count * bond..count * (bond + 1)]
     }
 
     /// Measure at which a bond breaks.
