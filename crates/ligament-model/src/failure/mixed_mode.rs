@@ -38,8 +38,6 @@ pub struct Toughness {
     pub opening: f64,
     /// G_IIc of sliding, J/m^2.
     pub sliding: f64,
-    /// Exponent eta between them; without meaning where they are the same.
-    pub exponent: f64,
 }
 
 /// Limits of the bonds.
@@ -215,7 +213,6 @@ mod tests {
     const TOUGHNESS: Toughness = Toughness {
         opening: 6137.0,
         sliding: 6137.0,
-        exponent: 1.0,
     };
 
     fn lattice(ratio: f64, spacing: f64) -> Lattice {

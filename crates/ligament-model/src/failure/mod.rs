@@ -24,7 +24,6 @@ pub mod stretch;
 pub use measure::{Measure, Weakened};
 pub use softening::{AfterLimit, Softened};
 
-use crate::cloud::PointCloud;
 use crate::element::BondDeformation;
 use crate::system::BondSystem;
 
@@ -152,24 +151,46 @@ impl Criteria {
 /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where an end
 /// is marked in `no_fail` (n_points), shape (n_bonds).
 pub fn weakest(system: &BondSystem, no_fail: &[bool], of_materials: &[f64]) -> Vec<f64> {
-    let at_points: Vec<f64> = (0..system.cloud.len())
-        .map(|point| smallest(&system.cloud, point, of_materials))
-        .collect();
-    let of_bond = |ends: &[u32; 2]| {
-        let [a, b] = ends.map(|end| end as usize);
-        if no_fail[a] || no_fail[b] {
+    let materials = weakest_materials(system, of_materials);
+    let of_bond = |(ends, material): (&[u32; 2], usize)| {
+        if ends.iter().any(|end| no_fail[*end as usize]) {
             f64::INFINITY
         } else {
-            at_points[a].min(at_points[b])
+            of_materials[material]
         }
     };
-    system.bonds.ends.iter().map(of_bond).collect()
+    system
+        .bonds
+        .ends
+        .iter()
+        .zip(materials)
+        .map(of_bond)
+        .collect()
 }
 
-fn smallest(cloud: &PointCloud, point: usize, of_materials: &[f64]) -> f64 {
-    let shares = cloud.shares(point).iter().zip(of_materials);
-    let present = shares.filter(|(share, _)| **share > 0.0);
-    present
-        .map(|(_, &value)| value)
-        .fold(f64::INFINITY, f64::min)
+/// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond, the first of
+/// equals, shape (n_bonds).
+pub fn weakest_materials(system: &BondSystem, of_materials: &[f64]) -> Vec<usize> {
+    let smaller = |one: usize, other: usize| {
+        let is_smaller = of_materials[other] < of_materials[one];
+        let is_equal = of_materials[other] == of_materials[one];
+        if is_smaller || (is_equal && other < one) {
+            other
+        } else {
+            one
+        }
+    };
+    let at_point = |point: usize| {
+        let shares = system.cloud.shares(point).iter().enumerate();
+        let present = shares
+            .filter(|(_, share)| **share > 0.0)
+            .map(|(material, _)| material);
+        present.reduce(smaller).unwrap_or_default()
+    };
+    let at_points: Vec<usize> = (0..system.cloud.len()).map(at_point).collect();
+    let of_bond = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| at_points[end as usize]);
+        smaller(a, b)
+    };
+    system.bonds.ends.iter().map(of_bond).collect()
 }
