@@ -378,16 +378,21 @@ impl Material {
     fn require_suitable(&self, law: Law, plane: Plane) -> Result<(), KeyFault> {
         let (what, laws): (_, &[Law]) = match self.elasticity {
             Elasticity::Isotropic { .. } => return Ok(()),
-            Elasticity::Orthotropic(_) => ("an orthotropic", &[Law::Orthotropic]),
-            Elasticity::Anisotropic(_) => ("an anisotropic", &[]),
+            Elasticity::Orthotropic(_) => ("an orthotropic", &[Law::Orthotropic, Law::MbbPd]),
+            Elasticity::Anisotropic(_) => ("an anisotropic", &[Law::MbbPd]),
         };
         let key = self.key_path();
         if !laws.contains(&law) {
             let words: Vec<String> = laws.iter().map(|it| format!("\"{}\"", it.word())).collect();
             let reason = format!(
-                "{what} material needs model.law = {}: \"{}\" is a law for isotropic ones",
+                "{what} material needs model.law = {}: \"{}\" is a law for {} ones",
                 words.join(" or "),
-                law.word()
+                law.word(),
+                if law == Law::Orthotropic {
+                    "orthotropic"
+                } else {
+                    "isotropic"
+                }
             );
             return Err(KeyFault::new(key, reason));
         }

@@ -167,7 +167,7 @@ impl Places<'_> {
                     .map(|factor| direction.map(|cosine| factor * cosine));
                 (points, shape.collect())
             }
-            ControlKind::Force => {
+            ControlKind::Force | ControlKind::Temperature => {
                 let at_points = given.at_points.into_iter();
                 at_points
                     .map(|(point, force)| (point, force.map(|value| value / magnitude)))
