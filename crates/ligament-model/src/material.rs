@@ -1,5 +1,9 @@
 //! Linear elastic materials, isotropic or orthotropic, with their strengths.
 
+mod expansion;
+
+pub use expansion::Expansion;
+
 use nalgebra::{Matrix3, Vector3};
 
 /// State of the plane.
@@ -26,6 +30,8 @@ pub struct Material {
     pub fracture_energy: Option<f64>,
     /// Mass density, kg/m^3.
     pub density: Option<f64>,
+    /// Thermal expansion.
+    pub expansion: Option<Expansion>,
 }
 
 /// Elastic constants.
