@@ -40,6 +40,7 @@ fn preparation(criterion: &mut Criterion) {
         compressive_strength: None,
         fracture_energy: None,
         density: None,
+        expansion: None,
     }];
     let plane = Plane::Stress;
     let energies = [critical_energy(&rock, 3.81e6, plane)];

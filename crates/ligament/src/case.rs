@@ -11,6 +11,7 @@ mod correction;
 mod criterion;
 mod decode;
 mod document;
+mod expansion;
 mod fault;
 mod file;
 mod fracture;
@@ -25,6 +26,7 @@ mod probe;
 mod region;
 mod resolved;
 mod solver;
+mod temperature;
 mod units;
 mod values;
 
@@ -37,6 +39,7 @@ pub use body_section::BodySection;
 pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use criterion::{After, Criterion, CriterionKind, FrictionCalibration};
+pub use expansion::Expansion;
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
@@ -48,6 +51,7 @@ pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
+pub use temperature::{Temperature, TemperatureChange};
 pub use values::{Axis, Point};
 
 use document::Node;
@@ -78,9 +82,12 @@ pub struct Case {
     /// Supports.
     #[serde(rename = "support", skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
-    /// Loads: one or more, but none where modes are wanted.
+    /// Loads: one or more unless the temperature changes, but none where modes are wanted.
     #[serde(rename = "load", skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<Load>,
+    /// Changes of temperature.
+    #[serde(rename = "temperature", skip_serializing_if = "Vec::is_empty")]
+    pub temperatures: Vec<Temperature>,
     /// Parts of the body where bonds never break.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub no_fail: Vec<Region>,
@@ -120,6 +127,8 @@ struct RawCase {
     #[serde(default)]
     load: Vec<load::RawLoad>,
     #[serde(default)]
+    temperature: Vec<temperature::RawTemperature>,
+    #[serde(default)]
     no_fail: Vec<region::RawRegion>,
     #[serde(default)]
     probe: Vec<probe::RawProbe>,
@@ -145,11 +154,12 @@ impl Case {
             fracture: raw.fracture.is_some(),
             modal: raw.modal.is_some(),
             loads: !raw.load.is_empty(),
+            temperature: !raw.temperature.is_empty(),
             probes: !raw.probe.is_empty(),
             output: raw.output.is_some(),
         };
         let analysis = Analysis::of(raw.analysis, &given)?;
-        if raw.load.is_empty() && analysis != Analysis::Modal {
+        if raw.load.is_empty() && raw.temperature.is_empty() && analysis != Analysis::Modal {
             return Err(missing_section("load"));
         }
         let modal = match analysis {
@@ -176,6 +186,9 @@ impl Case {
             precracks: each("precrack", raw.precrack, Precrack::check)?,
             supports: each("support", raw.support, conditions::RawSupport::check)?,
             loads,
+            temperatures: each("temperature", raw.temperature, |it, key| {
+                it.check(key, folder)
+            })?,
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
             solver: raw.solver.check(&section("solver"))?,
@@ -242,7 +255,7 @@ fn missing_section(name: &str) -> KeyFault {
         "model" => ("[model]".to_owned(), "`law` and `horizon_factor`"),
         _ => (
             format!("[[{name}]]"),
-            "one or more, or nothing would happen (natural modes need none: analysis = \"modal\")",
+            "one or more, or a [[temperature]], or nothing would happen (natural modes need none: analysis = \"modal\")",
         ),
     };
     KeyFault::new(

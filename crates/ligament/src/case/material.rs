@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::criterion::{Criterion, CriterionKind};
 use super::decode::decode;
 use super::document::{Node, Value};
+use super::expansion::Expansion;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
@@ -37,6 +38,9 @@ pub struct Material {
     /// Mass density, kg/m^3; always there in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
+    /// Thermal expansion; always there where the temperature changes.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub expansion: Option<Expansion>,
 }
 
 /// Elastic constants.
@@ -204,6 +208,7 @@ struct RawIsotropic {
     compressive_strength: Option<f64>,
     fracture_energy: Option<f64>,
     density: Option<f64>,
+    thermal_expansion: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -223,6 +228,10 @@ struct RawOrthotropic {
     compressive_strength: Option<f64>,
     fracture_energy: Option<f64>,
     density: Option<f64>,
+    thermal_expansion: Option<f64>,
+    thermal_expansion_1: Option<f64>,
+    thermal_expansion_2: Option<f64>,
+    thermal_expansion_3: Option<f64>,
 }
 
 /// Reads the section: one material, or a table for each of several.
@@ -285,6 +294,15 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             compressive_strength: raw.compressive_strength,
             fracture_energy: raw.fracture_energy,
             density: raw.density,
+            expansion: Expansion::of(
+                &key,
+                raw.thermal_expansion,
+                [
+                    raw.thermal_expansion_1,
+                    raw.thermal_expansion_2,
+                    raw.thermal_expansion_3,
+                ],
+            )?,
         }
     } else {
         let raw: RawIsotropic = decode(table, &key)?;
@@ -299,6 +317,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             compressive_strength: raw.compressive_strength,
             fracture_energy: raw.fracture_energy,
             density: raw.density,
+            expansion: Expansion::of(&key, raw.thermal_expansion, [None; 3])?,
         }
     };
     if material.name.is_some() && material.group.is_none() {
@@ -403,10 +422,13 @@ pub(super) fn require_suitable(
     plane: Plane,
 ) -> Result<(), KeyFault> {
     for material in materials {
+        let key = material.key_path();
+        if let Some(expansion) = &material.expansion {
+            expansion.require_suitable(&key, plane)?;
+        }
         let Elasticity::Orthotropic(constants) = &material.elasticity else {
             continue;
         };
-        let key = material.key_path();
         if law != Law::Orthotropic {
             let reason = format!(
                 "an orthotropic material needs model.law = \"orthotropic\": \"{}\" is a law for isotropic ones",

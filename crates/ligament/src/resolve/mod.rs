@@ -48,6 +48,7 @@ pub fn materials(case: &CaseFile) -> Vec<Material> {
         compressive_strength: material.compressive_strength,
         fracture_energy: material.fracture_energy,
         density: material.density,
+        expansion: material.expansion.map(Into::into),
     };
     case.case.materials.iter().map(material).collect()
 }
