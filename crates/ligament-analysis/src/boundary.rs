@@ -11,6 +11,11 @@ pub struct Boundary {
     pub prescribed: Vec<Option<f64>>,
     /// External force or moment on each degree of freedom at load factor 1, shape (3 n_points), N or N m.
     pub force: Vec<f64>,
+    /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
+    pub temperature_change: Vec<f64>,
+    /// Strain (eps_xx, eps_yy, gamma_xy) that it makes without stress at load factor 1, shape (n_points, 3); empty where
+    /// there is none. A bond has the mean of its ends.
+    pub thermal_strain: Vec<[f64; 3]>,
     /// Groups whose resultant the history reports.
     pub groups: Vec<BoundaryGroup>,
     /// What `displacement` and `reaction` of the history mean.
@@ -58,6 +63,8 @@ pub enum ControlKind {
     Displacement,
     /// The force on its points.
     Force,
+    /// The temperature: the displacement is the load factor times the largest change (K), the force what does its work (J/K).
+    Temperature,
 }
 
 /// Why supports and loads do not go together.
@@ -84,6 +91,8 @@ impl Boundary {
         Self {
             prescribed: vec![None; COMPONENTS * n_points],
             force: vec![0.0; COMPONENTS * n_points],
+            temperature_change: Vec::new(),
+            thermal_strain: Vec::new(),
             groups: Vec::new(),
             control,
         }
@@ -184,7 +193,7 @@ impl Control {
     /// given forces.
     pub fn displacement(&self, load_factor: f64, displacement: &[f64]) -> f64 {
         match self.kind {
-            ControlKind::Displacement => self.magnitude * load_factor,
+            ControlKind::Displacement | ControlKind::Temperature => self.magnitude * load_factor,
             ControlKind::Force => self.along(|dof| displacement[dof]),
         }
     }
@@ -192,7 +201,9 @@ impl Control {
     /// Force along the load, N or N m: that of the reactions (3 n_points) which does their work, or the given one.
     pub fn force(&self, load_factor: f64, reactions: &[f64]) -> f64 {
         match self.kind {
-            ControlKind::Displacement => self.along(|dof| reactions[dof]),
+            ControlKind::Displacement | ControlKind::Temperature => {
+                self.along(|dof| reactions[dof])
+            }
             ControlKind::Force => self.magnitude * load_factor,
         }
     }

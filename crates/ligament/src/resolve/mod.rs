@@ -6,6 +6,7 @@ mod boundary;
 mod loading;
 mod modal;
 mod places;
+mod temperature;
 
 use ligament_analysis::Component;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
