@@ -212,6 +212,19 @@ impl Case {
             material::require_densities(&self.materials)?;
         }
         let path = |list: &str, index: usize| KeyPath::default().child(list).child(index);
+        let is_field = |it: &Temperature| matches!(it.change, TemperatureChange::Field { .. });
+        let field = self.temperatures.iter().position(is_field);
+        if let (Some(index), BodySection::Lattice(_)) = (field, &self.body) {
+            let fault = F::NotWith {
+                key: "mesh_field",
+                setting: "[lattice]".to_owned(),
+                reason: "it is in the file of a mesh; a lattice takes a `file` of its own",
+            };
+            return Err(KeyFault::new(
+                path("temperature", index).child("mesh_field"),
+                fault,
+            ));
+        }
         let loads = self.loads.iter().enumerate();
         let advice =
             ": give one of the loads another `name` (the name of a load without one is its group)";

@@ -136,6 +136,13 @@ pub(super) fn write(
     if let Some(values) = &dissipated {
         fields.push(Field::scalar("dissipated_energy_density", values));
     }
+    let at_full_load = &view.boundary.temperature_change;
+    let change: Vec<f64> = (at_full_load.iter())
+        .map(|change| state.load_factor * change)
+        .collect();
+    if !change.is_empty() {
+        fields.push(Field::scalar("temperature_change", &change));
+    }
     let stress_virial = rule
         .virial
         .then(|| virial::stress(system, state.bonds(), &balanced.deformations));
