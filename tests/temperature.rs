@@ -2,6 +2,7 @@
 //! breakages against the same bodies under displacements.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::stress::virial;
 use ligament_analysis::{ControlKind, internal};
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
@@ -40,7 +41,10 @@ const LAWS: [(&str, &[&str]); 9] = [
     ("mppd-beam", &["model.law=mppd-beam"]),
     ("orthotropic", &["model.law=orthotropic", LAMINA]),
     ("nhpd", &["model.law=nhpd"]),
-    ("nhpd, anisotropic spacing", &["model.law=nhpd", "lattice.spacing=[0.005, 0.006]"]),
+    (
+        "nhpd, anisotropic spacing",
+        &["model.law=nhpd", "lattice.spacing=[0.005, 0.006]"],
+    ),
 ];
 
 fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
@@ -88,7 +92,9 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     });
     let off = largest(off.map(f64::abs)) / (size * length);
     let left = deformations(bench, run);
-    let left = left.iter().flat_map(|it| [it.stretch.abs(), it.shear.abs()]);
+    let left = left
+        .iter()
+        .flat_map(|it| [it.stretch.abs(), it.shear.abs()]);
     let left = largest(left) / size;
     let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
     let energy = run.last().stored_energy / (0.5 * YOUNG * size * size * volume);
@@ -96,7 +102,10 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     let forces = run.last().group_forces.iter().flatten();
     let forces = largest(forces.map(|it| it.abs())) / force;
     println!("{name}: shape {off:.1e}, bonds {left:.1e}, energy {energy:.1e}, forces {forces:.1e}");
-    assert!(off < 1e-10 && left < 1e-10 && energy.abs() < 1e-10 && forces < 1e-10, "{name}");
+    assert!(
+        off < 1e-10 && left < 1e-10 && energy.abs() < 1e-10 && forces < 1e-10,
+        "{name}"
+    );
 }
 
 /// A change that is the same everywhere leaves no stress in a body that is free to expand: on a lattice under every law, on an
@@ -128,7 +137,11 @@ fn free_bodies_expand_without_stress() {
             let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
             let text = format!("{SQUARE}{held}temperature = [{{ change = {CHANGE:?} }}]\n");
             let (bench, run) = solved(&text, &settings);
-            assert_free(&format!("nhpd on a mesh, nu {poisson}, {plane}"), &bench, &run);
+            assert_free(
+                &format!("nhpd on a mesh, nu {poisson}, {plane}"),
+                &bench,
+                &run,
+            );
             let expected = if plane == "stress" {
                 ALPHA * CHANGE
             } else {
@@ -162,7 +175,10 @@ fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
                 .map(|(ratio, volume)| ratio * volume * density)
                 .sum();
             let last = run.last();
-            assert!(relative_error(last.stored_energy, expected) < 1e-12, "{value}");
+            assert!(
+                relative_error(last.stored_energy, expected) < 1e-12,
+                "{value}"
+            );
             let work = 0.5 * last.displacement * last.reaction;
             assert!(relative_error(work, expected) < 1e-12, "{value}");
             assert_eq!(last.displacement, CHANGE);
@@ -179,7 +195,10 @@ fn a_bar_between_walls_has_the_stress_of_its_expansion() {
                 temperature = [{ change = 50.0 }]\n";
     let section = 8.0 * 0.005 * 0.001;
     for (plane, modulus) in [("stress", 1.0), ("strain", 1.0 / (1.0 - 0.3))] {
-        let (_, run) = solved(&format!("{LATTICE}{text}"), &[&format!("lattice.plane={plane}")]);
+        let (_, run) = solved(
+            &format!("{LATTICE}{text}"),
+            &[&format!("lattice.plane={plane}")],
+        );
         let expected = YOUNG * modulus * ALPHA * CHANGE * section;
         let [left, right] = [0, 1].map(|group| run.last().group_forces[group][0]);
         println!("{plane}: {:.4} {:.4}", left / expected, right / expected);
@@ -198,12 +217,13 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
     let cooled = format!("{LATTICE}{clamps}temperature = [{{ change = -50.0 }}]\n");
     let strain = ALPHA * CHANGE;
     // x_0 and y_0 are those of the first cell.
-    let along = |axis: &str| {
-        format!("profile = {{ along = \"{axis}\", zero = 0.0025, one = 1.0025 }}")
-    };
+    let along =
+        |axis: &str| format!("profile = {{ along = \"{axis}\", zero = 0.0025, one = 1.0025 }}");
     let load = |name: &str, group: &str, axis: &str| {
         let profile = along(axis);
-        format!("{{ name = \"{name}\", group = \"{group}\", displacement = {{ {axis} = {strain:?} }}, {profile} }}")
+        format!(
+            "{{ name = \"{name}\", group = \"{group}\", displacement = {{ {axis} = {strain:?} }}, {profile} }}"
+        )
     };
     let pulled = format!(
         "{LATTICE}support = [{{ group = \"left\", displacement = {{ x = 0 }} }}]\nload = [{}, {}, {}]\n",
@@ -218,7 +238,11 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
         let benches = [&cooled, &pulled].map(|text| Bench::new(text, &settings));
         let runs = benches.each_ref().map(Bench::break_up);
         let [cooled, pulled] = runs.each_ref().map(|run| &run.outcome.history);
-        println!("{control}: {} bonds, {} rows", runs[0].breaks.len(), cooled.len());
+        println!(
+            "{control}: {} bonds, {} rows",
+            runs[0].breaks.len(),
+            cooled.len()
+        );
         assert!(runs[0].breaks.len() > 50, "{}", runs[0].breaks.len());
         assert_eq!(runs[0].breaks.len(), runs[1].breaks.len());
         for (one, other) in runs[0].breaks.iter().zip(&runs[1].breaks) {
@@ -240,5 +264,176 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
             0.5 * row.displacement * row.reaction - row.stored_energy
         };
         assert!(largest(cooled.iter().map(|row| conjugate(row).abs())) < 1e-9 * peak);
+    }
+}
+
+/// Disk of radius b = 50 mm on 1834 irregular points, with a core of radius a = 20 mm, that nothing holds.
+const DISK: &str = r#"
+mesh = { file = "../meshes/heated-disk.msh", thickness = 0.01 }
+material = { young = 70e9, poisson = 0.25, thermal_expansion = 23e-6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+"#;
+
+/// Timoshenko and Goodier, "Theory of Elasticity", on the disk with a radial temperature T(r): with I(r) the integral of T r from
+/// 0 to r, u = alpha ((1 + nu) I(r)/r + (1 - nu) r I(b)/b^2), sigma_r = E alpha (I(b)/b^2 - I(r)/r^2).
+struct HotDisk {
+    integral: fn(f64) -> f64,
+}
+
+impl HotDisk {
+    const YOUNG: f64 = 70e9;
+    const POISSON: f64 = 0.25;
+    const RADIUS: f64 = 0.05;
+
+    fn displacement(&self, r: f64) -> f64 {
+        let (whole, b) = ((self.integral)(Self::RADIUS), Self::RADIUS);
+        ALPHA
+            * ((1.0 + Self::POISSON) * (self.integral)(r) / r
+                + (1.0 - Self::POISSON) * r * whole / (b * b))
+    }
+
+    fn radial_stress(&self, r: f64) -> f64 {
+        let whole = (self.integral)(Self::RADIUS) / Self::RADIUS.powi(2);
+        Self::YOUNG * ALPHA * (whole - (self.integral)(r) / (r * r))
+    }
+}
+
+/// A parabola from a field of the mesh file, and a core that is hot by group: mean radial displacement of the rim, displacements
+/// of all points (root mean square), and the radial stress of the points inside the core, all against the closed form.
+#[test]
+fn hot_disks_are_those_of_thermoelasticity() {
+    let parabola = HotDisk {
+        integral: |r| 100.0 * (0.5 * r * r - 0.25 * r.powi(4) / HotDisk::RADIUS.powi(2)),
+    };
+    let core = HotDisk {
+        integral: |r| 50.0 * r.min(0.02).powi(2),
+    };
+    for (name, heat, exact) in [
+        ("parabola", "mesh_field = \"heat\"", parabola),
+        ("core", "group = \"core\", change = 100.0", core),
+    ] {
+        let text = format!("{DISK}temperature = [{{ {heat} }}]\n");
+        let (bench, run) = solved(&text, &[]);
+        let positions = bench.positions();
+        let motion = run.displacement();
+        // The gauges leave a rigid motion, which the points as a whole show.
+        let count = positions.len() as f64;
+        let mean = |axis: usize| component(motion, axis).iter().sum::<f64>() / count;
+        let (u, v) = (mean(0), mean(1));
+        let spin: f64 = (positions.iter().zip(motion.chunks(3)))
+            .map(|(p, m)| p[0] * (m[1] - v) - p[1] * (m[0] - u))
+            .sum::<f64>()
+            / positions
+                .iter()
+                .map(|p| p[0] * p[0] + p[1] * p[1])
+                .sum::<f64>();
+        let radial = |point: usize| {
+            let (p, m) = (positions[point], &motion[3 * point..3 * point + 2]);
+            let motion = [m[0] - u + spin * p[1], m[1] - v - spin * p[0]];
+            let r = p[0].hypot(p[1]);
+            ((motion[0] * p[0] + motion[1] * p[1]) / r, r)
+        };
+        let rim = bench.group("rim");
+        let widening: f64 = rim
+            .iter()
+            .map(|&point| radial(point as usize).0)
+            .sum::<f64>()
+            / rim.len() as f64;
+        let expected = exact.displacement(HotDisk::RADIUS);
+        let [mut off, mut size] = [0.0; 2];
+        for point in 0..positions.len() {
+            let (found, r) = radial(point);
+            let wanted = exact.displacement(r);
+            off += (found - wanted).powi(2);
+            size += wanted * wanted;
+        }
+        let off = (off / size).sqrt();
+        let deformations = deformations(&bench, &run);
+        let stress = virial::stress(&bench.model.system, run.state().bonds(), &deformations);
+        let mut ratios = Vec::new();
+        for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
+            let r = p[0].hypot(p[1]);
+            if r > 0.001 && r < 0.012 {
+                let [c, s] = [p[0] / r, p[1] / r];
+                let radial = xx * c * c + yy * s * s + 2.0 * xy * s * c;
+                ratios.push(radial / exact.radial_stress(r));
+            }
+        }
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        println!(
+            "{name}: rim {:.5}, displacements off by {off:.2e}, radial stress {mean:.4} ({:.4} to {:.4})",
+            widening / expected,
+            ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            largest(ratios.iter().copied())
+        );
+    }
+}
+
+/// The change of temperature rises linearly along x from zero to 50 K: a continuum that is free bends without any stress, by the
+/// curvature alpha dT/L. Peridynamic bonds come near: what is left of them, relative to alpha dT.
+#[test]
+fn a_linear_temperature_bends_free_bodies() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, settings) in LAWS {
+        let (plain, _) = solved(
+            &format!("{LATTICE}temperature = [{{ change = 1.0 }}]\n"),
+            settings,
+        );
+        let rows = plain.positions().iter();
+        let rows: String = rows
+            .map(|p| format!("{:?},{:?},{:?}\n", p[0], p[1], CHANGE * p[0] / 0.06))
+            .collect();
+        let path = folder.path().join("linear.csv");
+        std::fs::write(&path, format!("x,y,change\n{rows}")).unwrap();
+        let text = format!(
+            "{LATTICE}temperature = [{{ file = \"{}\" }}]\n",
+            path.display()
+        );
+        let (bench, run) = solved(&text, settings);
+        let size = largest(
+            bench
+                .boundary
+                .thermal_strain
+                .as_flattened()
+                .iter()
+                .map(|it| it.abs()),
+        );
+        let left = deformations(&bench, &run);
+        let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
+        let shear = largest(left.iter().map(|it| it.shear.abs())) / size;
+        println!("{name}: stretch {stretch:.2e}, shear {shear:.2e}");
+    }
+}
+
+/// Two layers of one thickness h/2 and stiffness, of which one expands more: the strip bends with the curvature 1.5 (alpha_2 -
+/// alpha_1) dT/h (Timoshenko, "Analysis of bi-metal thermostats", 1925).
+#[test]
+fn a_strip_of_two_metals_bends() {
+    let text = r#"
+lattice = { cells = [120, 16], spacing = 0.001, thickness = 0.001, set = { base = { left = 3 }, below = { bottom = 8 }, above = { top = 8 } } }
+model = { law = "mppd", horizon_factor = 3.0 }
+support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
+temperature = [{ change = 50.0 }]
+probe = [{ name = "near", at = [0.0305, 0.0005], field = "displacement_y" }, { name = "middle", at = [0.0705, 0.0005], field = "displacement_y" }, { name = "far", at = [0.1105, 0.0005], field = "displacement_y" }]
+[material.low]
+group = "below"
+young = 65.8e9
+poisson = 0.3
+thermal_expansion = 10e-6
+[material.high]
+group = "above"
+young = 65.8e9
+poisson = 0.3
+thermal_expansion = 30e-6
+"#;
+    for law in ["nhpd", "mppd", "pds", "bbpd"] {
+        let (bench, run) = solved(text, &[&format!("model.law={law}")]);
+        let [near, middle, far] = run.last().probes[..] else {
+            panic!("three probes");
+        };
+        let curvature = (near - 2.0 * middle + far) / 0.04_f64.powi(2);
+        let expected = -1.5 * 20e-6 * CHANGE / 0.016;
+        println!("{law}: {:.4}", curvature / expected);
+        assert_eq!(bench.boundary.control.magnitude, CHANGE);
     }
 }

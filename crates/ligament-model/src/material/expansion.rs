@@ -62,6 +62,7 @@ impl Expansion {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::material::{Isotropic, Orthotropic, OutOfPlane};
