@@ -176,7 +176,7 @@ impl Life {
             },
             rotational_rigidity: 0.0,
         };
-        let [a, b] = self.ends.map(|end| &motions[end as usize]);
+        let [a, b] = self.ends.map(|end| &motions.of_points[end as usize]);
         kinematics.deformation(a, b)
     }
 
