@@ -40,13 +40,13 @@ pub use criterion::{After, Criterion, CriterionKind, FrictionCalibration};
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
-pub use lattice_section::{CellSet, Circle, Hole, LatticeSection, MOST_CELLS};
-pub use load::{Action, Load, Profile};
+pub use lattice_section::{CellSet, Circle, Hole, HoleShape, LatticeSection, MOST_CELLS};
+pub use load::{Action, Load, Profile, Units};
 pub use material::{Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
 pub use probe::{Component, Field, Probe, Reading};
-pub use region::{Place, Precrack, Region};
+pub use region::{Ends, Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
 pub use values::{Axis, Point};
 

@@ -1,22 +1,36 @@
 //! Pre-cracks and slots: polylines that cut the bonds whose straight line they cross.
 //!
-//! The rule, decided with exact orientation predicates:
+//! The rule, decided with exact orientation predicates, with the ends of the polyline excluded:
 //! - a point exactly on the crack counts as lying on its left side (seen along the polyline);
 //! - a bond collinear with a piece of the crack survives;
 //! - a bond that only touches an end of the polyline survives; one through an inner vertex, or through any vertex of a
 //!   closed polyline, is cut.
+//!
+//! With the ends included every bond is cut that has a point in common with the polyline, whatever the point: an end of the
+//! polyline or of the bond, or a part of it where the two are collinear. A point on the crack then loses all of its bonds.
 
 use rayon::prelude::*;
 
 use super::BondSet;
 use crate::cloud::PointCloud;
-use crate::shape::orientation;
+use crate::shape::{meet, orientation};
 
 /// A polyline that cuts bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreCrack {
     /// Vertices in coordinates of the case, two or more, m.
     pub points: Vec<[f64; 2]>,
+    /// Whether it cuts bonds that only touch it.
+    pub ends: Ends,
+}
+
+/// Whether the ends of a pre-crack belong to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// It cuts bonds that pass through it.
+    Excluded,
+    /// It cuts bonds that have a point in common with it.
+    Included,
 }
 
 /// Which bonds the pre-cracks cut, shape (n_bonds).
@@ -66,6 +80,7 @@ impl PreCrack {
     pub fn in_local_coordinates(&self, cloud: &PointCloud) -> Self {
         Self {
             points: self.points.iter().map(|&p| cloud.local(p)).collect(),
+            ends: self.ends,
         }
     }
 
@@ -84,6 +99,16 @@ impl PreCrack {
 
     /// Whether the polyline cuts the bond from `a` to `b` (all in the same coordinates).
     pub fn cuts(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        match self.ends {
+            Ends::Excluded => self.is_passed_through(a, b),
+            Ends::Included => {
+                let mut pieces = self.points.windows(2);
+                pieces.any(|ends| meet(ends[0], ends[1], a, b))
+            }
+        }
+    }
+
+    fn is_passed_through(&self, a: [f64; 2], b: [f64; 2]) -> bool {
         let last = self.points.len() - 1;
         let closed = last > 1 && self.points[0] == self.points[last];
         self.points.windows(2).enumerate().any(|(piece, ends)| {
@@ -116,6 +141,15 @@ mod tests {
     fn crack(points: &[[f64; 2]]) -> PreCrack {
         PreCrack {
             points: points.to_vec(),
+            ends: Ends::Excluded,
+        }
+    }
+
+    /// The same with its ends.
+    fn closed(points: &[[f64; 2]]) -> PreCrack {
+        PreCrack {
+            ends: Ends::Included,
+            ..crack(points)
         }
     }
 
@@ -171,6 +205,28 @@ mod tests {
                 && !edge.ends_on(a, [1.0, 0.1])
                 && !edge.ends_on(a, [0.0, 0.0])
         );
+    }
+
+    #[test]
+    fn a_crack_with_its_ends_cuts_what_it_touches() {
+        let slot = closed(&[[-1.0, 0.0], [1.0, 0.0]]);
+        let tip = [1.0, 0.0];
+        for (a, b, meets) in [
+            ([1.0, -1.0], [1.0, 1.0], true),
+            ([0.5, 1.0], [1.5, -1.0], true),
+            ([1.0 + 1e-15, -1.0], [1.0 + 1e-15, 1.0], false),
+            ([0.0, 0.0], [0.0, 1.0], true),
+            ([0.0, 0.0], [0.0, -1.0], true),
+            ([0.0, 1e-300], [0.0, 1.0], false),
+            (tip, [2.0, 0.0], true),
+            ([-2.0, 0.0], [2.0, 0.0], true),
+            ([1.5, 0.0], [2.0, 0.0], false),
+            ([-0.5, 0.0], [0.5, 0.0], true),
+            ([-0.5, 0.1], [0.5, 0.1], false),
+        ] {
+            assert_eq!(slot.cuts(a, b), meets, "{a:?} {b:?}");
+            assert_eq!(slot.cuts(b, a), meets, "{b:?} {a:?}");
+        }
     }
 
     #[test]
