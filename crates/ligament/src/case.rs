@@ -190,6 +190,12 @@ impl Case {
         Ok(case)
     }
 
+    /// Units of the displacement and the force in the history, which are those of the first load.
+    pub fn units(&self) -> Units {
+        let first = self.loads.first();
+        first.map_or(Units::FORCE, |load| load.action.units())
+    }
+
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         material::require_suitable(&self.materials, self.model.law, self.body.plane())?;
         if let Some(fracture) = &self.fracture {

@@ -10,7 +10,7 @@ use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::equilibrium::Stability;
 use serde::Serialize;
 
-use crate::case::CaseFile;
+use crate::case::{CaseFile, Units};
 use crate::model::Model;
 use crate::stages::Stage;
 
@@ -26,7 +26,9 @@ pub struct Summary {
     /// The model.
     #[serde(flatten)]
     pub model: ModelSummary,
-    /// Force over displacement of the first load before the first breakage, N/m.
+    /// Units of the displacement and the force of the first load.
+    pub units: Units,
+    /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
     /// Where the first bond breaks, from the elastic solution.
     pub first_break: Option<PathPoint>,
@@ -65,9 +67,9 @@ const WARNINGS_SHOWN: usize = 10;
 /// A point of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PathPoint {
-    /// Displacement of the first load, m.
+    /// Displacement of the first load.
     pub displacement: f64,
-    /// Its force, N.
+    /// Its force.
     pub reaction: f64,
     /// Load factor.
     pub load_factor: f64,
@@ -136,6 +138,7 @@ impl Summary {
         warnings.extend(notices);
         Self {
             model: ModelSummary::new(case, model),
+            units: case.case.units(),
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),
@@ -165,8 +168,12 @@ impl Summary {
             "  points {}, bonds {}, volume {:.6e} m^3",
             self.model.points, self.model.bonds, self.model.volume
         )?;
+        let Units {
+            displacement: along,
+            force,
+        } = self.units;
         if let Some(stiffness) = self.elastic_stiffness {
-            writeln!(out, "  elastic stiffness  {stiffness:.6e} N/m")?;
+            writeln!(out, "  elastic stiffness  {stiffness:.6e} {force}/{along}")?;
         }
         let broke = self.broken_bonds > 0;
         let of_breaking = |point: Option<PathPoint>| point.filter(|_| broke);
@@ -181,7 +188,10 @@ impl Summary {
                 ..
             }) = point
             {
-                writeln!(out, "  {name:<18} {reaction:.6e} N at {displacement:.6e} m")?;
+                writeln!(
+                    out,
+                    "  {name:<18} {reaction:.6e} {force} at {displacement:.6e} {along}"
+                )?;
             }
         }
         let unit = if self.exact_path {

@@ -107,8 +107,7 @@ impl Lattice {
                 faces.push(Face {
                     point,
                     normal,
-                    is_on_rectangle: (0..2)
-                        .any(|axis| next[axis] < 0 || next[axis] >= size[axis]),
+                    is_on_rectangle: (0..2).any(|axis| next[axis] < 0 || next[axis] >= size[axis]),
                     hole: holes.iter().position(|hole| hole.contains(centre, slack)),
                 });
             }

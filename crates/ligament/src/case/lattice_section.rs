@@ -174,7 +174,11 @@ impl RawLattice {
         let holes = holes.map(|(index, hole)| {
             let key = key.child("remove").child(index);
             let hole = hole.check(&key)?;
-            if let Some(name) = hole.name.as_ref().filter(|&name| self.set.contains_key(name)) {
+            if let Some(name) = hole
+                .name
+                .as_ref()
+                .filter(|&name| self.set.contains_key(name))
+            {
                 let reason = format!("`lattice.set` has a `{name}` as well: rename one of them");
                 return Err(KeyFault::new(key.child("name"), reason));
             }

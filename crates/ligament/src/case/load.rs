@@ -53,6 +53,22 @@ pub struct Units {
     pub force: &'static str,
 }
 
+impl Units {
+    /// A force and the displacement along it.
+    pub const FORCE: Self = Self::new("m", "N");
+    /// A couple and its rotation.
+    pub const COUPLE: Self = Self::new("rad", "N m");
+    /// A pressure and the volume that it sweeps.
+    pub const PRESSURE: Self = Self::new("m^3", "Pa");
+
+    const fn new(displacement: &'static str, force: &'static str) -> Self {
+        Self {
+            displacement,
+            force,
+        }
+    }
+}
+
 /// A load that varies linearly: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
 /// point's coordinate c.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -170,23 +186,15 @@ impl Action {
 
     /// Units of its displacement and its force in the history: their product is work.
     pub fn units(&self) -> Units {
-        let [displacement, force] = match self {
-            Self::Displacement(Displacement {
-                x: None,
-                y: None,
-                rotation: Some(_),
-            })
-            | Self::Moment(_)
-            | Self::BodyCouple(_) => ["rad", "N m"],
+        let turns = |it: &Displacement| it.x.is_none() && it.y.is_none();
+        match self {
+            Self::Displacement(motion) if turns(motion) => Units::COUPLE,
             Self::Displacement(_)
             | Self::Force(_)
             | Self::ForcePerLength(_)
-            | Self::BodyForce(_) => ["m", "N"],
-            Self::Pressure(_) => ["m^3", "Pa"],
-        };
-        Units {
-            displacement,
-            force,
+            | Self::BodyForce(_) => Units::FORCE,
+            Self::Moment(_) | Self::BodyCouple(_) => Units::COUPLE,
+            Self::Pressure(_) => Units::PRESSURE,
         }
     }
 }
