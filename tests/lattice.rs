@@ -355,7 +355,7 @@ fn met_by_a_crack(n: i64, half_length: i64) -> [usize; 2] {
 /// whole numbers; across the whole plate it cuts q (n - |p|) bonds of the offset (p, q): 882 at 2 mm, 1782 at 1 mm.
 #[test]
 fn a_crack_with_its_ends_cuts_what_meets_it() {
-    for (n, cut, across) in [(50, [54, 68], 882), (100, [144, 158], 1782)] {
+    for (n, cut, across) in [(50, [82, 98], 882), (100, [174, 186], 1782)] {
         let spacing = 0.1 / n as f64;
         let count = |half_length: f64, ends: &str| {
             let text = format!(
@@ -369,7 +369,8 @@ fn a_crack_with_its_ends_cuts_what_meets_it() {
             );
             Bench::new(&text, &[]).model.cut_bonds
         };
-        let found = ["excluded", "included"].map(|ends| count(0.005, ends));
+        // Without its ends a crack from 0.1 um before them: bonds through them pass it, however their coordinates are rounded.
+        let found = [count(0.005 - 1e-7, "excluded"), count(0.005, "included")];
         println!("{n} cells a side: {found:?}");
         assert_eq!(found, met_by_a_crack(n, 20));
         assert_eq!(found, cut);

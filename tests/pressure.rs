@@ -246,6 +246,26 @@ fn displacement_is_the_volume_swept() {
     }
 }
 
+/// A run tells its numbers with their units.
+#[test]
+fn a_pressure_is_told_in_pascal() {
+    let case = bench::case(
+        &format!("{RING}load = [{{ group = \"inside\", pressure = 1e8 }}]\n"),
+        &[],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let summary = bench::run_program(&case, &folder.path().join("ring"));
+    let mut text = Vec::new();
+    summary.write(&mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("e13 Pa/m^3\n"), "{text}");
+    assert!(text.contains("1.000000e8 Pa at 8.93"), "{text}");
+    let json = std::fs::read_to_string(folder.path().join("ring/summary.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["units"]["displacement"], "m^3");
+    assert_eq!(json["units"]["force"], "Pa");
+}
+
 /// Radial displacement over Lame's at each point, and the radius of the point: rigid motions, which the gauges leave open, are
 /// taken out by the means over the points.
 ///

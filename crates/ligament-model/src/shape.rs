@@ -128,13 +128,20 @@ fn turns_back(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> bool {
 }
 
 /// Whether two segments have a point in common, decided exactly.
-pub(crate) fn meet(p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]) -> bool {
+fn meet(p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]) -> bool {
     let boxes_meet = (0..2).all(|axis| {
         p[axis].min(q[axis]) <= r[axis].max(s[axis]) && r[axis].min(s[axis]) <= p[axis].max(q[axis])
     });
     boxes_meet
         && orientation(p, q, r) * orientation(p, q, s) <= 0.0
         && orientation(r, s, p) * orientation(r, s, q) <= 0.0
+}
+
+/// Whether two segments have a point in common, or come no farther apart than `slack` (m).
+pub(crate) fn meet_within([p, q]: [[f64; 2]; 2], [r, s]: [[f64; 2]; 2], slack: f64) -> bool {
+    // Segments apart are nearest to each other at an end of one of them.
+    let is_near = |a, b, c| distance(along(a, b, foot(a, b, c)), c) <= slack;
+    meet(p, q, r, s) || is_near(p, q, r) || is_near(p, q, s) || is_near(r, s, p) || is_near(r, s, q)
 }
 
 /// Sign of the orientation of c seen from a to b, exact: positive on the left.

@@ -51,7 +51,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
          `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, \
-         `moment`, `body_couple`, `profile`"
+         `moment`, `body_couple`, `pressure`, `profile`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),

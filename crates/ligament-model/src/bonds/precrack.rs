@@ -7,13 +7,16 @@
 //!   closed polyline, is cut.
 //!
 //! With the ends included every bond is cut that has a point in common with the polyline, whatever the point: an end of the
-//! polyline or of the bond, or a part of it where the two are collinear. A point on the crack then loses all of its bonds.
+//! polyline or of the bond, or a part of it where the two are collinear. A point on the crack then loses all of its bonds. Bonds
+//! of a lattice pass exactly through such ends, but not their rounded coordinates: what comes closer than 1e-9 of the nearest
+//! distance of the bond's ends has a point in common.
 
 use rayon::prelude::*;
 
 use super::BondSet;
 use crate::cloud::PointCloud;
-use crate::shape::{meet, orientation};
+use crate::horizon::INCLUSION_TOLERANCE;
+use crate::shape::{meet_within, orientation};
 
 /// A polyline that cuts bonds.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,8 +49,13 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
         .ends
         .par_iter()
         .map(|&[a, b]| {
-            let (a, b) = (cloud.positions[a as usize], cloud.positions[b as usize]);
-            cracks.iter().any(|crack| crack.cuts(a, b))
+            let [a, b] = [a, b].map(|end| end as usize);
+            let slack = INCLUSION_TOLERANCE * cloud.spacing[a].min(cloud.spacing[b]);
+            let (a, b) = (cloud.positions[a], cloud.positions[b]);
+            cracks.iter().any(|crack| match crack.ends {
+                Ends::Excluded => crack.cuts(a, b),
+                Ends::Included => crack.meets(a, b, slack),
+            })
         })
         .collect()
 }
@@ -97,18 +105,15 @@ impl PreCrack {
         is_left(self.points[0], self.points[1], point)
     }
 
-    /// Whether the polyline cuts the bond from `a` to `b` (all in the same coordinates).
-    pub fn cuts(&self, a: [f64; 2], b: [f64; 2]) -> bool {
-        match self.ends {
-            Ends::Excluded => self.is_passed_through(a, b),
-            Ends::Included => {
-                let mut pieces = self.points.windows(2);
-                pieces.any(|ends| meet(ends[0], ends[1], a, b))
-            }
-        }
+    /// Whether the polyline with its ends has a point in common with the bond from `a` to `b`, or comes no farther away than
+    /// `slack` (m).
+    fn meets(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
+        let mut pieces = self.points.windows(2);
+        pieces.any(|ends| meet_within([ends[0], ends[1]], [a, b], slack))
     }
 
-    fn is_passed_through(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+    /// Whether the polyline without its ends cuts the bond from `a` to `b` (all in the same coordinates).
+    pub fn cuts(&self, a: [f64; 2], b: [f64; 2]) -> bool {
         let last = self.points.len() - 1;
         let closed = last > 1 && self.points[0] == self.points[last];
         self.points.windows(2).enumerate().any(|(piece, ends)| {
@@ -142,14 +147,6 @@ mod tests {
         PreCrack {
             points: points.to_vec(),
             ends: Ends::Excluded,
-        }
-    }
-
-    /// The same with its ends.
-    fn closed(points: &[[f64; 2]]) -> PreCrack {
-        PreCrack {
-            ends: Ends::Included,
-            ..crack(points)
         }
     }
 
@@ -209,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_crack_with_its_ends_cuts_what_it_touches() {
-        let slot = closed(&[[-1.0, 0.0], [1.0, 0.0]]);
+        let slot = crack(&[[-1.0, 0.0], [1.0, 0.0]]);
         let tip = [1.0, 0.0];
         for (a, b, meets) in [
             ([1.0, -1.0], [1.0, 1.0], true),
@@ -224,9 +221,12 @@ mod tests {
             ([-0.5, 0.0], [0.5, 0.0], true),
             ([-0.5, 0.1], [0.5, 0.1], false),
         ] {
-            assert_eq!(slot.cuts(a, b), meets, "{a:?} {b:?}");
-            assert_eq!(slot.cuts(b, a), meets, "{b:?} {a:?}");
+            assert_eq!(slot.meets(a, b, 0.0), meets, "{a:?} {b:?}");
+            assert_eq!(slot.meets(b, a, 0.0), meets, "{b:?} {a:?}");
         }
+        let (beside, above) = ([1.0 + 1e-10, -1.0], [1.0 + 1e-10, 1.0]);
+        assert!(slot.meets(beside, above, 1e-9) && !slot.meets(beside, above, 1e-11));
+        assert!(slot.meets([0.3, 1e-10], [0.3, 1.0], 1e-9));
     }
 
     #[test]
