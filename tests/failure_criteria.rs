@@ -12,6 +12,7 @@ use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
+use ligament_model::element::BondElement;
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
@@ -344,7 +345,7 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 let utilisation = |&bond: &u32| {
                     let bond = bond as usize;
                     let criteria = &bench.model.criteria;
-                    criteria.utilisation(bond, &system.deformation(bond, &u))
+                    criteria.utilisation(bond, &BondElement::of(system, &[], bond).deformation(&u))
                 };
                 let family = system.bonds.incidence.of(middle).iter();
                 100.0 * (1.0 / family.map(utilisation).fold(0.0, f64::max) - 1.0)

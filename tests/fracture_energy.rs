@@ -6,6 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use ligament_model::element::BondElement;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
 use ligament_model::law::bbpd;
 use ligament_model::{Isotropic, Plane};
@@ -322,7 +323,7 @@ impl Separation {
                 let is_left = segment.side(bench.positions()[end as usize]) > 0.0;
                 if is_left { [x, y, 0.0] } else { [0.0; 3] }
             });
-            let element = system.element(bond);
+            let element = BondElement::of(system, &[], bond);
             let deformation = element.deformation(&motions[0], &motions[1]);
             let ratio = bench.model.criteria.utilisation(bond, &deformation);
             if ratio == 0.0 {

@@ -3,6 +3,7 @@
 
 use ligament::check::{Extent, check};
 use ligament::progress::ProgressMode;
+use ligament_analysis::boundary::Expansion;
 use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
@@ -44,7 +45,12 @@ fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
 }
 
 fn sweep(bench: &Bench, run: &Run) -> BondSweep {
-    internal::sweep(&bench.model.system, run.state().bonds(), run.displacement())
+    internal::sweep(
+        &bench.model.system,
+        run.state().bonds(),
+        run.displacement(),
+        Expansion::NONE,
+    )
 }
 
 /// Resultant of forces and couples (3 n_points): along x, along y, and the moment about the origin of the mesh file.

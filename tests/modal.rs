@@ -11,6 +11,7 @@ use ligament_analysis::modal::{
     Rotations,
 };
 use ligament_analysis::{Component, SolverSettings, Supports};
+use ligament_model::element::BondElement;
 use ligament_model::{BondSystem, LumpedMass};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use verification::modal::ModalBench;
@@ -194,7 +195,7 @@ fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         let of_ends = ends.map(|end| [0, 1, 2].map(|c| place[3 * end as usize + c]));
         let places = of_ends.as_flattened();
-        for (rigidity, row) in system.element(bond).modes() {
+        for (rigidity, row) in BondElement::of(system, &[], bond).modes() {
             for (&i, a) in places.iter().zip(row).filter(|(i, _)| **i != usize::MAX) {
                 for (&j, b) in places.iter().zip(row).filter(|(j, _)| **j != usize::MAX) {
                     matrix[(i, j)] += rigidity * a * b;

@@ -8,6 +8,7 @@
 
 use ligament_analysis::Termination;
 use ligament_analysis::history::Notice;
+use ligament_model::element::BondElement;
 use verification::bench::{Bench, Run};
 use verification::numbers::{component, deviation, largest, relative_error, short};
 use verification::problems::DISK;
@@ -128,7 +129,10 @@ fn solutions_of_the_square() {
         let row = summary.row_where("set", set);
         let system = &bench.model.system;
         let ratios = (0..system.bonds.len()).map(|bond| {
-            system.deformation(bond, run.displacement()).stretch / bench.limits()[bond]
+            BondElement::of(system, &[], bond)
+                .deformation(run.displacement())
+                .stretch
+                / bench.limits()[bond]
         });
         let largest_ratio = ratios.fold(0.0, f64::max);
         for (name, value, column) in [

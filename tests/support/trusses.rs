@@ -103,6 +103,7 @@ impl Truss {
                 axial_rigidity: of_bonds(&rigidity),
                 shear_rigidity: of_bonds(&rigidity),
                 rotational_rigidity: of_bonds(&rigidity),
+                imaginary: None,
                 cloud,
                 bonds,
             },

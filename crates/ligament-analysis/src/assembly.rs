@@ -3,10 +3,16 @@
 //! The pattern is made once. A column of the matrix is summed by one thread, over the bonds of its point in their order,
 //! so that the values have the same bits for any number of threads. A broken bond leaves the pattern as it is.
 
+mod imaginary;
+
 use std::sync::Arc;
 
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
 use ligament_model::BondSystem;
+use ligament_model::element::ElementKind;
+use ligament_model::element::beam::BeamBond;
+use ligament_model::element::pair::{Pair, PairKinematics};
+use ligament_model::element::spring::SpringBond;
 use nalgebra::{Matrix3, Matrix6};
 use rayon::prelude::*;
 
@@ -15,11 +21,27 @@ use crate::unknowns::{COMPONENTS, Unknowns};
 
 /// The pattern of the matrix (upper triangle) for some unknowns.
 pub fn pattern(system: &BondSystem, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
+    match system.element {
+        ElementKind::Imaginary => imaginary::pattern(system, unknowns),
+        ElementKind::Beam | ElementKind::Spring => pattern_of(system, unknowns, |point| {
+            let neighbours = lower_neighbours(system, point);
+            neighbours.map(|(_, neighbour)| neighbour).collect()
+        }),
+    }
+}
+
+/// The pattern with the couplings of each point to points of smaller number, which are given ascending.
+fn pattern_of(
+    system: &BondSystem,
+    unknowns: &Unknowns,
+    lower_points: impl Fn(usize) -> Vec<usize>,
+) -> Result<Pattern, PatternError> {
     let mut column_starts = vec![0];
     let mut rows = Vec::new();
     for point in 0..system.cloud.len() {
-        let lower_rows: Vec<usize> = lower_neighbours(system, point)
-            .flat_map(|(_, neighbour)| unknowns.of_point(neighbour).map(|(row, _)| row))
+        let lower_rows: Vec<usize> = lower_points(point)
+            .into_iter()
+            .flat_map(|other| unknowns.of_point(other).map(|(row, _)| row))
             .collect();
         for (column, _) in unknowns.of_point(point) {
             rows.extend_from_slice(&lower_rows);
@@ -45,11 +67,27 @@ pub fn assemble(
     bonds: BondsLeft<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
+    match system.element {
+        ElementKind::Beam => assemble_pairs::<BeamBond>(system, unknowns, pattern, bonds, held),
+        ElementKind::Spring => assemble_pairs::<SpringBond>(system, unknowns, pattern, bonds, held),
+        ElementKind::Imaginary => imaginary::assemble(system, unknowns, pattern, bonds, held),
+    }
+}
+
+fn assemble_pairs<B: PairKinematics>(
+    system: &BondSystem,
+    unknowns: &Unknowns,
+    pattern: &Arc<Pattern>,
+    bonds: BondsLeft<'_>,
+    held: &[bool],
+) -> SymmetricMatrix {
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
     columns_of_points(&mut matrix.values, pattern, unknowns, system.cloud.len())
         .into_par_iter()
         .enumerate()
-        .for_each(|(point, values)| fill_columns(system, unknowns, bonds, held, point, values));
+        .for_each(|(point, values)| {
+            fill_columns::<B>(system, unknowns, bonds, held, point, values);
+        });
     matrix
 }
 
@@ -92,7 +130,7 @@ fn columns_of_points<'a>(
 }
 
 /// Fills the columns of a point: couplings to points of smaller number, then its own block down to the diagonal.
-fn fill_columns(
+fn fill_columns<B: PairKinematics>(
     system: &BondSystem,
     unknowns: &Unknowns,
     bonds: BondsLeft<'_>,
@@ -100,9 +138,9 @@ fn fill_columns(
     point: usize,
     values: &mut [f64],
 ) {
-    let own_block = diagonal_block(system, bonds, point);
+    let own_block = diagonal_block::<B>(system, bonds, point);
     let couplings: Vec<(usize, Matrix6<f64>)> = lower_neighbours(system, point)
-        .map(|(bond, neighbour)| (neighbour, stiffness(system, bonds, bond)))
+        .map(|(bond, neighbour)| (neighbour, stiffness::<B>(system, bonds, bond)))
         .collect();
     let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
     let mut slots = values.iter_mut();
@@ -120,30 +158,43 @@ fn fill_columns(
             *slot = if row_held || column_held { 0.0 } else { value };
         }
         if let Some(diagonal) = slots.next() {
-            // Any positive pivot does for an equation that stands alone: a held point may have lost all its bonds.
-            *diagonal = match own_block[(c, c)] {
-                0.0 if column_held => 1.0,
-                own if column_held => own.abs(),
-                own => own,
-            };
+            *diagonal = diagonal_value(own_block[(c, c)], column_held);
         }
     }
 }
 
-/// Element stiffness of a bond, zero if it is broken.
-fn stiffness(system: &BondSystem, bonds: BondsLeft<'_>, bond: usize) -> Matrix6<f64> {
-    let element = bonds.element(system, bond);
-    element.map_or_else(Matrix6::zeros, |element| element.stiffness())
+/// The diagonal entry of an unknown that may be held: any positive pivot does for an equation that stands alone, and a held
+/// point may have lost all its bonds.
+fn diagonal_value(own: f64, is_held: bool) -> f64 {
+    match own {
+        0.0 if is_held => 1.0,
+        own if is_held => own.abs(),
+        own => own,
+    }
 }
 
-fn diagonal_block(system: &BondSystem, bonds: BondsLeft<'_>, point: usize) -> Matrix3<f64> {
+/// Element stiffness of a bond, zero if it is broken.
+fn stiffness<B: PairKinematics>(
+    system: &BondSystem,
+    bonds: BondsLeft<'_>,
+    bond: usize,
+) -> Matrix6<f64> {
+    let element = bonds.typed_element::<Pair<B>>(system, bond);
+    element.map_or_else(Matrix6::zeros, |pair| pair.bond.stiffness())
+}
+
+fn diagonal_block<B: PairKinematics>(
+    system: &BondSystem,
+    bonds: BondsLeft<'_>,
+    point: usize,
+) -> Matrix3<f64> {
     let mut block = Matrix3::zeros();
     for &bond in system.bonds.incidence.of(point as u32) {
         let bond = bond as usize;
         let is_first_end = system.bonds.ends[bond][0] as usize == point;
         let offset = if is_first_end { 0 } else { COMPONENTS };
-        block +=
-            stiffness(system, bonds, bond).fixed_view::<COMPONENTS, COMPONENTS>(offset, offset);
+        let stiffness = stiffness::<B>(system, bonds, bond);
+        block += stiffness.fixed_view::<COMPONENTS, COMPONENTS>(offset, offset);
     }
     block
 }

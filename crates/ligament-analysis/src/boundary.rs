@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::internal::InternalForces;
 use crate::unknowns::{COMPONENTS, Component};
 
 /// Prescribed motions and forces at load factor one, and what the history reports of them.
@@ -11,6 +12,9 @@ pub struct Boundary {
     pub prescribed: Vec<Option<f64>>,
     /// External force or moment on each degree of freedom at load factor 1, shape (3 n_points), N or N m.
     pub force: Vec<f64>,
+    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, at load factor 1, shape
+    /// (n_points); empty where no temperature changes.
+    pub thermal_strain: Vec<[f64; 3]>,
     /// Groups whose resultant the history reports.
     pub groups: Vec<BoundaryGroup>,
     /// What `displacement` and `reaction` of the history mean.
@@ -35,7 +39,9 @@ pub struct BoundaryGroup {
 ///
 /// - prescribed motions are u_i = lambda m w_i: the displacement is lambda m, the force the sum of w_i . R_i over the
 ///   reactions R_i;
-/// - given forces are F_i = lambda m w_i: the force is lambda m, the displacement the sum of w_i . u_i.
+/// - given forces are F_i = lambda m w_i: the force is lambda m, the displacement the sum of w_i . u_i;
+/// - a temperature changes by lambda m at most: the displacement is that, K, the force what does the work with it,
+///   -sum over the bonds of force . thermal deformation for m = 1 K, J/K.
 ///
 /// So a load that is the same everywhere has the sum of its forces and the mean of its displacements along it, a bending
 /// load the moments of both about its zero. A pressure has no resultant where it acts all round: its magnitude is the
@@ -61,6 +67,8 @@ pub enum ControlKind {
     Displacement,
     /// The force on its points.
     Force,
+    /// The temperature.
+    Temperature,
 }
 
 /// Why supports and loads do not go together.
@@ -80,6 +88,41 @@ pub enum BoundaryError {
     },
 }
 
+/// Strains that the temperature would give the points without stress, at some load factor.
+#[derive(Debug, Clone, Copy)]
+pub struct Expansion<'a> {
+    strain: &'a [[f64; 3]],
+    load_factor: f64,
+}
+
+impl Expansion<'_> {
+    /// None anywhere.
+    pub const NONE: Self = Expansion {
+        strain: &[],
+        load_factor: 0.0,
+    };
+
+    /// Whether there is none anywhere.
+    pub fn is_none(&self) -> bool {
+        self.strain.is_empty()
+    }
+
+    /// That at load factor 1.
+    pub fn at_full_load(&self) -> Self {
+        Self {
+            load_factor: 1.0,
+            ..*self
+        }
+    }
+
+    /// The mean of the ends of a bond: (eps_xx, eps_yy, gamma_xy).
+    #[inline]
+    pub fn of_bond(&self, ends: [u32; 2]) -> [f64; 3] {
+        let [a, b] = ends.map(|end| self.strain[end as usize]);
+        [0, 1, 2].map(|k| self.load_factor * (0.5 * (a[k] + b[k])))
+    }
+}
+
 impl Boundary {
     /// A body of `n_points` points that nothing holds or loads but the motion or force of `control`, which is still to be
     /// added by [`Boundary::prescribe`] or [`Boundary::add_force`].
@@ -87,6 +130,7 @@ impl Boundary {
         Self {
             prescribed: vec![None; COMPONENTS * n_points],
             force: vec![0.0; COMPONENTS * n_points],
+            thermal_strain: Vec::new(),
             groups: Vec::new(),
             control,
         }
@@ -157,19 +201,26 @@ impl Boundary {
             .collect()
     }
 
-    /// Force that the control load exerts along its direction, from the internal forces (3 n_points), N: the same as
-    /// [`Control::force`] of all reactions.
-    pub fn control_force(&self, load_factor: f64, internal_forces: &[f64]) -> f64 {
+    /// Force that the control load exerts along its direction, N, N m or J/K: what does its work.
+    pub fn control_force(&self, load_factor: f64, internal: &InternalForces) -> f64 {
         let control = &self.control;
-        if control.kind == ControlKind::Force {
-            return control.magnitude * load_factor;
+        match control.kind {
+            ControlKind::Force => control.magnitude * load_factor,
+            ControlKind::Temperature => internal.thermal / control.magnitude,
+            ControlKind::Displacement => control.along(|dof| {
+                self.prescribed[dof].map_or(0.0, |_| {
+                    internal.values[dof] - load_factor * self.force[dof]
+                })
+            }),
         }
-        let reaction = |dof: usize| {
-            self.prescribed[dof].map_or(0.0, |_| {
-                internal_forces[dof] - load_factor * self.force[dof]
-            })
-        };
-        control.along(reaction)
+    }
+
+    /// What the temperature does to the bonds at a load factor.
+    pub fn expansion(&self, load_factor: f64) -> Expansion<'_> {
+        Expansion {
+            strain: &self.thermal_strain,
+            load_factor,
+        }
     }
 
     /// Degrees of freedom (of 3 n_points) that something moves or loads, ascending: no other one does work.
@@ -183,20 +234,12 @@ impl Boundary {
 }
 
 impl Control {
-    /// Displacement along the load at some load factor, m or rad, or m^3 with a pressure: the prescribed one, or the mean that
+    /// Displacement along the load at some load factor, m, rad or K, or m^3 with a pressure: the prescribed one, or the mean that
     /// does the work of the given forces.
     pub fn displacement(&self, load_factor: f64, displacement: &[f64]) -> f64 {
         match self.kind {
-            ControlKind::Displacement => self.magnitude * load_factor,
+            ControlKind::Displacement | ControlKind::Temperature => self.magnitude * load_factor,
             ControlKind::Force => self.along(|dof| displacement[dof]),
-        }
-    }
-
-    /// Force along the load, N, N m or Pa: that of the reactions (3 n_points) which does their work, or the given one.
-    pub fn force(&self, load_factor: f64, reactions: &[f64]) -> f64 {
-        match self.kind {
-            ControlKind::Displacement => self.along(|dof| reactions[dof]),
-            ControlKind::Force => self.magnitude * load_factor,
         }
     }
 

@@ -133,7 +133,7 @@ pub(crate) fn rigid_motions<'a>(system: &'a BondSystem, points: &[u32]) -> Rigid
         system.shear_rigidity[bond] != 0.0 || system.rotational_rigidity[bond] != 0.0
     };
     let turn = match (bonds.any(resists), system.element) {
-        (false, _) => Turn::OfPositions,
+        (false, _) | (true, ElementKind::Imaginary) => Turn::OfPositions,
         (true, ElementKind::Beam) => Turn::OfPointsAlong,
         (true, ElementKind::Spring) => Turn::Costly,
     };

@@ -64,7 +64,7 @@ pub struct Equilibrium<'a> {
 /// A state in equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balanced {
-    /// Deformation of every bond, shape (n_bonds).
+    /// Deformation of every bond without what its temperature gives it, shape (n_bonds).
     pub deformations: Vec<BondDeformation>,
     /// Internal forces.
     pub internal: InternalForces,
@@ -83,17 +83,14 @@ pub struct Balanced {
 impl Balanced {
     /// The equilibrium of the same bonds at `factor` times the load factor: everything is proportional to it.
     pub fn scaled(&self, factor: f64) -> Self {
-        let scale = |deformation: &BondDeformation| BondDeformation {
-            stretch: factor * deformation.stretch,
-            shear: factor * deformation.shear,
-            rotation: factor * deformation.rotation,
-        };
+        let deformations = self.deformations.par_iter();
         Self {
-            deformations: self.deformations.par_iter().map(scale).collect(),
+            deformations: deformations.map(|it| it.scaled(factor)).collect(),
             internal: InternalForces {
                 values: self.internal.values.iter().map(|f| factor * f).collect(),
                 force_scale: factor.abs() * self.internal.force_scale,
                 moment_scale: factor.abs() * self.internal.moment_scale,
+                thermal: factor * self.internal.thermal,
             },
             stored_energy: factor * factor * self.stored_energy,
             iterations: 0,
@@ -213,7 +210,7 @@ impl<'a> Equilibrium<'a> {
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
         let mut iterations = 0;
-        if let Some(correction) = self.stiffness.follow(state) {
+        if let Some(correction) = self.stiffness.follow(state, self.boundary) {
             self.add_correction(state, &correction);
             iterations = 1;
         }
@@ -277,9 +274,19 @@ impl<'a> Equilibrium<'a> {
     /// Deformations, forces, residual and energy of a state.
     fn measure(&mut self, state: &State) -> Balanced {
         let start = Instant::now();
-        let deformations = internal::deformations(self.system, &state.displacement);
+        let deformations = self.deformations(state);
         self.count_bond_work(start);
         self.measure_deformed(state, deformations)
+    }
+
+    /// Deformations of a state (n_bonds).
+    fn deformations(&self, state: &State) -> Vec<BondDeformation> {
+        internal::deformations(
+            self.system,
+            &state.intact,
+            &state.displacement,
+            self.boundary.expansion(state.load_factor),
+        )
     }
 
     /// Forces, residual and energy of a state with deformations (n_bonds).
@@ -289,7 +296,12 @@ impl<'a> Equilibrium<'a> {
             deformations,
             internal,
             stored_energy,
-        } = internal::forces(self.system, state.bonds(), deformations);
+        } = internal::forces(
+            self.system,
+            state.bonds(),
+            deformations,
+            self.boundary.expansion(state.load_factor),
+        );
         let residual_forces = self.residual_forces(state, &internal);
         let residual = self.relative_residual(state, &residual_forces, &internal);
         self.count_bond_work(start);

@@ -90,16 +90,18 @@ pub fn point_damage_by(
     if all > 0.0 { lost / all } else { 0.0 }
 }
 
-/// Energy that the bonds of every point have taken for good, J/m^3: half of each bond's over the volume of the point.
+/// Energy that the bonds of every point have taken for good, J/m^3: its share of each bond's, mostly a half, over its
+/// volume.
 pub fn dissipated_energy_density(system: &BondSystem, dissipated: &[f64]) -> Vec<f64> {
     gather(system, |point| {
         let bonds = system.bonds.incidence.of(point).iter();
-        let energy: f64 = bonds.map(|&bond| dissipated[bond as usize]).sum();
-        0.5 * energy / system.cloud.volumes[point as usize]
+        let shares = bonds.map(|&bond| system.share(bond, point) * dissipated[bond as usize]);
+        shares.sum::<f64>() / system.cloud.volumes[point as usize]
     })
 }
 
-/// Strain energy density of every point, J/m^3: half the energy of its bonds over its volume.
+/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, over its
+/// volume.
 pub fn strain_energy_density(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
@@ -119,10 +121,12 @@ pub fn point_energy_density(
 ) -> f64 {
     let family = system.bonds.incidence.of(point).iter();
     let energy: f64 = family
-        .map(|&bond| bond as usize)
-        .filter_map(|bond| Some(bonds.element(system, bond)?.energy(&deformations[bond])))
+        .filter_map(|&bond| {
+            let element = bonds.element(system, bond as usize)?;
+            Some(system.share(bond, point) * element.energy(&deformations[bond as usize]))
+        })
         .sum();
-    0.5 * energy / system.cloud.volumes[point as usize]
+    energy / system.cloud.volumes[point as usize]
 }
 
 fn gather(system: &BondSystem, value: impl Fn(u32) -> f64) -> Vec<f64> {

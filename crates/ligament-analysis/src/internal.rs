@@ -4,10 +4,13 @@ use std::ops::Range;
 
 use ligament_model::BondSystem;
 use ligament_model::element::beam::BeamBond;
+use ligament_model::element::imaginary::ImaginaryElement;
+use ligament_model::element::pair::Pair;
 use ligament_model::element::spring::SpringBond;
 use ligament_model::element::{BondDeformation, Element, ElementKind};
 use rayon::prelude::*;
 
+use crate::boundary::Expansion;
 use crate::state::BondsLeft;
 use crate::unknowns::COMPONENTS;
 
@@ -21,7 +24,7 @@ const TASK: usize = 2048;
 /// What a sweep over all bonds gives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondSweep {
-    /// Deformation of every bond, broken or not, shape (n_bonds).
+    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
     pub deformations: Vec<BondDeformation>,
     /// Internal forces of the intact bonds.
     pub internal: InternalForces,
@@ -38,22 +41,37 @@ pub struct InternalForces {
     pub force_scale: f64,
     /// Largest sum of |end moments| that meet at a point, N m.
     pub moment_scale: f64,
+    /// -sum over the bonds of force . thermal deformation, for the one at load factor 1: what does work while it grows, J.
+    pub thermal: f64,
 }
 
 /// Deformations, forces and energy of all bonds.
 ///
 /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
 /// after each other.
-pub fn sweep(system: &BondSystem, bonds: BondsLeft<'_>, displacement: &[f64]) -> BondSweep {
-    forces(system, bonds, deformations(system, displacement))
+pub fn sweep(
+    system: &BondSystem,
+    bonds: BondsLeft<'_>,
+    displacement: &[f64],
+    expansion: Expansion<'_>,
+) -> BondSweep {
+    let deformations = deformations(system, bonds.intact, displacement, expansion);
+    forces(system, bonds, deformations, expansion)
 }
 
-/// Deformation of every bond, broken or not, shape (n_bonds).
-pub fn deformations(system: &BondSystem, displacement: &[f64]) -> Vec<BondDeformation> {
-    match system.element {
-        ElementKind::Beam => deformations_of::<BeamBond>(system, displacement),
-        ElementKind::Spring => deformations_of::<SpringBond>(system, displacement),
-    }
+/// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+pub fn deformations(
+    system: &BondSystem,
+    intact: &[bool],
+    displacement: &[f64],
+    expansion: Expansion<'_>,
+) -> Vec<BondDeformation> {
+    let of = match system.element {
+        ElementKind::Beam => deformations_of::<Pair<BeamBond>>,
+        ElementKind::Spring => deformations_of::<Pair<SpringBond>>,
+        ElementKind::Imaginary => deformations_of::<ImaginaryElement>,
+    };
+    of(system, intact, displacement, expansion)
 }
 
 /// Forces and energy of bonds with given deformations (n_bonds).
@@ -61,23 +79,34 @@ pub fn forces(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
     deformations: Vec<BondDeformation>,
+    expansion: Expansion<'_>,
 ) -> BondSweep {
-    match system.element {
-        ElementKind::Beam => forces_of::<BeamBond>(system, bonds, deformations),
-        ElementKind::Spring => forces_of::<SpringBond>(system, bonds, deformations),
-    }
+    let of = match system.element {
+        ElementKind::Beam => forces_of::<Pair<BeamBond>>,
+        ElementKind::Spring => forces_of::<Pair<SpringBond>>,
+        ElementKind::Imaginary => forces_of::<ImaginaryElement>,
+    };
+    of(system, bonds, deformations, expansion)
 }
 
-fn deformations_of<E: Element>(system: &BondSystem, displacement: &[f64]) -> Vec<BondDeformation> {
+fn deformations_of<E: Element>(
+    system: &BondSystem,
+    intact: &[bool],
+    displacement: &[f64],
+    expansion: Expansion<'_>,
+) -> Vec<BondDeformation> {
     let mut deformations = vec![BondDeformation::default(); system.bonds.len()];
     deformations
         .par_chunks_mut(TASK)
         .enumerate()
         .for_each(|(task, deformations)| {
             for (bond, deformation) in (task * TASK..).zip(deformations) {
-                let [a, b] = system.bonds.ends[bond].map(|end| COMPONENTS * end as usize);
-                let [at_a, at_b] = [a, b].map(|end| &displacement[end..end + COMPONENTS]);
-                *deformation = E::of(system, bond).deformation(at_a, at_b);
+                let element = E::of(system, intact, bond);
+                *deformation = element.deformation(displacement);
+                if !expansion.is_none() {
+                    let thermal = expansion.of_bond(system.bonds.ends[bond]);
+                    *deformation = deformation.less(&element.deformation_in(thermal));
+                }
             }
         });
     deformations
@@ -87,13 +116,14 @@ fn forces_of<E: Element>(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
     deformations: Vec<BondDeformation>,
+    expansion: Expansion<'_>,
 ) -> BondSweep {
     let n_bonds = system.bonds.len();
     let parts: Vec<Part> = (0..PARTS)
         .into_par_iter()
         .map(|part| {
             let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-            Part::of::<E>(system, bonds, &deformations, of_part)
+            Part::of::<E>(system, bonds, &deformations, expansion, of_part)
         })
         .collect();
     let sums: Vec<PointForces> = (0..system.cloud.len())
@@ -114,6 +144,7 @@ fn forces_of<E: Element>(
             force_scale: largest(0).max(largest(1)),
             moment_scale: largest(2),
             values: sums.iter().flat_map(|forces| forces.sum).collect(),
+            thermal: parts.iter().map(|part| part.thermal).sum(),
         },
         stored_energy: parts.iter().map(|part| part.energy).sum(),
         deformations,
@@ -124,6 +155,7 @@ fn forces_of<E: Element>(
 struct Part {
     forces: Vec<PointForces>,
     energy: f64,
+    thermal: f64,
 }
 
 /// The end forces that meet at a point.
@@ -155,22 +187,28 @@ impl Part {
         system: &BondSystem,
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
+        expansion: Expansion<'_>,
         of_part: Range<usize>,
     ) -> Self {
         let mut part = Self {
             forces: vec![PointForces::default(); system.cloud.len()],
             energy: 0.0,
+            thermal: 0.0,
         };
+        let at_full_load = expansion.at_full_load();
         for bond in of_part {
             let Some(element) = bonds.typed_element::<E>(system, bond) else {
                 continue;
             };
             let deformation = &deformations[bond];
             part.energy += element.mutual_energy(deformation, deformation);
-            let [at_a, at_b] = element.end_forces(deformation);
-            let [a, b] = system.bonds.ends[bond];
-            part.forces[a as usize].add(at_a);
-            part.forces[b as usize].add(at_b);
+            element.forces(deformation, |point, force| {
+                part.forces[point as usize].add(force);
+            });
+            if !expansion.is_none() {
+                let thermal = element.deformation_in(at_full_load.of_bond(system.bonds.ends[bond]));
+                part.thermal -= 2.0 * element.mutual_energy(deformation, &thermal);
+            }
         }
         part
     }

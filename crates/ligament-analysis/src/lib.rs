@@ -8,6 +8,7 @@
 
 pub mod assembly;
 pub mod boundary;
+pub mod breakage;
 pub mod breaking;
 pub mod connectivity;
 pub mod dissection;

@@ -37,7 +37,8 @@ pub enum Reading {
         /// Field.
         field: PointField,
     },
-    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N.
+    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N. Only bonds of two points
+    /// count.
     SectionForce {
         /// Bonds that cross the line, and whether their first end lies on the left.
         bonds: Vec<(u32, bool)>,
@@ -135,7 +136,7 @@ impl Reading {
                 .iter()
                 .filter_map(|&(bond, first_is_left)| {
                     let element = state.bonds().element(system, bond as usize)?;
-                    let forces = element.end_forces(&balanced.deformations[bond as usize]);
+                    let forces = element.end_forces(&balanced.deformations[bond as usize])?;
                     // The end force is what holds the end in place against the bond: the bond pulls the other way.
                     Some(-forces[usize::from(!first_is_left)][component.index()])
                 })

@@ -75,12 +75,16 @@ impl<'a> BondsLeft<'a> {
     /// The element of a bond with what is left of it; None if it is broken.
     #[inline]
     pub fn typed_element<E: Element>(self, system: &BondSystem, bond: usize) -> Option<E> {
-        self.left_of(bond, || E::of(system, bond), E::weakened)
+        self.left_of(bond, || E::of(system, self.intact, bond), E::weakened)
     }
 
     /// The same, of whatever kind it is.
     pub fn element(self, system: &BondSystem, bond: usize) -> Option<BondElement> {
-        self.left_of(bond, || system.element(bond), BondElement::weakened)
+        self.left_of(
+            bond,
+            || BondElement::of(system, self.intact, bond),
+            BondElement::weakened,
+        )
     }
 
     #[inline]

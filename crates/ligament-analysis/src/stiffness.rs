@@ -63,7 +63,7 @@ pub struct SolverChoice {
     pub update: Update,
     /// Bonds broken after which the factor is made anew, see [`SolverSettings::rebuild_every`].
     pub rebuild_every: usize,
-    /// Where more bonds than this break at once, the factor is made anew because that costs less.
+    /// Where breakages change more elements than this at once, the factor is made anew because that costs less.
     pub most_bonds_in_place: usize,
 }
 
@@ -122,9 +122,11 @@ pub struct Stiffness<'a> {
     held: Vec<usize>,
     /// Whether the factor was changed since it was made.
     is_changed: bool,
+    /// Bonds that the factor has, shape (n_bonds).
+    intact: Vec<bool>,
     /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
     remaining: Vec<Remaining>,
-    /// Bonds that broke or changed so far.
+    /// Elements that were lost or changed so far.
     n_changed: usize,
     pub(crate) costs: Costs,
 }
@@ -168,6 +170,7 @@ impl<'a> Stiffness<'a> {
             broken: Vec::new(),
             held: Vec::new(),
             is_changed: false,
+            intact: Vec::new(),
             remaining: Vec::new(),
             n_changed: 0,
             unknowns,
@@ -251,6 +254,7 @@ impl<'a> Stiffness<'a> {
         if vanishing.is_empty() {
             self.factor = factor.ok();
             self.cut_off.clone_from(&state.held);
+            self.intact.clone_from(&state.intact);
             self.remaining.clone_from(&state.softening.remaining);
             self.is_changed = false;
         }
@@ -325,7 +329,7 @@ impl<'a> Stiffness<'a> {
     }
 }
 
-/// Number of bonds up to which changing the factor costs less than making it: each of the terms of a bond reads and writes
+/// Number of elements up to which changing the factor costs less than making it: each of the terms of an element reads and writes
 /// a part of the values of the factor.
 fn most_bonds_in_place(symbolic: &Symbolic) -> usize {
     let of_one_bond = (COMPONENTS * symbolic.n_factor_values()) as f64;

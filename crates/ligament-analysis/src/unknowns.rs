@@ -132,7 +132,7 @@ impl Unknowns {
 
 fn rotations_with_stiffness(system: &BondSystem) -> Vec<bool> {
     let mut rotates = vec![false; system.cloud.len()];
-    if system.element == ElementKind::Spring {
+    if system.element != ElementKind::Beam {
         return rotates;
     }
     for (bond, ends) in system.bonds.ends.iter().enumerate() {

@@ -3,16 +3,26 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::element::ElementKind;
+use crate::element::imaginary::matrix;
 use crate::system::BondSystem;
 
 /// Stiffness C of the family of a point in x and y, (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), Pa:
 ///
 /// C = 1/(2 V_A) sum over B of Omega alpha V_A V_B l (k_n s s^T + k_t g g^T)
 ///
-/// with the stretch s and the shear g of a bond for strains of size one. The common rotation of the points, where they have one,
+/// with the stretch s and the shear g of a bond for strains of size one; with imaginary elements C = 1/V_A times the sum of its
+/// shares of D. The common rotation of the points, where they have one,
 /// is free and takes the value that costs least; it does not matter for families that are symmetric. In an infinite lattice
 /// this is the stiffness of the body.
 pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
+    if let Some(elements) = &system.imaginary {
+        let family = system.bonds.incidence.of(point).iter();
+        let sum = family.fold(Matrix3::zeros(), |sum, &bond| {
+            let share = system.share(bond, point);
+            sum + share * matrix(elements.stiffness[bond as usize].entries)
+        });
+        return sum / system.cloud.volumes[point as usize];
+    }
     let mut stiffness = Matrix3::zeros();
     // Of the shear for a common rotation of size one, which is -1 for every bond.
     let mut coupling = Vector3::zeros();

@@ -4,9 +4,8 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::element::beam::BeamBond;
-use crate::element::spring::SpringBond;
-use crate::element::{BondDeformation, BondElement, Element, ElementKind, UNKNOWNS};
+use crate::element::ElementKind;
+use crate::element::imaginary::{ImaginaryElements, StrainStiffness};
 use crate::law::BondStiffness;
 
 /// Points and bonds with their rigidities; it never changes after construction.
@@ -26,6 +25,8 @@ pub struct BondSystem {
     pub shear_rigidity: Vec<f64>,
     /// Omega alpha V_A V_B k_theta, shape (n_bonds), J.
     pub rotational_rigidity: Vec<f64>,
+    /// What imaginary elements have besides; there if these are the elements.
+    pub imaginary: Option<ImaginaryElements>,
 }
 
 impl BondSystem {
@@ -44,6 +45,7 @@ impl BondSystem {
             mut axial,
             mut shear,
             mut rotational,
+            strain,
         } = stiffness;
         (
             (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
@@ -58,11 +60,24 @@ impl BondSystem {
                 *shear = factor * *shear * l;
                 *rotational *= factor;
             });
+        let imaginary = (element == ElementKind::Imaginary).then(|| {
+            let of_bond = |(bond, density): (usize, StrainStiffness)| {
+                let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
+                let factor = weight[bond] * a * b * bonds.length[bond];
+                StrainStiffness {
+                    entries: density.entries.map(|entry| factor * entry),
+                    ..density
+                }
+            };
+            let stiffness = strain.into_iter().enumerate().map(of_bond).collect();
+            ImaginaryElements::new(&bonds, cloud.positions.clone(), stiffness)
+        });
         Self {
             axial_rigidity: axial,
             shear_rigidity: shear,
             rotational_rigidity: rotational,
             weight,
+            imaginary,
             element,
             bonds,
             cloud,
@@ -75,18 +90,27 @@ impl BondSystem {
         rigidities.any(|&rigidity| rigidity < 0.0)
     }
 
-    /// The element of a bond.
-    pub fn element(&self, bond: usize) -> BondElement {
-        match self.element {
-            ElementKind::Beam => BondElement::Beam(BeamBond::of(self, bond)),
-            ElementKind::Spring => BondElement::Spring(SpringBond::of(self, bond)),
+    /// Share of the energy of a bond that belongs to one of its ends: a half, but for imaginary elements.
+    #[inline]
+    pub fn share(&self, bond: u32, point: u32) -> f64 {
+        match &self.imaginary {
+            None => 0.5,
+            Some(elements) => {
+                let first_share = elements.stiffness[bond as usize].first_share;
+                if self.bonds.ends[bond as usize][0] == point {
+                    first_share
+                } else {
+                    1.0 - first_share
+                }
+            }
         }
     }
 
-    /// Deformation of a bond for the unknowns of all points, shape (3 n_points).
-    pub fn deformation(&self, bond: usize, unknowns: &[f64]) -> BondDeformation {
-        let [a, b] = self.bonds.ends[bond].map(|end| UNKNOWNS * end as usize);
-        self.element(bond)
-            .deformation(&unknowns[a..a + UNKNOWNS], &unknowns[b..b + UNKNOWNS])
+    /// The bonds whose elements couple a point, ascending; with imaginary elements more than those that end there.
+    pub fn elements_of(&self, point: u32) -> &[u32] {
+        match &self.imaginary {
+            None => self.bonds.incidence.of(point),
+            Some(elements) => elements.couplings.of(point),
+        }
     }
 }

@@ -18,6 +18,7 @@ mod key_path;
 mod lattice_section;
 mod load;
 mod material;
+mod mbb_pd;
 mod mesh_section;
 mod model;
 mod overrides;
@@ -198,6 +199,7 @@ impl Case {
 
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         material::require_suitable(&self.materials, self.model.law, self.body.plane())?;
+        mbb_pd::check(self)?;
         if let Some(fracture) = &self.fracture {
             material::require_strengths(&self.materials, &fracture.criteria)?;
         }

@@ -3,7 +3,7 @@
 use ligament_model::bonds::BondSet;
 use ligament_model::correction::{Correction, domain, length, partial_volume, surface};
 use ligament_model::law::rotational::RotationalStiffness;
-use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mppd, orthotropic, pds};
+use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::{BondStiffness, Elasticity, ElementKind, Horizons, Isotropic, PointCloud};
 
 use crate::case::{self, Alpha, Calibration, CaseFile, Law, Surface};
@@ -14,6 +14,7 @@ pub fn element(law: Law) -> ElementKind {
     match law {
         Law::Nhpd | Law::Mppd | Law::MppdBeam | Law::Orthotropic => ElementKind::Beam,
         Law::Bbpd | Law::BbpdConical | Law::Pds => ElementKind::Spring,
+        Law::MbbPd => ElementKind::Imaginary,
     }
 }
 
@@ -50,6 +51,7 @@ pub fn stiffness(
         Law::Pds => pds::stiffness(bonds, cloud, &isotropic, plane),
         Law::Mppd => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational),
         Law::Orthotropic => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational),
+        Law::MbbPd => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
     };
     match case.case.model.calibration {
         Some(Calibration::Discrete) => {

@@ -101,7 +101,7 @@ fn correction_warning(
 /// The shear of a bond between points without rotations is that of the body and its rotation together.
 fn sliding_warning(case: &CaseFile) -> Option<String> {
     let law = case.case.model.law;
-    if formulation::element(law) == ElementKind::Beam {
+    if formulation::element(law) != ElementKind::Spring {
         return None;
     }
     let sees_rotations = |kind: &CriterionKind| match kind {
@@ -148,6 +148,7 @@ fn poisson_warning(law: Law, material: &Isotropic, plane: Plane) -> Option<Strin
     let negative = match formulation::element(law) {
         ElementKind::Beam => "shear and rotational stiffness of the bonds are negative",
         ElementKind::Spring => "the shear stiffness of the bonds is negative",
+        ElementKind::Imaginary => return None,
     };
     (poisson > limit).then(|| {
         format!(

@@ -201,7 +201,9 @@ impl Following<'_> {
         let factor = load_factor / state.load_factor;
         state.load_factor = load_factor;
         let fragments = self.path.equilibrium.fragments();
-        let mut is_loaded = vec![false; fragments.points.len()];
+        // A temperature strains all parts.
+        let is_heated = !self.path.problem.boundary.thermal_strain.is_empty();
+        let mut is_loaded = vec![is_heated; fragments.points.len()];
         for dof in &self.loaded {
             is_loaded[fragments.of_point[dof / COMPONENTS] as usize] = true;
         }

@@ -5,14 +5,13 @@
 
 use std::time::Instant;
 
-use ligament_model::element::BondDeformation;
-
 use super::Problem;
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
 use crate::boundary::ControlKind;
+use crate::breakage::{self, ChangedElement};
 use crate::connectivity::Hold;
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, Termination, View};
@@ -69,8 +68,8 @@ pub(super) struct Path<'a> {
     started: Instant,
 }
 
-/// Bonds that just broke, with their last deformations.
-pub(super) type JustBroken = Vec<(u32, BondDeformation)>;
+/// Elements that breakages just changed.
+pub(super) type JustBroken = Vec<ChangedElement>;
 
 impl<'a> Path<'a> {
     /// Begins with the unloaded body; also gives the equilibrium at load factor one, if there is one.
@@ -193,14 +192,18 @@ impl<'a> Path<'a> {
         for record in &records {
             dissipation::break_bond(self.problem, &mut self.state, record);
         }
+        let just_broken = breakage::changed_elements(
+            self.problem.system,
+            self.problem.boundary.expansion(load_factor),
+            self.state.bonds(),
+            &self.state.displacement,
+            bonds,
+        );
         let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
         self.collapsed |= self.load_came_loose(&holds);
         let fragments = self.equilibrium.fragments();
         report_loose(step, fragments, &holds, self.observer)?;
-        Ok(bonds
-            .iter()
-            .map(|&bond| (bond, balanced.deformations[bond as usize]))
-            .collect())
+        Ok(just_broken)
     }
 
     fn load_came_loose(&self, holds: &[Hold]) -> bool {
@@ -220,7 +223,7 @@ impl<'a> Path<'a> {
         let displacement = &self.state.displacement;
         [
             boundary.control.displacement(load_factor, displacement),
-            boundary.control_force(load_factor, &balanced.internal.values),
+            boundary.control_force(load_factor, &balanced.internal),
         ]
     }
 

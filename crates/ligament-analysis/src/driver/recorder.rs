@@ -1,11 +1,12 @@
 //! Bookkeeping that every driver shares: energies and records.
 
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, BondElement, Remaining};
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
 use super::Problem;
 use crate::boundary::Boundary;
+use crate::breakage::ChangedElement;
 use crate::connectivity::Fragments;
 use crate::equilibrium::Balanced;
 use crate::history::StepRecord;
@@ -23,6 +24,8 @@ pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
     loaded: Vec<Loaded>,
+    /// Load factor and [`InternalForces::thermal`] in the last state.
+    thermal: [f64; 2],
     /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
     last: Vec<(BondDeformation, Remaining)>,
 }
@@ -42,6 +45,7 @@ impl Energies {
         Self {
             external_work: 0.0,
             released: 0.0,
+            thermal: [0.0; 2],
             last: Vec::new(),
             loaded: (loaded.into_iter())
                 .map(|degree_of_freedom| Loaded {
@@ -66,32 +70,31 @@ impl Energies {
             work += mean_force * (state.displacement[dof] - loaded.displacement);
             (loaded.force, loaded.displacement) = (force, state.displacement[dof]);
         }
+        let [load_factor, force] = self.thermal;
+        self.thermal = [state.load_factor, balanced.internal.thermal];
+        work += 0.5 * (force + self.thermal[1]) * (state.load_factor - load_factor);
         self.external_work += work;
     }
 
-    /// Adds what the breakage of bonds released, given their deformations before it, and what softening did since the last
+    /// Adds what the breakage of bonds released, given the elements that it changed, and what softening did since the last
     /// state.
     pub(super) fn add_released(
         &mut self,
         problem: &Problem<'_>,
         state: &State,
-        broken: &[(u32, BondDeformation)],
+        broken: &[ChangedElement],
         balanced: &Balanced,
     ) {
+        let expansion = problem.boundary.expansion(state.load_factor);
         let remaining = &state.softening.remaining;
         self.released += broken
             .iter()
-            .map(|(bond, before)| {
-                let bond = *bond as usize;
-                let left = remaining.get(bond).unwrap_or(&Remaining::WHOLE);
-                let element = problem.system.element(bond).weakened(left);
-                element.mutual_energy(before, &balanced.deformations[bond])
-            })
+            .map(|it| it.released(&state.displacement, expansion))
             .sum::<f64>();
         for (bond, (before, left_before)) in self.last.iter().enumerate() {
             let lost = left_before.lost(&remaining[bond]);
             if state.intact[bond] && lost != Remaining::NOTHING {
-                let element = problem.system.element(bond).weakened(&lost);
+                let element = BondElement::of(problem.system, &state.intact, bond).weakened(&lost);
                 self.released += element.mutual_energy(before, &balanced.deformations[bond]);
             }
         }
@@ -132,7 +135,9 @@ pub(super) fn step_record(
         step: counters.step,
         load_factor: state.load_factor,
         displacement: control.displacement(state.load_factor, &state.displacement),
-        reaction: control.force(state.load_factor, &reactions),
+        reaction: problem
+            .boundary
+            .control_force(state.load_factor, &balanced.internal),
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,

@@ -3,7 +3,6 @@
 use super::anderson::Mixing;
 use super::{Balanced, Equilibrium, LARGEST_RESIDUAL, RESIDUAL_TOLERANCE, Unbalanced};
 use crate::history::{Observer, ObserverError};
-use crate::internal;
 use crate::state::State;
 use crate::unknowns::{COMPONENTS, Component};
 
@@ -38,12 +37,12 @@ impl Equilibrium<'_> {
         let mut previous_residual = f64::INFINITY;
         let mut iterations = 0;
         let mut mixing = Mixing::new(self.lengths());
-        if let Some(correction) = self.stiffness.follow(state) {
+        if let Some(correction) = self.stiffness.follow(state, self.boundary) {
             self.add_correction(state, &correction);
             iterations = 1;
         }
         loop {
-            let deformations = internal::deformations(self.system, &state.displacement);
+            let deformations = self.deformations(state);
             let is_one_way = iterations > ONE_WAY_AFTER;
             let State {
                 softening, intact, ..

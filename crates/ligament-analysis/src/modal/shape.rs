@@ -3,6 +3,7 @@
 use ligament_model::{BondSystem, LumpedMass};
 
 use super::{Mode, ModeKind, Moving, Rotations};
+use crate::boundary::Expansion;
 use crate::equilibrium::{ROUNDING, largest_point_stiffness};
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
@@ -88,6 +89,7 @@ pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
         system,
         BondsLeft::whole(&vec![true; system.bonds.len()]),
         shape,
+        Expansion::NONE,
     )
     .stored_energy
 }
@@ -106,7 +108,7 @@ pub(super) fn mode(
         deformations,
         internal,
         stored_energy,
-    } = internal::sweep(system, BondsLeft::whole(&intact), &shape);
+    } = internal::sweep(system, BondsLeft::whole(&intact), &shape, Expansion::NONE);
     let eigenvalue = 2.0 * stored_energy;
     Mode {
         kind: if eigenvalue.abs() <= rigid_below {
@@ -152,6 +154,7 @@ fn residual(
     let scales = InternalForces {
         force_scale: internal.force_scale.max(of_rounding[0]),
         moment_scale: internal.moment_scale.max(of_rounding[1]),
+        thermal: 0.0,
         values: Vec::new(),
     };
     internal::relative_residual(&out_of_balance, unknowns.degrees_of_freedom(), &scales)

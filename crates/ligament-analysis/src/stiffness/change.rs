@@ -3,11 +3,13 @@
 use std::time::Instant;
 
 use ligament_linalg::RankOne;
-use ligament_model::element::{BondElement, Remaining};
+use ligament_model::element::{BondDeformation, BondElement, Remaining, Term};
 use rayon::prelude::*;
 
 use super::{SolverChoice, Stiffness, Update};
-use crate::state::State;
+use crate::boundary::Boundary;
+use crate::breakage::{self, ChangedElement};
+use crate::state::{BondsLeft, State};
 use crate::unknowns::COMPONENTS;
 
 /// Bonds that make a task worth while.
@@ -21,10 +23,10 @@ impl Stiffness<'_> {
     /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
     /// unknowns, shape (n_unknowns). None where nothing was noted or the factor has to be made anew.
     ///
-    /// K' du = K_b u, K' = K - K_b + the terms of the holds (a positive diagonal entry of the size of the one that was
-    /// there). A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there: up to
-    /// rounding, which is taken away. For this the forces at the holds must be in the right-hand side.
-    pub(crate) fn follow(&mut self, state: &State) -> Option<Vec<f64>> {
+    /// K' du = (K - K') u, K' the matrix of the bonds that are left + the terms of the holds (a positive diagonal entry of the size
+    /// of the one that was there). A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there:
+    /// up to rounding, which is taken away. For this the forces at the holds must be in the right-hand side.
+    pub(crate) fn follow(&mut self, state: &State, boundary: &Boundary) -> Option<Vec<f64>> {
         let (broken, held) = (
             std::mem::take(&mut self.broken),
             std::mem::take(&mut self.held),
@@ -32,15 +34,24 @@ impl Stiffness<'_> {
         if broken.is_empty() && held.is_empty() {
             return None;
         }
-        self.forget_unless_in_place(broken.len());
+        let changed = if self.factor.is_some() {
+            self.changed_elements(&broken, state, boundary)
+        } else {
+            Vec::new()
+        };
+        self.forget_unless_in_place(changed.len());
         let mut factor = self.factor.take()?;
+        for &bond in &broken {
+            self.intact[bond as usize] = false;
+        }
         let start = Instant::now();
         let mut terms = self.hold_terms(&held);
-        terms.extend(broken.iter().flat_map(|&bond| {
-            let element = self.before_it_broke(bond, &self.remaining);
-            self.terms_without(bond, &element)
-        }));
-        let force = self.unbalanced_force(&broken, state);
+        // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
+        let gained = changed.iter().filter_map(|it| it.after.as_ref());
+        terms.extend(gained.flat_map(|(element, _)| self.terms_of(element, 1.0)));
+        let lost = changed.iter().map(|it| &it.before.0);
+        terms.extend(lost.flat_map(|element| self.terms_of(element, -1.0)));
+        let force = self.unbalanced_force(&changed);
         let half_solved = factor.change(&terms, &force);
         self.costs.change += start.elapsed();
         self.costs.changes += 1;
@@ -90,8 +101,8 @@ impl Stiffness<'_> {
         let mut terms = Vec::with_capacity(COMPONENTS * due.len());
         for &bond in &due {
             let lost = self.remaining[bond].lost(&remaining[bond]);
-            let element = self.system.element(bond).weakened(&lost);
-            terms.extend(self.terms_without(bond as u32, &element));
+            let element = BondElement::of(self.system, &state.intact, bond).weakened(&lost);
+            terms.extend(self.terms_of(&element, -1.0));
             self.remaining[bond] = remaining[bond];
         }
         // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
@@ -108,8 +119,8 @@ impl Stiffness<'_> {
         }
     }
 
-    /// Forgets the factor where `n_bonds` changes are too many for a change in place, or it is time to make it anew.
-    fn forget_unless_in_place(&mut self, n_bonds: usize) {
+    /// Forgets the factor where `n_elements` changes are too many for a change in place, or it is time to make it anew.
+    fn forget_unless_in_place(&mut self, n_elements: usize) {
         let SolverChoice {
             update,
             rebuild_every,
@@ -117,22 +128,33 @@ impl Stiffness<'_> {
             ..
         } = self.choice;
         let period_before = self.n_changed / rebuild_every;
-        self.n_changed += n_bonds;
+        self.n_changed += n_elements;
         let in_place = update == Update::Incremental
             && self.n_changed / rebuild_every == period_before
-            && n_bonds <= most_bonds_in_place;
+            && n_elements <= most_bonds_in_place;
         if !in_place {
             self.forget();
         }
     }
 
-    /// A bond that just broke, with what was left of it of late (n_bonds).
-    fn before_it_broke(&self, bond: u32, remaining: &[Remaining]) -> BondElement {
-        let whole = self.system.element(bond as usize);
-        match remaining.get(bond as usize) {
-            None => whole,
-            Some(remaining) => whole.weakened(remaining),
-        }
+    /// What changes when bonds break that the factor still has, at the displacements and with the softening of a state.
+    fn changed_elements(
+        &self,
+        broken: &[u32],
+        state: &State,
+        boundary: &Boundary,
+    ) -> Vec<ChangedElement> {
+        let before = BondsLeft {
+            intact: &self.intact,
+            remaining: &state.softening.remaining,
+        };
+        breakage::changed_elements(
+            self.system,
+            boundary.expansion(state.load_factor),
+            before,
+            &state.displacement,
+            broken,
+        )
     }
 
     /// What holds add to the matrix. They go in before bonds leave: no pivot vanishes in between.
@@ -146,58 +168,51 @@ impl Stiffness<'_> {
         holds.collect()
     }
 
-    /// The terms that take an element of a bond from the matrix.
-    fn terms_without(&self, bond: u32, element: &BondElement) -> Vec<RankOne> {
-        let [a, b] = self.system.bonds.ends[bond as usize].map(|end| COMPONENTS * end as usize);
-        let degrees_of_freedom = [a, a + 1, a + 2, b, b + 1, b + 2];
-        let of_mode = |(rigidity, gradient): (f64, [f64; 2 * COMPONENTS])| {
-            let entries: Vec<(usize, f64)> = degrees_of_freedom
-                .into_iter()
-                .zip(gradient)
+    /// The terms of an element times a factor.
+    fn terms_of(&self, element: &BondElement, factor: f64) -> Vec<RankOne> {
+        let of_term = |(rigidity, entries): Term| {
+            let entries: Vec<(usize, f64)> = (entries.into_iter())
                 .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
-                .filter(|&(_, value)| value != 0.0)
                 .collect();
             let matters = rigidity != 0.0 && !entries.is_empty();
             matters.then_some(RankOne {
-                weight: -rigidity,
+                weight: factor * rigidity,
                 entries,
             })
         };
-        element.modes().into_iter().filter_map(of_mode).collect()
+        element.terms().into_iter().filter_map(of_term).collect()
     }
 
     /// Diagonal entry of the matrix with all bonds.
     fn whole_diagonal(&self, dof: usize) -> f64 {
-        let (point, component) = (dof / COMPONENTS, dof % COMPONENTS);
-        let bonds = self.system.bonds.incidence.of(point as u32).iter();
-        bonds
-            .map(|&bond| {
-                let second = self.system.bonds.ends[bond as usize][1] as usize == point;
-                let place = COMPONENTS * usize::from(second) + component;
-                let modes = self.system.element(bond as usize).modes();
-                modes
-                    .iter()
-                    .map(|(rigidity, gradient)| rigidity * gradient[place] * gradient[place])
-                    .sum::<f64>()
+        let whole = vec![true; self.system.bonds.len()];
+        let elements = self.system.elements_of((dof / COMPONENTS) as u32).iter();
+        elements
+            .flat_map(|&bond| BondElement::of(self.system, &whole, bond as usize).terms())
+            .map(|(rigidity, entries)| {
+                let own = entries.iter().filter(|(of, _)| *of == dof);
+                own.map(|(_, value)| rigidity * value * value).sum::<f64>()
             })
             .sum()
     }
 
-    /// What the bonds exerted on their ends, as a force that nothing balances any more.
-    fn unbalanced_force(&self, broken: &[u32], state: &State) -> Vec<(usize, f64)> {
-        let mut force = Vec::with_capacity(2 * COMPONENTS * broken.len());
-        for &bond in broken {
-            let deformation = self.system.deformation(bond as usize, &state.displacement);
-            let end_forces = self
-                .before_it_broke(bond, &state.softening.remaining)
-                .end_forces(&deformation);
-            for (end, values) in self.system.bonds.ends[bond as usize].iter().zip(end_forces) {
+    /// What the elements that changed exerted on their points, as a force that nothing balances any more.
+    fn unbalanced_force(&self, changed: &[ChangedElement]) -> Vec<(usize, f64)> {
+        let mut force = Vec::with_capacity(2 * COMPONENTS * changed.len());
+        let mut add = |(element, deformation): &(BondElement, BondDeformation), sign: f64| {
+            element.forces(deformation, |point, values| {
                 for (component, value) in values.into_iter().enumerate() {
-                    let dof = COMPONENTS * *end as usize + component;
+                    let dof = COMPONENTS * point as usize + component;
                     if let Some(unknown) = self.number(dof) {
-                        force.push((unknown, value));
+                        force.push((unknown, sign * value));
                     }
                 }
+            });
+        };
+        for it in changed {
+            add(&it.before, 1.0);
+            if let Some(after) = &it.after {
+                add(after, -1.0);
             }
         }
         force

@@ -30,7 +30,7 @@ pub type Tractions = [f64; 4];
 /// that end in a plane which lies before it, and the columns beside weighted by how far their bands reach into this one.
 /// Where they do not fill it, on other meshes and at the outline, planes alone would miss or repeat some of the force.
 ///
-/// Bonds within a plane do not cross it and do not count.
+/// Bonds within a plane do not cross it and do not count, nor do elements that couple more than two points: their forces go through no line.
 pub fn stress(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
@@ -72,7 +72,9 @@ fn through_planes(
         }
         let area: f64 = crossed.iter().map(|(_, area)| area).sum();
         // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
-        let force = force_on_first(&element, deformation);
+        let Some(force) = force_on_first(&element, deformation) else {
+            continue;
+        };
         let force = force.map(|component| component * band.extent());
         for (point, part) in crossed.drain(..) {
             for (sum, component) in sums[point].iter_mut().zip(force) {

@@ -4,7 +4,6 @@ use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
-use super::force_on_first;
 use crate::state::BondsLeft;
 
 /// Stresses xx, yy and xy, Pa.
@@ -41,17 +40,14 @@ pub fn point_stress(
 ) -> SymmetricStress {
     let mut sum = [0.0; 3];
     for &bond in system.bonds.incidence.of(point) {
-        let bond = bond as usize;
-        let Some(element) = bonds.element(system, bond) else {
+        let Some(element) = bonds.element(system, bond as usize) else {
             continue;
         };
-        // Seen from the second end force and vector both change sign.
-        let [f_x, f_y] = force_on_first(&element, &deformations[bond]);
-        let [xi_x, xi_y] =
-            system.bonds.direction[bond].map(|cosine| cosine * system.bonds.length[bond]);
-        sum[0] += f_x * xi_x;
-        sum[1] += f_y * xi_y;
-        sum[2] += 0.5 * (f_x * xi_y + f_y * xi_x);
+        let share = system.share(bond, point);
+        let dyad = element.dyad(&deformations[bond as usize]);
+        for (sum, part) in sum.iter_mut().zip(dyad) {
+            *sum += share * part;
+        }
     }
-    sum.map(|value| 0.5 * value / system.cloud.volumes[point as usize])
+    sum.map(|value| value / system.cloud.volumes[point as usize])
 }

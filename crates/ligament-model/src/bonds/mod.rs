@@ -77,20 +77,25 @@ pub(crate) fn retained<T>(mut values: Vec<T>, keep: &[bool]) -> Vec<T> {
 impl Incidence {
     /// The bonds of each point, from the ends in the order of [`BondSet`].
     pub(crate) fn new(ends: &[[u32; 2]], n_points: usize) -> Self {
+        let numbered = (0..).zip(ends);
+        let pairs = numbered.flat_map(|(bond, ends)| ends.map(|end| (end, bond)));
+        Self::of_pairs(pairs, n_points)
+    }
+
+    /// What belongs to each of `n_points`, from pairs of a point and what belongs to it, in the order of the pairs.
+    pub fn of_pairs(pairs: impl Iterator<Item = (u32, u32)> + Clone, n_points: usize) -> Self {
         let mut offsets = vec![0; n_points + 1];
-        for end in ends.as_flattened() {
-            offsets[*end as usize + 1] += 1;
+        for (point, _) in pairs.clone() {
+            offsets[point as usize + 1] += 1;
         }
         for point in 0..n_points {
             offsets[point + 1] += offsets[point];
         }
         let mut next = offsets.clone();
-        let mut bonds = vec![0; 2 * ends.len()];
-        for (bond, pair) in ends.iter().enumerate() {
-            for &end in pair {
-                bonds[next[end as usize]] = bond as u32;
-                next[end as usize] += 1;
-            }
+        let mut bonds = vec![0; offsets[n_points]];
+        for (point, bond) in pairs {
+            bonds[next[point as usize]] = bond;
+            next[point as usize] += 1;
         }
         Self { offsets, bonds }
     }

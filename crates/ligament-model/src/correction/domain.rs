@@ -9,6 +9,7 @@ use super::families::Families;
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::element::imaginary::matrix;
 use crate::law::BondStiffness;
 use crate::material::{Elasticity, Material, Plane};
 
@@ -57,14 +58,19 @@ impl StrainMode {
         }
     }
 
+    /// The strains (eps_xx, eps_yy, gamma_xy).
+    pub fn strain(self) -> [f64; 3] {
+        match self {
+            Self::UniaxialX => [1.0, 0.0, 0.0],
+            Self::UniaxialY => [0.0, 1.0, 0.0],
+            Self::Biaxial => [1.0, 1.0, 0.0],
+            Self::Shear => [0.0, 0.0, 1.0],
+        }
+    }
+
     /// Strain energy density 1/2 eps C eps of the continuum, J/m^3 (NHPD eq. 11 for the uniaxial ones).
     pub fn energy(self, material: &Elasticity, plane: Plane) -> f64 {
-        let strain = match self {
-            Self::UniaxialX => Vector3::new(1.0, 0.0, 0.0),
-            Self::UniaxialY => Vector3::new(0.0, 1.0, 0.0),
-            Self::Biaxial => Vector3::new(1.0, 1.0, 0.0),
-            Self::Shear => Vector3::new(0.0, 0.0, 1.0),
-        };
+        let strain = Vector3::from(self.strain());
         0.5 * strain.dot(&(material.plane_stiffness(plane) * strain))
     }
 }
@@ -124,20 +130,32 @@ pub fn energy_ratios(
         let mut energies = [0.0; 4];
         for &bond in bonds.incidence.of(point) {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
+            let share = share(stiffness, bonds, bond, point);
             let bond = bond as usize;
             for (energy, mode) in energies.iter_mut().zip(StrainMode::ALL) {
                 let density =
                     energy_density(mode, bond, bonds, stiffness, &correction.length_factor);
-                *energy += correction.domain_factor[bond] * density * volume;
+                *energy += share * correction.domain_factor[bond] * density * volume;
             }
         }
-        energies.map(|sum| 0.25 * sum)
+        energies.map(|sum| 0.5 * sum)
     });
     [0, 1, 2, 3].map(|mode| {
         let target = target_energies(StrainMode::ALL[mode], cloud, materials, plane);
         let ratios = energies.iter().zip(target);
         ratios.map(|(energies, e)| energies[mode] / e).collect()
     })
+}
+
+/// Share of the energy of a bond that belongs to one of its ends.
+fn share(stiffness: &BondStiffness, bonds: &BondSet, bond: u32, point: u32) -> f64 {
+    let of_first = stiffness.strain.get(bond as usize);
+    let first_share = of_first.map_or(0.5, |it| it.first_share);
+    if bonds.ends[bond as usize][0] == point {
+        first_share
+    } else {
+        1.0 - first_share
+    }
 }
 
 /// alpha (k_n s^2 + k_t gamma^2) l of a bond under a strain of size one.
@@ -148,8 +166,16 @@ fn energy_density(
     stiffness: &BondStiffness,
     length_factor: &[f64],
 ) -> f64 {
-    let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
-    let density = stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear;
+    let density = match stiffness.strain.get(bond) {
+        Some(density) => {
+            let strain = Vector3::from(mode.strain());
+            strain.dot(&(matrix(density.entries) * strain))
+        }
+        None => {
+            let (stretch, shear) = mode.bond_deformation(bonds.direction[bond]);
+            stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear * shear
+        }
+    };
     length_factor[bond] * density * bonds.length[bond]
 }
 

@@ -3,8 +3,9 @@
 //! Rotations are counter-clockwise. With them the shear row of B reads [0, -1, -l/2, 0, 1, -l/2]/l; the signs +l/2 of
 //! the printed eq. 3 belong to clockwise rotations.
 
+use super::pair::PairKinematics;
 use super::spring::SpringBond;
-use super::{BondDeformation, Element, Remaining, UNKNOWNS};
+use super::{BondDeformation, Remaining, UNKNOWNS};
 use crate::system::BondSystem;
 
 /// A pair of springs between points that turn, and a spring against their relative rotation.
@@ -16,7 +17,7 @@ pub struct BeamBond {
     pub rotational_rigidity: f64,
 }
 
-impl Element for BeamBond {
+impl PairKinematics for BeamBond {
     #[inline]
     fn of(system: &BondSystem, bond: usize) -> Self {
         Self {
@@ -31,6 +32,11 @@ impl Element for BeamBond {
             springs: self.springs.weakened(remaining),
             rotational_rigidity: remaining.rotational * self.rotational_rigidity,
         }
+    }
+
+    #[inline]
+    fn geometry(&self) -> (f64, [f64; 2]) {
+        self.springs.geometry()
     }
 
     /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):

@@ -1,20 +1,23 @@
 //! Elements: the kinematics of bonds.
 //!
-//! | element | a point has | deformation of a bond | laws |
-//! |---|---|---|---|
-//! | [`beam`] | two displacements and a rotation | stretch, shear less the mean rotation, relative rotation | micropolar ones |
-//! | [`spring`] | two displacements | stretch, shear | `bbpd`, `pds` |
+//! | element | a point has | couples | deformation of a bond | laws |
+//! |---|---|---|---|---|
+//! | [`beam`] | two displacements and a rotation | its two ends | stretch, shear less the mean rotation, relative rotation | micropolar ones |
+//! | [`spring`] | two displacements | its two ends | stretch, shear | `bbpd`, `pds` |
+//! | [`imaginary`] | two displacements | up to six points of a lattice | the strains of a small rectangle around it | `mbb-pd` |
 //!
 //! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Arrays over degrees of freedom have
-//! three components a point for either element; the rotations of a body of springs are zero and no unknowns.
+//! three components a point for all elements; the rotations of a body without them are zero and no unknowns.
 
 pub mod beam;
+pub mod imaginary;
+pub mod pair;
 pub mod spring;
-
-use nalgebra::{Matrix6, Vector6};
 
 use crate::system::BondSystem;
 use beam::BeamBond;
+use imaginary::ImaginaryElement;
+use pair::{Pair, PairKinematics};
 use spring::SpringBond;
 
 /// Components of a point: displacement along x, along y, rotation.
@@ -27,9 +30,23 @@ pub enum ElementKind {
     Beam,
     /// Without: [`SpringBond`].
     Spring,
+    /// Without, and with points beside its ends: [`ImaginaryElement`].
+    Imaginary,
+}
+
+impl ElementKind {
+    /// Names of the components of a deformation in results, in the order of the fields of [`BondDeformation`].
+    pub fn deformation_names(self) -> [&'static str; 3] {
+        match self {
+            Self::Beam | Self::Spring => ["stretch", "shear", "rotation"],
+            Self::Imaginary => ["strain_xx", "strain_xy", "strain_yy"],
+        }
+    }
 }
 
 /// Deformation of a bond.
+///
+/// An [imaginary element](imaginary) has its strains S_xx, S_xy and S_yy in the places of stretch, shear and rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BondDeformation {
     /// Stretch s.
@@ -38,6 +55,44 @@ pub struct BondDeformation {
     pub shear: f64,
     /// Relative rotation theta_B - theta_A, rad.
     pub rotation: f64,
+}
+
+impl BondDeformation {
+    /// That of an imaginary element with the strains (S_xx, S_yy, S_xy).
+    #[inline]
+    pub fn of_strain([xx, yy, xy]: [f64; 3]) -> Self {
+        Self {
+            stretch: xx,
+            shear: xy,
+            rotation: yy,
+        }
+    }
+
+    /// The strains (S_xx, S_yy, S_xy) of an imaginary element.
+    #[inline]
+    pub fn strain(&self) -> [f64; 3] {
+        [self.stretch, self.rotation, self.shear]
+    }
+
+    /// A multiple of it.
+    #[inline]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            stretch: factor * self.stretch,
+            shear: factor * self.shear,
+            rotation: factor * self.rotation,
+        }
+    }
+
+    /// What is left of it without another one.
+    #[inline]
+    pub fn less(&self, other: &Self) -> Self {
+        Self {
+            stretch: self.stretch - other.stretch,
+            shear: self.shear - other.shear,
+            rotation: self.rotation - other.rotation,
+        }
+    }
 }
 
 /// What is left of the stiffness of a bond: factors of its rigidities.
@@ -86,50 +141,83 @@ impl Remaining {
 
 /// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
 pub trait Element: Copy {
-    /// The element of a bond.
-    fn of(system: &BondSystem, bond: usize) -> Self;
+    /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
+    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self;
 
     /// The element with its rigidities times what is left of them.
     fn weakened(self, remaining: &Remaining) -> Self;
 
-    /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
-    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation;
+    /// Deformation for the unknowns [u_x, u_y, theta] of all points, shape (3 n_points).
+    fn deformation(&self, unknowns: &[f64]) -> BondDeformation;
+
+    /// Deformation in a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations.
+    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation;
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64;
 
-    /// Internal forces and moments K u at the ends A and B, N and N m.
-    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2];
+    /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
+    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS]));
 
-    /// K as a sum over stretch, shear and relative rotation of rigidity g g^T; the rows g take the unknowns of A and B to
-    /// (s, gamma, theta_rel).
-    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3];
+    /// Sum over the points of internal force (x) position, its symmetric part (xx, yy, xy), J.
+    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3];
+
+    /// K as a sum of rigidity g g^T; the rows g are given by degree of freedom (of 3 n_points).
+    fn terms(&self) -> [Term; 3];
 }
+
+/// A term rigidity g g^T of an element stiffness: the rigidity, J, and the entries of g by degree of freedom.
+pub type Term = (f64, Vec<(usize, f64)>);
 
 /// One bond with its geometry and rigidity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BondElement {
     /// With rotations of its ends.
-    Beam(BeamBond),
+    Beam(Pair<BeamBond>),
     /// Without.
-    Spring(SpringBond),
+    Spring(Pair<SpringBond>),
+    /// With points beside its ends.
+    Imaginary(ImaginaryElement),
+}
+
+/// Does the same with whatever element it is.
+macro_rules! of_any {
+    ($any:expr, $element:ident => $value:expr) => {
+        match $any {
+            BondElement::Beam($element) => $value,
+            BondElement::Spring($element) => $value,
+            BondElement::Imaginary($element) => $value,
+        }
+    };
 }
 
 impl BondElement {
+    /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
+    pub fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
+        match system.element {
+            ElementKind::Beam => Self::Beam(Pair::of(system, intact, bond)),
+            ElementKind::Spring => Self::Spring(Pair::of(system, intact, bond)),
+            ElementKind::Imaginary => Self::Imaginary(ImaginaryElement::of(system, intact, bond)),
+        }
+    }
+
     /// The element with its rigidities times what is left of them.
     pub fn weakened(self, remaining: &Remaining) -> Self {
         match self {
             Self::Beam(bond) => Self::Beam(bond.weakened(remaining)),
             Self::Spring(bond) => Self::Spring(bond.weakened(remaining)),
+            Self::Imaginary(bond) => Self::Imaginary(bond.weakened(remaining)),
         }
     }
 
-    /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
-    pub fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
-        match self {
-            Self::Beam(bond) => bond.deformation(end_a, end_b),
-            Self::Spring(bond) => bond.deformation(end_a, end_b),
-        }
+    /// Deformation for the unknowns [u_x, u_y, theta] of all points, shape (3 n_points).
+    pub fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
+        of_any!(self, element => element.deformation(unknowns))
+    }
+
+    /// Deformation in a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations.
+    pub fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
+        of_any!(self, element => element.deformation_in(strain))
     }
 
     /// Strain energy 1/2 u^T K u, J (NHPD eq. 10).
@@ -139,42 +227,38 @@ impl BondElement {
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
     pub fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
-        match self {
-            Self::Beam(bond) => bond.mutual_energy(one, other),
-            Self::Spring(bond) => bond.mutual_energy(one, other),
-        }
+        of_any!(self, element => element.mutual_energy(one, other))
     }
 
-    /// Internal forces and moments K u at the ends A and B, N and N m.
-    pub fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
-        match self {
-            Self::Beam(bond) => bond.end_forces(deformation),
-            Self::Spring(bond) => bond.end_forces(deformation),
-        }
+    /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
+    pub fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS])) {
+        of_any!(self, element => element.forces(deformation, add));
     }
 
-    /// K as a sum over stretch, shear and relative rotation of rigidity g g^T; the rows g take the unknowns of A and B to
-    /// (s, gamma, theta_rel).
-    pub fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
-        match self {
-            Self::Beam(bond) => bond.modes(),
-            Self::Spring(bond) => bond.modes(),
-        }
+    /// Sum over the points of internal force (x) position, its symmetric part (xx, yy, xy), J.
+    pub fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
+        of_any!(self, element => element.dyad(deformation))
     }
 
-    /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
-    pub fn stiffness(&self) -> Matrix6<f64> {
-        let modes = self.modes().into_iter();
-        modes.fold(Matrix6::zeros(), |sum, (rigidity, gradient)| {
-            let gradient = Vector6::from(gradient);
-            sum + rigidity * gradient * gradient.transpose()
-        })
+    /// K as a sum of rigidity g g^T.
+    pub fn terms(&self) -> [Term; 3] {
+        of_any!(self, element => element.terms())
+    }
+
+    /// Internal forces at the ends A and B of a bond of two points, N and N m; None for one that couples others as well.
+    pub fn end_forces(&self, deformation: &BondDeformation) -> Option<[[f64; UNKNOWNS]; 2]> {
+        match self {
+            Self::Beam(pair) => Some(pair.bond.end_forces(deformation)),
+            Self::Spring(pair) => Some(pair.bond.end_forces(deformation)),
+            Self::Imaginary(_) => None,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::{Matrix6, Vector6};
 
     const LENGTH: f64 = 0.7;
 
@@ -188,18 +272,36 @@ mod tests {
     }
 
     fn beam(angle: f64, shear_sign: f64) -> BondElement {
-        BondElement::Beam(BeamBond {
-            springs: springs(angle, shear_sign),
-            rotational_rigidity: 0.2 * shear_sign,
+        BondElement::Beam(Pair {
+            ends: [0, 1],
+            bond: BeamBond {
+                springs: springs(angle, shear_sign),
+                rotational_rigidity: 0.2 * shear_sign,
+            },
         })
     }
 
     fn spring(angle: f64, shear_sign: f64) -> BondElement {
-        BondElement::Spring(springs(angle, shear_sign))
+        BondElement::Spring(Pair {
+            ends: [0, 1],
+            bond: springs(angle, shear_sign),
+        })
     }
 
     fn deformation(bond: &BondElement, u: &Vector6<f64>) -> BondDeformation {
-        bond.deformation(&u.as_slice()[..UNKNOWNS], &u.as_slice()[UNKNOWNS..])
+        bond.deformation(u.as_slice())
+    }
+
+    /// The stiffness by its terms, shape (6, 6).
+    fn stiffness(bond: &BondElement) -> Matrix6<f64> {
+        let terms = bond.terms().into_iter();
+        terms.fold(Matrix6::zeros(), |sum, (rigidity, entries)| {
+            let mut gradient = Vector6::zeros();
+            for (dof, value) in entries {
+                gradient[dof] = value;
+            }
+            sum + rigidity * gradient * gradient.transpose()
+        })
     }
 
     /// Some unknowns of both ends.
@@ -225,7 +327,7 @@ mod tests {
 
     /// What a motion costs, relative to the rigidities: round-off of entries of size 50 bounds a zero at 1e-12.
     fn force(bond: &BondElement, u: &Vector6<f64>) -> f64 {
-        (bond.stiffness() * u).norm()
+        (stiffness(bond) * u).norm()
     }
 
     /// A beam has exactly three zero-energy modes, all rigid motions.
@@ -233,7 +335,7 @@ mod tests {
     fn rigid_motions_cost_a_beam_nothing() {
         for shear_sign in [1.0, -1.0] {
             let bond = beam(0.6, shear_sign);
-            let eigenvalues = bond.stiffness().symmetric_eigenvalues();
+            let eigenvalues = stiffness(&bond).symmetric_eigenvalues();
             assert_eq!(eigenvalues.iter().filter(|it| it.abs() < 1e-12).count(), 3);
             for (translation, rotation) in TRANSLATIONS
                 .map(|t| (t, 0.0))
@@ -267,7 +369,7 @@ mod tests {
         for bond in [beam(2.1, 1.0), spring(2.1, 1.0)] {
             let u = unknowns();
             let force = |u: &Vector6<f64>| {
-                let ends = bond.end_forces(&deformation(&bond, u));
+                let ends = bond.end_forces(&deformation(&bond, u)).unwrap();
                 Vector6::from_iterator(ends.into_iter().flatten())
             };
             let energy = |u: &Vector6<f64>| bond.energy(&deformation(&bond, u));
@@ -280,7 +382,7 @@ mod tests {
                 assert!((slope - force(&u)[i]).abs() < 1e-10, "force {i}");
                 let column = (force(&forward) - force(&backward)) / (2.0 * step);
                 assert!(
-                    (column - bond.stiffness().column(i)).norm() < 1e-9,
+                    (column - stiffness(&bond).column(i)).norm() < 1e-9,
                     "column {i}"
                 );
             }

@@ -3,7 +3,8 @@
 //! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
 //! rigid rotation costs energy.
 
-use super::{BondDeformation, Element, Remaining, UNKNOWNS};
+use super::pair::PairKinematics;
+use super::{BondDeformation, Remaining, UNKNOWNS};
 use crate::system::BondSystem;
 
 /// Geometry and rigidity of one bond.
@@ -19,7 +20,7 @@ pub struct SpringBond {
     pub shear_rigidity: f64,
 }
 
-impl Element for SpringBond {
+impl PairKinematics for SpringBond {
     #[inline]
     fn of(system: &BondSystem, bond: usize) -> Self {
         Self {
@@ -37,6 +38,11 @@ impl Element for SpringBond {
             shear_rigidity: remaining.shear * self.shear_rigidity,
             ..self
         }
+    }
+
+    #[inline]
+    fn geometry(&self) -> (f64, [f64; 2]) {
+        (self.length, self.direction)
     }
 
     /// Deformation for the displacements of the ends A and B:

@@ -8,6 +8,7 @@
 //! | [`mppd`] | those of [`pds`] and k_theta | beam |
 //! | [`beam`] | k_n, k_t = 12 d/l^2, k_theta = d/l: MPPD's beam form, and NHPD's law | beam |
 //! | [`orthotropic`] | k_n and k_t that depend on the direction, k_theta | beam |
+//! | [`mbb_pd`] | a matrix over the strains of a small rectangle | imaginary |
 //!
 //! They come from integrals over a full circle; [`calibration`] puts sums over the families of the points in their place.
 
@@ -15,6 +16,7 @@ pub mod bbpd;
 pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
+pub mod mbb_pd;
 pub mod mppd;
 pub mod orthotropic;
 pub mod pds;
@@ -24,6 +26,7 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::element::imaginary::StrainStiffness;
 
 /// Below this |1 - 3 nu| (or |1 - 4 nu| in plane strain) the shear stiffness counts as exactly zero, and with it the
 /// rotational one: what rounding leaves of it would only make the system nearly singular.
@@ -38,6 +41,8 @@ pub struct BondStiffness {
     pub shear: Vec<f64>,
     /// Rotational k_theta, shape (n_bonds), N/m^5; of the sign of k_t.
     pub rotational: Vec<f64>,
+    /// The micro-modulus matrix over (xx, yy, xy) of imaginary elements, shape (n_bonds), N/m^6; empty for the others.
+    pub strain: Vec<StrainStiffness>,
 }
 
 /// Densities of one bond.
@@ -100,6 +105,7 @@ impl BondStiffness {
             axial,
             shear,
             rotational,
+            strain: Vec::new(),
         }
     }
 
@@ -110,6 +116,11 @@ impl BondStiffness {
             axial: retained(self.axial, keep),
             shear: retained(self.shear, keep),
             rotational: retained(self.rotational, keep),
+            strain: if self.strain.is_empty() {
+                self.strain
+            } else {
+                retained(self.strain, keep)
+            },
         }
     }
 }

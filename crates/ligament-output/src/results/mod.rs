@@ -170,7 +170,9 @@ impl Time {
     fn of(self, record: &StepRecord, view: &View<'_>) -> f64 {
         match (self, view.boundary.control.kind) {
             (Self::Step, _) => record.step as f64,
-            (Self::Load, ControlKind::Displacement) => record.displacement,
+            (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {
+                record.displacement
+            }
             (Self::Load, ControlKind::Force) => record.reaction,
         }
     }

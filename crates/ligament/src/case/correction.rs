@@ -180,6 +180,7 @@ impl RawCorrection {
 fn corrections_of(model: &ModelSection) -> (Alpha, Surface) {
     match (model.law, model.calibration) {
         (Law::Nhpd, _) => (Alpha::Length, Surface::Domain),
+        (Law::MbbPd, _) => (Alpha::None, Surface::None),
         (_, Some(Calibration::Discrete)) => (Alpha::PartialVolume, Surface::None),
         _ => (Alpha::PartialVolume, Surface::Volume),
     }

@@ -407,9 +407,9 @@ pub(super) fn require_suitable(
             continue;
         };
         let key = material.key_path();
-        if law != Law::Orthotropic {
+        if !matches!(law, Law::Orthotropic | Law::MbbPd) {
             let reason = format!(
-                "an orthotropic material needs model.law = \"orthotropic\": \"{}\" is a law for isotropic ones",
+                "an orthotropic material needs model.law = \"orthotropic\" or \"mbb-pd\": \"{}\" is a law for isotropic ones",
                 law.word()
             );
             return Err(KeyFault::new(key, reason));

@@ -43,6 +43,8 @@ pub enum Law {
     MppdBeam,
     /// Stiffness by the direction in the axes of an orthotropic material, rotations.
     Orthotropic,
+    /// All strains of a small rectangle around each bond of a square lattice.
+    MbbPd,
 }
 
 /// Where the constants of a law come from.
@@ -71,7 +73,7 @@ pub enum RotationalStiffness {
 
 impl Law {
     /// All laws.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Nhpd,
         Self::Bbpd,
         Self::BbpdConical,
@@ -79,6 +81,7 @@ impl Law {
         Self::Mppd,
         Self::MppdBeam,
         Self::Orthotropic,
+        Self::MbbPd,
     ];
 
     /// Its word in a case file.
@@ -91,6 +94,7 @@ impl Law {
             Self::Mppd => "mppd",
             Self::MppdBeam => "mppd-beam",
             Self::Orthotropic => "orthotropic",
+            Self::MbbPd => "mbb-pd",
         }
     }
 
@@ -98,14 +102,19 @@ impl Law {
     pub fn fixes_poisson(self) -> bool {
         match self {
             Self::Bbpd | Self::BbpdConical => true,
-            Self::Nhpd | Self::Pds | Self::Mppd | Self::MppdBeam | Self::Orthotropic => false,
+            Self::Nhpd
+            | Self::Pds
+            | Self::Mppd
+            | Self::MppdBeam
+            | Self::Orthotropic
+            | Self::MbbPd => false,
         }
     }
 
     /// The calibration unless one is named; none where the paper's is the only one.
     fn calibration(self) -> Option<Calibration> {
         match self {
-            Self::Nhpd | Self::Orthotropic => None,
+            Self::Nhpd | Self::Orthotropic | Self::MbbPd => None,
             Self::Bbpd | Self::BbpdConical | Self::Pds | Self::Mppd => Some(Calibration::Integral),
             // The integrals leave it 7.5 % off at nu = 0 with m = 3.
             Self::MppdBeam => Some(Calibration::Discrete),
@@ -116,7 +125,12 @@ impl Law {
     fn rotational_stiffness(self) -> Option<RotationalStiffness> {
         match self {
             Self::Mppd | Self::Orthotropic => Some(RotationalStiffness::Decaying),
-            Self::Nhpd | Self::Bbpd | Self::BbpdConical | Self::Pds | Self::MppdBeam => None,
+            Self::Nhpd
+            | Self::Bbpd
+            | Self::BbpdConical
+            | Self::Pds
+            | Self::MppdBeam
+            | Self::MbbPd => None,
         }
     }
 }

@@ -1,8 +1,9 @@
 //! What bonds went through.
 
+use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
+use ligament_model::element::pair::PairKinematics;
 use ligament_model::element::spring::SpringBond;
-use ligament_model::element::{BondDeformation, Element};
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_output::Error;
 use ligament_output::results::stored::{

@@ -150,6 +150,9 @@ pub fn formulation_line(case: &CaseFile) -> String {
     let unknowns = match formulation::element(model.law) {
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
+        ElementKind::Imaginary => {
+            "two displacements a point, the strains of a rectangle around each bond"
+        }
     };
     let constants = match model.calibration {
         Some(Calibration::Discrete) => ", constants from sums over the families",

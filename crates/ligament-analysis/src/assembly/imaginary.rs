@@ -1,0 +1,124 @@
+//! Pattern and values for imaginary elements, which couple points beside the ends of their bonds.
+
+use std::sync::Arc;
+
+use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
+use ligament_model::BondSystem;
+use ligament_model::element::Element;
+use ligament_model::element::imaginary::ImaginaryElement;
+use rayon::prelude::*;
+
+use super::{columns_of_points, diagonal_value, pattern_of};
+use crate::state::BondsLeft;
+use crate::unknowns::{COMPONENTS, Unknowns};
+
+/// The pattern with all bonds: breakages only take points from the elements.
+pub(super) fn pattern(system: &BondSystem, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
+    let intact = vec![true; system.bonds.len()];
+    pattern_of(system, unknowns, |point| {
+        lower_points(system, &intact, point)
+    })
+}
+
+/// Assembles the intact bonds over that pattern.
+pub(super) fn assemble(
+    system: &BondSystem,
+    unknowns: &Unknowns,
+    pattern: &Arc<Pattern>,
+    bonds: BondsLeft<'_>,
+    held: &[bool],
+) -> SymmetricMatrix {
+    let whole = vec![true; system.bonds.len()];
+    let mut matrix = SymmetricMatrix::zero(pattern.clone());
+    columns_of_points(&mut matrix.values, pattern, unknowns, system.cloud.len())
+        .into_par_iter()
+        .enumerate()
+        .for_each(|(point, values)| {
+            let lower = lower_points(system, &whole, point);
+            let blocks = blocks(system, bonds, &lower, point);
+            fill(unknowns, held, point, &lower, &blocks, values);
+        });
+    matrix
+}
+
+/// Points of smaller number that some element couples with a point, ascending.
+fn lower_points(system: &BondSystem, intact: &[bool], point: usize) -> Vec<usize> {
+    let elements = system.elements_of(point as u32).iter();
+    let mut points: Vec<usize> = elements
+        .flat_map(|&bond| {
+            let element = ImaginaryElement::of(system, intact, bond as usize);
+            element.points().to_vec()
+        })
+        .map(|other| other as usize)
+        .filter(|&other| other < point)
+        .collect();
+    points.sort_unstable();
+    points.dedup();
+    points
+}
+
+/// Blocks of the columns of a point: rows of its `lower` points and of itself, summed over its elements in their order.
+fn blocks(
+    system: &BondSystem,
+    bonds: BondsLeft<'_>,
+    lower: &[usize],
+    point: usize,
+) -> Vec<[[f64; 2]; 2]> {
+    let mut blocks = vec![[[0.0; 2]; 2]; lower.len() + 1];
+    for &bond in system.elements_of(point as u32) {
+        let Some(element) = bonds.typed_element::<ImaginaryElement>(system, bond as usize) else {
+            continue;
+        };
+        let points = element.points();
+        let Some(column) = points.iter().position(|&it| it as usize == point) else {
+            continue;
+        };
+        for (row, &other) in points.iter().enumerate() {
+            let other = other as usize;
+            let place = if other == point {
+                Some(lower.len())
+            } else {
+                lower.binary_search(&other).ok()
+            };
+            if let Some(place) = place {
+                let block = element.block(row, column);
+                for (sums, values) in blocks[place].iter_mut().zip(block) {
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        *sum += value;
+                    }
+                }
+            }
+        }
+    }
+    blocks
+}
+
+fn fill(
+    unknowns: &Unknowns,
+    held: &[bool],
+    point: usize,
+    lower: &[usize],
+    blocks: &[[[f64; 2]; 2]],
+    values: &mut [f64],
+) {
+    let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
+    let own = &blocks[lower.len()];
+    let mut slots = values.iter_mut();
+    for (column, c) in unknowns.of_point(point) {
+        let of_lower = lower.iter().zip(blocks).flat_map(|(&other, block)| {
+            let rows = unknowns.of_point(other);
+            rows.map(move |(_, r)| (block[r][c], is_held(other, r)))
+        });
+        let of_own = unknowns
+            .of_point(point)
+            .filter(|&(row, _)| row < column)
+            .map(|(_, r)| (own[r][c], is_held(point, r)));
+        let column_held = is_held(point, c);
+        for ((value, row_held), slot) in of_lower.chain(of_own).zip(&mut slots) {
+            *slot = if row_held || column_held { 0.0 } else { value };
+        }
+        if let Some(diagonal) = slots.next() {
+            *diagonal = diagonal_value(own[c][c], column_held);
+        }
+    }
+}

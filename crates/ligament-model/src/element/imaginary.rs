@@ -1,0 +1,367 @@
+//! The element of MBB-PD (Masoumi, Ravandi and Salehi, "A modified bond-based peridynamics model without limitations on elastic
+//! properties"): a small imaginary rectangle around a bond of a square lattice, and the strains in it.
+//!
+//! | class | bond | rectangle | eqs |
+//! |---|---|---|---|
+//! | H | along x | the points above and below its ends | 12, 13 |
+//! | V | along y | the points beside its ends | 14 |
+//! | S | any other | the bond is its diagonal | 15 |
+//!
+//! The strains are differences of displacements over differences of positions. With
+//! a discrete gradient of up to six points, du/dx ~ sum_i X_i u_i and du/dy ~ sum_i Y_i u_i, they are
+//!
+//! S_xx = sum X_i u_i, S_yy = sum Y_i v_i, S_xy = sum (Y_i u_i + X_i v_i):
+//!
+//! exact in uniform strains, and zero for small rotations. The energy is 1/2 S^T D S.
+//!
+//! # After breakage
+//!
+//! A neighbour counts while the bond of one spacing to it is unbroken; where one of the two is missing, the difference is taken to the
+//! end itself. A corner of the rectangle of an S bond counts while one of its two edges is unbroken. A bond without any support for one of its
+//! derivatives drops out: it has no stiffness and no strain.
+
+mod surroundings;
+
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
+use crate::bonds::{BondSet, Incidence};
+use crate::system::BondSystem;
+pub use surroundings::Surroundings;
+
+/// Most points that an element couples.
+const POINTS: usize = 6;
+
+/// Entries of a symmetric (3, 3) matrix over (xx, yy, xy): 11, 12, 16, 22, 26, 66.
+pub type SymmetricEntries = [f64; 6];
+
+/// Stiffness of a bond over its strains (S_xx, S_yy, S_xy): a density, N/m^6, or with the volumes of its ends the matrix D, J.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrainStiffness {
+    /// Its entries.
+    pub entries: SymmetricEntries,
+    /// Share of the energy of the bond that belongs to its first end; the rest belongs to the second.
+    pub first_share: f64,
+}
+
+/// What the elements of a lattice are made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImaginaryElements {
+    /// Stiffness D of each bond, shape (n_bonds), J.
+    pub stiffness: Vec<StrainStiffness>,
+    /// Positions whose differences the strains have in their denominators, shape (n_points), m.
+    pub positions: Vec<[f64; 2]>,
+    /// Which bonds support which.
+    pub surroundings: Surroundings,
+    /// The bonds whose elements couple each point, ascending.
+    pub couplings: Incidence,
+}
+
+impl ImaginaryElements {
+    /// Those of bonds on a square lattice, with stiffnesses D (n_bonds) and positions (n_points).
+    pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>, stiffness: Vec<StrainStiffness>) -> Self {
+        let surroundings = Surroundings::of(bonds);
+        let whole = vec![true; bonds.len()];
+        let couplings = (0..bonds.len()).flat_map(|bond| {
+            let gradient = Gradient::of(bonds, &surroundings, &positions, &whole, bond);
+            let count = gradient.count;
+            let points = gradient.points.into_iter().take(count);
+            points.map(move |point| (point, bond as u32))
+        });
+        Self {
+            couplings: Incidence::of_pairs(couplings, positions.len()),
+            stiffness,
+            surroundings,
+            positions,
+        }
+    }
+}
+
+/// The matrix of its entries.
+pub fn matrix([d11, d12, d16, d22, d26, d66]: SymmetricEntries) -> Matrix3<f64> {
+    Matrix3::new(d11, d12, d16, d12, d22, d26, d16, d26, d66)
+}
+
+/// The entries of a symmetric matrix.
+pub fn entries(matrix: &Matrix3<f64>) -> SymmetricEntries {
+    [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|place| matrix[place])
+}
+
+/// The class of a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BondClass {
+    /// Along x.
+    Horizontal,
+    /// Along y.
+    Vertical,
+    /// Any other.
+    Shear,
+}
+
+impl BondClass {
+    /// That of a bond with these direction cosines: rows and columns of a lattice have equal coordinates to the last bit.
+    #[inline]
+    pub fn of(direction: [f64; 2]) -> Self {
+        match direction {
+            [_, 0.0] => Self::Horizontal,
+            [0.0, _] => Self::Vertical,
+            _ => Self::Shear,
+        }
+    }
+}
+
+/// One bond with its surroundings as they are left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImaginaryElement {
+    gradient: Gradient,
+    stiffness: SymmetricEntries,
+}
+
+/// A discrete gradient.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Gradient {
+    count: usize,
+    points: [u32; POINTS],
+    /// Weights X_i of the derivative by x, 1/m.
+    by_x: [f64; POINTS],
+    /// Weights Y_i of the derivative by y, 1/m.
+    by_y: [f64; POINTS],
+}
+
+/// One of the two derivatives.
+#[derive(Clone, Copy)]
+enum Axis {
+    X,
+    Y,
+}
+
+impl Gradient {
+    const NONE: Self = Self {
+        count: 0,
+        points: [0; POINTS],
+        by_x: [0.0; POINTS],
+        by_y: [0.0; POINTS],
+    };
+
+    /// That of a bond while the bonds marked in `intact` (n_bonds) are unbroken; [`Gradient::NONE`] where one of the derivatives has
+    /// no support.
+    #[inline]
+    fn of(
+        bonds: &BondSet,
+        surroundings: &Surroundings,
+        positions: &[[f64; 2]],
+        intact: &[bool],
+        bond: usize,
+    ) -> Self {
+        let ends = bonds.ends[bond];
+        let is_linked = |bond: u32| intact[bond as usize];
+        let across =
+            |axis: Axis| ends.map(|end| surroundings.across(end, axis as usize, is_linked));
+        let mut gradient = Self::NONE;
+        let is_supported = match BondClass::of(bonds.direction[bond]) {
+            BondClass::Horizontal => {
+                gradient.add(Axis::X, ends, 1.0, positions);
+                gradient.add_mean(Axis::Y, across(Axis::Y), positions)
+            }
+            BondClass::Vertical => {
+                gradient.add(Axis::Y, ends, 1.0, positions);
+                gradient.add_mean(Axis::X, across(Axis::X), positions)
+            }
+            BondClass::Shear => {
+                let [first, second] = ends;
+                // a lies above or below the first end, b beside it.
+                let [a, b] = surroundings.corners(bond, is_linked);
+                let along_x = [b.map(|b| [first, b]), a.map(|a| [a, second])];
+                let along_y = [a.map(|a| [first, a]), b.map(|b| [b, second])];
+                gradient.add_mean(Axis::X, along_x, positions)
+                    && gradient.add_mean(Axis::Y, along_y, positions)
+            }
+        };
+        if is_supported { gradient } else { Self::NONE }
+    }
+
+    /// Adds the mean of the difference quotients that there are; tells whether there are any.
+    #[inline]
+    fn add_mean(
+        &mut self,
+        axis: Axis,
+        quotients: [Option<[u32; 2]>; 2],
+        positions: &[[f64; 2]],
+    ) -> bool {
+        let count = quotients.iter().flatten().count();
+        for &ends in quotients.iter().flatten() {
+            self.add(axis, ends, 1.0 / count as f64, positions);
+        }
+        count > 0
+    }
+
+    /// Adds `weight` times the difference quotient from one point to another along an axis.
+    #[inline]
+    fn add(&mut self, axis: Axis, [from, to]: [u32; 2], weight: f64, positions: &[[f64; 2]]) {
+        let distance =
+            positions[to as usize][axis as usize] - positions[from as usize][axis as usize];
+        for (point, value) in [(from, -weight / distance), (to, weight / distance)] {
+            let place = self.place_of(point);
+            match axis {
+                Axis::X => self.by_x[place] += value,
+                Axis::Y => self.by_y[place] += value,
+            }
+        }
+    }
+
+    #[inline]
+    fn place_of(&mut self, point: u32) -> usize {
+        let known = self.points[..self.count].iter().position(|it| *it == point);
+        known.unwrap_or_else(|| {
+            self.points[self.count] = point;
+            self.count += 1;
+            self.count - 1
+        })
+    }
+
+    /// The points with their weights.
+    #[inline]
+    fn weights(&self) -> impl Iterator<Item = (u32, f64, f64)> + '_ {
+        let weights = self.by_x.iter().zip(&self.by_y);
+        let points = self.points[..self.count].iter().zip(weights);
+        points.map(|(&point, (&x, &y))| (point, x, y))
+    }
+}
+
+impl ImaginaryElement {
+    /// The points that it couples.
+    pub fn points(&self) -> &[u32] {
+        &self.gradient.points[..self.gradient.count]
+    }
+
+    /// Block of the stiffness between two of its points, given by their places in [`ImaginaryElement::points`]: rows of the
+    /// first, columns of the second, shape (2, 2), N/m.
+    pub fn block(&self, first: usize, second: usize) -> [[f64; 2]; 2] {
+        let [d11, d12, d16, d22, d26, d66] = self.stiffness;
+        let Gradient { by_x, by_y, .. } = &self.gradient;
+        let ([x, y], [x_2, y_2]) = ([by_x[first], by_y[first]], [by_x[second], by_y[second]]);
+        // Columns of D B of the second point.
+        let of_u = [
+            d11 * x_2 + d16 * y_2,
+            d12 * x_2 + d26 * y_2,
+            d16 * x_2 + d66 * y_2,
+        ];
+        let of_v = [
+            d12 * y_2 + d16 * x_2,
+            d22 * y_2 + d26 * x_2,
+            d26 * y_2 + d66 * x_2,
+        ];
+        [
+            [x * of_u[0] + y * of_u[2], x * of_v[0] + y * of_v[2]],
+            [y * of_u[1] + x * of_u[2], y * of_v[1] + x * of_v[2]],
+        ]
+    }
+
+    /// D S for the strains (S_xx, S_yy, S_xy) of a deformation, J.
+    #[inline]
+    fn stress(&self, deformation: &BondDeformation) -> [f64; 3] {
+        let [d11, d12, d16, d22, d26, d66] = self.stiffness;
+        let [xx, yy, xy] = deformation.strain();
+        [
+            d11 * xx + d12 * yy + d16 * xy,
+            d12 * xx + d22 * yy + d26 * xy,
+            d16 * xx + d26 * yy + d66 * xy,
+        ]
+    }
+}
+
+impl Element for ImaginaryElement {
+    /// # Panics
+    ///
+    /// Panics if the system is not one of imaginary elements.
+    #[inline]
+    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
+        let elements = system
+            .imaginary
+            .as_ref()
+            .expect("a system of imaginary elements");
+        let (around, positions) = (&elements.surroundings, &elements.positions);
+        let gradient = Gradient::of(&system.bonds, around, positions, intact, bond);
+        let is_supported = gradient.count > 0;
+        Self {
+            gradient,
+            stiffness: if is_supported {
+                elements.stiffness[bond].entries
+            } else {
+                [0.0; 6]
+            },
+        }
+    }
+
+    #[inline]
+    fn weakened(self, remaining: &Remaining) -> Self {
+        // D has no parts of its own for stretch and shear.
+        Self {
+            stiffness: self.stiffness.map(|entry| remaining.axial * entry),
+            ..self
+        }
+    }
+
+    #[inline]
+    fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
+        let mut strain = [0.0; 3];
+        for (point, x, y) in self.gradient.weights() {
+            let first = UNKNOWNS * point as usize;
+            let [u, v] = [unknowns[first], unknowns[first + 1]];
+            strain[0] += x * u;
+            strain[1] += y * v;
+            strain[2] += y * u + x * v;
+        }
+        BondDeformation::of_strain(strain)
+    }
+
+    #[inline]
+    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
+        if self.gradient.count == 0 {
+            return BondDeformation::default();
+        }
+        BondDeformation::of_strain(strain)
+    }
+
+    #[inline]
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+        let stress = self.stress(one);
+        let products = stress.iter().zip(other.strain());
+        0.5 * products
+            .map(|(stress, strain)| stress * strain)
+            .sum::<f64>()
+    }
+
+    #[inline]
+    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; UNKNOWNS])) {
+        let [xx, yy, xy] = self.stress(deformation);
+        for (point, x, y) in self.gradient.weights() {
+            add(point, [x * xx + y * xy, y * yy + x * xy, 0.0]);
+        }
+    }
+
+    /// D S: the gradient is exact for linear fields.
+    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
+        self.stress(deformation)
+    }
+
+    /// One term for each eigenvalue of D.
+    fn terms(&self) -> [Term; 3] {
+        let SymmetricEigen {
+            eigenvalues,
+            eigenvectors,
+        } = matrix(self.stiffness).symmetric_eigen();
+        [0, 1, 2].map(|mode| {
+            let of_strain: Vector3<f64> = eigenvectors.column(mode).into();
+            let entries = self.gradient.weights().flat_map(|(point, x, y)| {
+                let first = UNKNOWNS * point as usize;
+                let [xx, yy, xy] = [of_strain[0], of_strain[1], of_strain[2]];
+                [(first, xx * x + xy * y), (first + 1, yy * y + xy * x)]
+            });
+            (
+                eigenvalues[mode],
+                entries.filter(|(_, value)| *value != 0.0).collect(),
+            )
+        })
+    }
+}

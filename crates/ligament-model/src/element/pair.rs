@@ -1,0 +1,116 @@
+//! Bonds that couple their two ends and nothing else.
+
+use nalgebra::{Matrix6, Vector6};
+
+use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
+use crate::system::BondSystem;
+
+/// The kinematics of a bond between two points.
+pub trait PairKinematics: Copy {
+    /// Those of a bond.
+    fn of(system: &BondSystem, bond: usize) -> Self;
+
+    /// With the rigidities times what is left of them.
+    fn weakened(self, remaining: &Remaining) -> Self;
+
+    /// Length l, m, and direction cosines (a, b) from A to B.
+    fn geometry(&self) -> (f64, [f64; 2]);
+
+    /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B.
+    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation;
+
+    /// 1/2 u^T K u', J, for two deformations of the same bond.
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64;
+
+    /// Internal forces and moments K u at the ends A and B, N and N m.
+    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2];
+
+    /// K as a sum over stretch, shear and relative rotation of rigidity g g^T; the rows g take the unknowns of A and B to
+    /// (s, gamma, theta_rel).
+    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3];
+
+    /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
+    fn stiffness(&self) -> Matrix6<f64> {
+        let modes = self.modes().into_iter();
+        modes.fold(Matrix6::zeros(), |sum, (rigidity, gradient)| {
+            let gradient = Vector6::from(gradient);
+            sum + rigidity * gradient * gradient.transpose()
+        })
+    }
+}
+
+/// A bond of two points: its ends and what happens between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair<B> {
+    /// Points A and B.
+    pub ends: [u32; 2],
+    /// Kinematics and rigidities.
+    pub bond: B,
+}
+
+impl<B: PairKinematics> Element for Pair<B> {
+    #[inline]
+    fn of(system: &BondSystem, _: &[bool], bond: usize) -> Self {
+        Self {
+            ends: system.bonds.ends[bond],
+            bond: B::of(system, bond),
+        }
+    }
+
+    #[inline]
+    fn weakened(self, remaining: &Remaining) -> Self {
+        Self {
+            bond: self.bond.weakened(remaining),
+            ..self
+        }
+    }
+
+    #[inline]
+    fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
+        let [a, b] = self.ends.map(|end| UNKNOWNS * end as usize);
+        self.bond
+            .deformation(&unknowns[a..a + UNKNOWNS], &unknowns[b..b + UNKNOWNS])
+    }
+
+    /// s = a^2 eps_xx + b^2 eps_yy + a b gamma_xy, gamma = a b (eps_yy - eps_xx) + (a^2 - b^2) gamma_xy/2.
+    #[inline]
+    fn deformation_in(&self, [xx, yy, xy]: [f64; 3]) -> BondDeformation {
+        let (_, [a, b]) = self.bond.geometry();
+        BondDeformation {
+            stretch: a * a * xx + b * b * yy + a * b * xy,
+            shear: a * b * (yy - xx) + 0.5 * (a * a - b * b) * xy,
+            rotation: 0.0,
+        }
+    }
+
+    #[inline]
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+        self.bond.mutual_energy(one, other)
+    }
+
+    #[inline]
+    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; UNKNOWNS])) {
+        let [at_a, at_b] = self.bond.end_forces(deformation);
+        add(self.ends[0], at_a);
+        add(self.ends[1], at_b);
+    }
+
+    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
+        let (length, direction) = self.bond.geometry();
+        let [_, [f_x, f_y, _]] = self.bond.end_forces(deformation);
+        let [xi_x, xi_y] = direction.map(|cosine| cosine * length);
+        [f_x * xi_x, f_y * xi_y, 0.5 * (f_x * xi_y + f_y * xi_x)]
+    }
+
+    fn terms(&self) -> [Term; 3] {
+        let [a, b] = self.ends.map(|end| UNKNOWNS * end as usize);
+        let degrees_of_freedom = [a, a + 1, a + 2, b, b + 1, b + 2];
+        self.bond.modes().map(|(rigidity, gradient)| {
+            let entries = degrees_of_freedom.into_iter().zip(gradient);
+            (
+                rigidity,
+                entries.filter(|(_, value)| *value != 0.0).collect(),
+            )
+        })
+    }
+}
