@@ -22,7 +22,9 @@ use crate::progress::{Progress, ProgressMode};
 use crate::resolve::{self, Loading};
 use crate::run::ELASTIC_ENERGY_TOLERANCE;
 use crate::stages::{Stage, Stages};
-use crate::summary::{Spread, correction_line, family, formulation_line, heading};
+use crate::summary::{
+    Spread, correction_line, family, formulation_line, heading, temperature_change,
+};
 
 /// How far a check goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,16 +161,31 @@ fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::R
                     it.poisson, it.shear_modulus, it.angle
                 )
             }
+            Elasticity::Anisotropic(it) => {
+                let c = it.stiffness;
+                let of_rows = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+                let values = of_rows.map(|place| format!("{:.4e}", c[place]));
+                format!("c11, c12, c16, c22, c26, c66 = {} Pa", values.join(", "))
+            }
         };
         write!(out, "  {name}: {constants}, volume {volume:.6e} m^3")?;
         for (name, value, unit) in [
             ("F_t", material.tensile_strength, "Pa"),
             ("F_c", material.compressive_strength, "Pa"),
             ("G_c", material.fracture_energy, "J/m^2"),
+            ("G_IIc", material.fracture_energy_sliding, "J/m^2"),
         ] {
             if let Some(value) = value {
                 write!(out, ", {name} = {value:.4e} {unit}")?;
             }
+        }
+        if let Some(expansion) = material.expansion {
+            let [one, two] = expansion.in_plane;
+            write!(out, ", alpha = {one:.4e}")?;
+            if one != two {
+                write!(out, " and {two:.4e}")?;
+            }
+            write!(out, " 1/K")?;
         }
         match material.density {
             Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,
@@ -244,16 +261,31 @@ fn write_boundary(
     for group in &loading.boundary.groups {
         write_group(out, body, &group.name, &group.points)?;
     }
+    if let Some(Spread { min, mean, max }) = temperature_change(&loading.boundary) {
+        writeln!(
+            out,
+            "  temperature change    {min:.4e} to {max:.4e} K, mean {mean:.4e}"
+        )?;
+    }
     let control = &loading.boundary.control;
-    let (count, size) = (control.points.len(), control.magnitude);
-    let unit = match control.kind {
-        ControlKind::Force => case.case.units().force,
-        ControlKind::Displacement | ControlKind::Temperature => case.case.units().displacement,
-    };
-    writeln!(
-        out,
-        "  controlled by         {count} points, size {size:.4e} {unit}"
-    )?;
+    let (count, size, units) = (control.points.len(), control.magnitude, case.case.units());
+    match control.kind {
+        ControlKind::Temperature => writeln!(
+            out,
+            "  controlled by         the temperature, size {size:.4e} {}",
+            units.displacement
+        )?,
+        ControlKind::Displacement => writeln!(
+            out,
+            "  controlled by         {count} points, size {size:.4e} {}",
+            units.displacement
+        )?,
+        ControlKind::Force => writeln!(
+            out,
+            "  controlled by         {count} points, size {size:.4e} {}",
+            units.force
+        )?,
+    }
     for probe in &loading.probes {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {

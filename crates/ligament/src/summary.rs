@@ -6,6 +6,7 @@ mod solver;
 
 use std::io::{self, Write};
 
+use ligament_analysis::Boundary;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::equilibrium::Stability;
 use serde::Serialize;
@@ -26,7 +27,10 @@ pub struct Summary {
     /// The model.
     #[serde(flatten)]
     pub model: ModelSummary,
-    /// Units of the displacement and the force of the first load.
+    /// Smallest, mean and largest change of the temperature of the points at load factor 1, where it changes, K.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature_change: Option<Spread>,
+    /// Units of the displacement and the force of the first load, or of the temperature where it is the load.
     pub units: Units,
     /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
@@ -117,11 +121,18 @@ impl From<Stability> for StabilitySummary {
     }
 }
 
+/// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
+pub(crate) fn temperature_change(boundary: &Boundary) -> Option<Spread> {
+    let changes = &boundary.temperature_change;
+    (!changes.is_empty()).then(|| Spread::of(changes.iter().copied()))
+}
+
 impl Summary {
     /// Collects the numbers.
     pub fn new(
         case: &CaseFile,
         model: &Model,
+        boundary: &Boundary,
         outcome: &Outcome,
         notices: Vec<String>,
         stages: &[Stage],
@@ -138,6 +149,7 @@ impl Summary {
         warnings.extend(notices);
         Self {
             model: ModelSummary::new(case, model),
+            temperature_change: temperature_change(boundary),
             units: case.case.units(),
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
@@ -171,9 +183,19 @@ impl Summary {
         let Units {
             displacement: along,
             force,
+            stiffness: per_displacement,
         } = self.units;
+        if let Some(Spread { min, mean, max }) = self.temperature_change {
+            writeln!(
+                out,
+                "  temperature change {min:.4e} to {max:.4e} K, mean {mean:.4e}"
+            )?;
+        }
         if let Some(stiffness) = self.elastic_stiffness {
-            writeln!(out, "  elastic stiffness  {stiffness:.6e} {force}/{along}")?;
+            writeln!(
+                out,
+                "  elastic stiffness  {stiffness:.6e} {per_displacement}"
+            )?;
         }
         let broke = self.broken_bonds > 0;
         let of_breaking = |point: Option<PathPoint>| point.filter(|_| broke);

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::model_file::{Absence, MODEL};
+use super::model_file::{Absence, COEFFICIENTS, MODEL};
+use super::point_fields::THERMAL_STRAIN;
 use crate::csv::read::Sheet;
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
@@ -74,8 +75,8 @@ pub struct StoredCriterion {
     pub after: String,
     /// Limits, shape (n_bonds).
     pub limit: Vec<f64>,
-    /// Coefficients of the measure, shape (n_bonds) or empty.
-    pub coefficient: Vec<f64>,
+    /// Coefficients of the measure, each with shape (n_bonds); none where it has none.
+    pub coefficients: Vec<Vec<f64>>,
     /// Numbers of the law after the limit, shape (n_bonds) or empty.
     pub parameter: Vec<f64>,
 }
@@ -125,8 +126,15 @@ pub struct StoredBreak {
     pub shear: f64,
 }
 
-/// Displacements along x and y and rotation of each point, shape (n_points).
-pub type Motions = Vec<[f64; 3]>;
+/// Where the points are in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motions {
+    /// Displacements along x and y and rotation of each point, shape (n_points).
+    pub of_points: Vec<[f64; 3]>,
+    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, shape (n_points, 3); empty
+    /// where it does not change.
+    pub thermal_strain: Vec<[f64; 3]>,
+}
 
 impl StoredRun {
     /// Opens the results in a folder.
@@ -175,11 +183,18 @@ impl StoredRun {
         let displacement = required(&file, location, "displacement", VtuFile::numbers)?;
         let rotation = required(&file, location, "rotation", VtuFile::numbers)?;
         let n_points = self.model.positions.len();
-        if displacement.len() != 3 * n_points || rotation.len() != n_points {
+        let thermal = (file.numbers(location, THERMAL_STRAIN)?).unwrap_or_default();
+        let fits = displacement.len() == 3 * n_points
+            && rotation.len() == n_points
+            && (thermal.is_empty() || thermal.len() == 3 * n_points);
+        if !fits {
             return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
         }
         let motions = displacement.chunks_exact(3).zip(rotation);
-        Ok(Some(motions.map(|(u, turn)| [u[0], u[1], turn]).collect()))
+        Ok(Some(Motions {
+            of_points: motions.map(|(u, turn)| [u[0], u[1], turn]).collect(),
+            thermal_strain: thermal.as_chunks().0.to_vec(),
+        }))
     }
 }
 
@@ -278,9 +293,9 @@ impl StoredModel {
             bonds.domain_factor.len(),
         ];
         let of_criteria = self.criteria.iter().all(|it| {
-            let may_be_empty = [&it.coefficient, &it.parameter];
-            let fits = |values: &&Vec<f64>| values.is_empty() || values.len() == n_bonds;
-            it.limit.len() == n_bonds && may_be_empty.iter().all(fits)
+            let mut all = it.coefficients.iter().chain([&it.limit]);
+            let parameter = it.parameter.len();
+            all.all(|values| values.len() == n_bonds) && (parameter == 0 || parameter == n_bonds)
         });
         let mut of_largest =
             largest.flat_map(|it| [it.utilisation.len(), it.step.len(), it.criterion.len()]);
@@ -324,9 +339,12 @@ fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error
             file.numbers(FieldLocation::Cell, &format!("{what}.{name}"))
                 .map(Option::unwrap_or_default)
         };
+        let coefficients = COEFFICIENTS.iter().map(|what| field(what));
+        let mut coefficients = coefficients.collect::<Result<Vec<_>, _>>()?;
+        coefficients.retain(|values| !values.is_empty());
         Ok(StoredCriterion {
             limit: field("limit")?,
-            coefficient: field("coefficient")?,
+            coefficients,
             parameter: field("after")?,
             name,
             measure,

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::path::Path;
 
-use ligament_mesh::{Cell, Group, Mesh};
+use ligament_mesh::{Cell, Group, Mesh, NodeField};
 use ligament_model::PointCloud;
 use ligament_output::results::{BodyGrid, Canvas};
 use ligament_output::vtu;
@@ -98,6 +98,10 @@ impl Body for MeshBody {
             }
         }
         lengths.into_iter().collect()
+    }
+
+    fn fields(&self) -> &[NodeField] {
+        &self.0.fields
     }
 
     /// Half of the normal of each edge, away from its one cell, at each of its nodes.

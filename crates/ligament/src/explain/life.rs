@@ -1,9 +1,9 @@
 //! What bonds went through.
 
-use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
-use ligament_model::element::pair::PairKinematics;
+use ligament_model::element::pair::{Pair, PairKinematics};
 use ligament_model::element::spring::SpringBond;
+use ligament_model::element::{BondDeformation, Element};
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_output::Error;
 use ligament_output::results::stored::{
@@ -57,7 +57,7 @@ pub(super) struct Limit {
     pub(super) name: String,
     pub(super) measure: Measure,
     pub(super) limit: f64,
-    pub(super) coefficient: f64,
+    pub(super) coefficients: Vec<f64>,
     pub(super) after: AfterLimit,
 }
 
@@ -123,14 +123,14 @@ impl Limit {
             name: criterion.name.clone(),
             measure,
             limit: criterion.limit[pair],
-            coefficient: criterion.coefficient.get(pair).copied().unwrap_or(0.0),
+            coefficients: criterion.coefficients.iter().map(|it| it[pair]).collect(),
             after: AfterLimit::from_word(&criterion.after, parameter.into_iter().collect())?,
         })
     }
 
     /// The measure of a deformation.
     pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
-        self.measure.of(deformation, self.coefficient)
+        self.measure.of(deformation, &self.coefficients)
     }
 
     /// Measure over limit, 0 where the measure is not positive.
@@ -168,19 +168,28 @@ impl Life {
         })
     }
 
-    /// The deformation for the motions of all points. The points of springs do not turn, so that this holds for them as well.
+    /// The deformation for the motions of all points, without what the temperature gives it. The points of springs do not
+    /// turn, so that this holds for them as well.
     fn deformed(&self, motions: &Motions) -> BondDeformation {
-        let kinematics = BeamBond {
-            springs: SpringBond {
-                length: self.length,
-                direction: self.direction,
-                axial_rigidity: 0.0,
-                shear_rigidity: 0.0,
+        let pair = Pair {
+            ends: self.ends,
+            bond: BeamBond {
+                springs: SpringBond {
+                    length: self.length,
+                    direction: self.direction,
+                    axial_rigidity: 0.0,
+                    shear_rigidity: 0.0,
+                },
+                rotational_rigidity: 0.0,
             },
-            rotational_rigidity: 0.0,
         };
-        let [a, b] = self.ends.map(|end| &motions[end as usize]);
-        kinematics.deformation(a, b)
+        let [a, b] = self.ends.map(|end| &motions.of_points[end as usize]);
+        let whole = pair.bond.deformation(a, b);
+        if motions.thermal_strain.is_empty() {
+            return whole;
+        }
+        let [a, b] = self.ends.map(|end| motions.thermal_strain[end as usize]);
+        whole.less(&pair.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
     }
 
     /// What follows from all moments.
@@ -298,7 +307,7 @@ mod tests {
             name: "tension".to_owned(),
             measure: Measure::Tension,
             limit: 2.0,
-            coefficient: 0.0,
+            coefficients: Vec::new(),
             after: AfterLimit::Bilinear { end: vec![4.0] },
         };
         let stretched = |stretch| BondDeformation {

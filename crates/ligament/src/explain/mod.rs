@@ -171,7 +171,9 @@ fn loading(folder: &Path) -> anyhow::Result<Loading> {
     let given = |key: &str| first.and_then(|load| load.get(key));
     let moves = |motion: &toml::Value| motion.get("x").or(motion.get("y")).is_some();
     let turns = given("displacement").is_some_and(|motion| !moves(motion));
-    let units = if given("pressure").is_some() {
+    let units = if first.is_none() {
+        Units::TEMPERATURE
+    } else if given("pressure").is_some() {
         Units::PRESSURE
     } else if turns || given("moment").or(given("body_couple")).is_some() {
         Units::COUPLE
