@@ -107,5 +107,6 @@ experiments!(
     griffith,
     softening,
     plates,
+    cylinder,
     cracks
 );

@@ -18,6 +18,7 @@ use crate::suggestion::hint;
 
 mod anisotropy;
 mod cracks;
+mod cylinder;
 mod disk;
 pub mod entry;
 mod frequencies;
@@ -47,7 +48,7 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 13] = [
+pub static EXPERIMENTS: [Experiment; 14] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -60,6 +61,7 @@ pub static EXPERIMENTS: [Experiment; 13] = [
     griffith::EXPERIMENT,
     softening::EXPERIMENT,
     plates::EXPERIMENT,
+    cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
 ];
 

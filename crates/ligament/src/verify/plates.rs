@@ -22,6 +22,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         "cases/mbb-plate/tension.toml",
         "cases/mbb-plate/tension-x.toml",
         "cases/mbb-plate/shear.toml",
+        "cases/thermal-plates/case.toml",
+        "cases/thermal-plates/three-edges.toml",
     ],
     compute,
 };
@@ -39,6 +41,16 @@ static TENSION_X: Template = Template {
 static SHEAR: Template = Template {
     path: "cases/mbb-plate/shear.toml",
     text: include_str!("../../../../cases/mbb-plate/shear.toml"),
+};
+
+static THERMAL: Template = Template {
+    path: "cases/thermal-plates/case.toml",
+    text: include_str!("../../../../cases/thermal-plates/case.toml"),
+};
+
+static THERMAL_LEFT: Template = Template {
+    path: "cases/thermal-plates/three-edges.toml",
+    text: include_str!("../../../../cases/thermal-plates/three-edges.toml"),
 };
 
 /// Problem, d, x, y (mm), u_x, u_y (um) by finite elements.
@@ -107,6 +119,8 @@ fn tension(labels: Labels<'_>) -> anyhow::Result<&'static Template> {
 fn problem(labels: Labels<'_>) -> anyhow::Result<Trial> {
     match labels.text("problem")? {
         "shear" => Ok(SHEAR.trial()),
+        "thermal" => Ok(THERMAL.trial()),
+        "thermal-left" => Ok(THERMAL_LEFT.trial()),
         other => bail!("no problem `{other}`"),
     }
 }
