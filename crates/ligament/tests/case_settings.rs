@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use ligament::case::{
-    Action, CaseFile, Control, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps,
-    Vector,
+    Action, CaseFile, Control, CorrectionRule, Displacement, Ends, Place, Plane, Precrack, Region,
+    Steps, Vector,
 };
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -61,7 +61,8 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(
         case.precracks,
         [Precrack {
-            points: vec![[-0.015, 0.0], [0.015, 0.0]]
+            points: vec![[-0.015, 0.0], [0.015, 0.0]],
+            ends: Ends::Excluded,
         }]
     );
     let held = Displacement {
