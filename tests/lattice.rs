@@ -372,7 +372,6 @@ fn a_crack_with_its_ends_cuts_what_meets_it() {
         };
         // Without its ends a crack from 0.1 um before them: bonds through them pass it, however their coordinates are rounded.
         let found = [count(0.005 - 1e-7, "excluded"), count(0.005, "included")];
-        println!("{n} cells a side: {found:?}");
         assert_eq!(found, met_by_a_crack(n, 20));
         assert_eq!(found, cut);
         assert_eq!(count(0.06, "included"), across);

@@ -204,7 +204,8 @@ impl Case {
         Ok(case)
     }
 
-    /// Units of the displacement and the force in the history, which are those of the first load, or of the temperature.
+    /// Units of the displacement and the force in the history, which are those of the first load, or of the temperature where
+    /// there is none.
     pub fn units(&self) -> Units {
         let first = self.loads.first();
         first.map_or(Units::TEMPERATURE, |load| load.action.units())

@@ -30,7 +30,7 @@ pub struct Summary {
     /// Smallest, mean and largest change of the temperature of the points at load factor 1, where it changes, K.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_change: Option<Spread>,
-    /// Units of the displacement and the force of the first load.
+    /// Units of the displacement and the force of the first load, or of the temperature where it is the load.
     pub units: Units,
     /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
@@ -183,6 +183,7 @@ impl Summary {
         let Units {
             displacement: along,
             force,
+            stiffness: per_displacement,
         } = self.units;
         if let Some(Spread { min, mean, max }) = self.temperature_change {
             writeln!(
@@ -191,7 +192,10 @@ impl Summary {
             )?;
         }
         if let Some(stiffness) = self.elastic_stiffness {
-            writeln!(out, "  elastic stiffness  {stiffness:.6e} {force}/{along}")?;
+            writeln!(
+                out,
+                "  elastic stiffness  {stiffness:.6e} {per_displacement}"
+            )?;
         }
         let broke = self.broken_bonds > 0;
         let of_breaking = |point: Option<PathPoint>| point.filter(|_| broke);

@@ -51,22 +51,26 @@ pub struct Units {
     pub displacement: &'static str,
     /// Of the force.
     pub force: &'static str,
+    /// Of their quotient.
+    #[serde(skip)]
+    pub stiffness: &'static str,
 }
 
 impl Units {
     /// A force and the displacement along it.
-    pub const FORCE: Self = Self::new("m", "N");
+    pub const FORCE: Self = Self::new("m", "N", "N/m");
     /// A couple and its rotation.
-    pub const COUPLE: Self = Self::new("rad", "N m");
+    pub const COUPLE: Self = Self::new("rad", "N m", "N m/rad");
     /// A pressure and the volume that it sweeps.
-    pub const PRESSURE: Self = Self::new("m^3", "Pa");
+    pub const PRESSURE: Self = Self::new("m^3", "Pa", "Pa/m^3");
     /// A change of temperature and what does work with it.
-    pub const TEMPERATURE: Self = Self::new("K", "J/K");
+    pub const TEMPERATURE: Self = Self::new("K", "J/K", "J/K^2");
 
-    const fn new(displacement: &'static str, force: &'static str) -> Self {
+    const fn new(displacement: &'static str, force: &'static str, stiffness: &'static str) -> Self {
         Self {
             displacement,
             force,
+            stiffness,
         }
     }
 }
