@@ -118,6 +118,15 @@ pub enum YieldError {
          with a strength of the material), or take limits that are the same for all bonds with --criterion"
     )]
     NoCriteria,
+    /// A case whose bonds have the strains of what is around them.
+    #[error(
+        "the bonds of law = \"{law}\" have all strains of a rectangle around them, not a stretch and a shear of their own: in a \
+         uniform strain they are the same whatever the direction, and there is nothing to compare"
+    )]
+    NoDirections {
+        /// Its law.
+        law: &'static str,
+    },
     /// A case without a Poisson's ratio for all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {
