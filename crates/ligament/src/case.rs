@@ -162,9 +162,10 @@ impl Case {
             number += 1;
             load.check(key, number)
         })?;
+        let law = raw.model.law();
         let fracture = raw
             .fracture
-            .map(|it| it.check(&section("fracture")))
+            .map(|it| it.check(&section("fracture"), law))
             .transpose()?;
         let model = raw.model.check(&section("model"))?;
         let case = Self {

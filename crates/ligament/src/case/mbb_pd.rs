@@ -2,6 +2,7 @@
 
 use super::analysis::Analysis;
 use super::correction::{Alpha, Surface};
+use super::criterion::CriterionKind;
 use super::fault::KeyFault;
 use super::fracture::StressField;
 use super::key_path::KeyPath;
@@ -9,9 +10,40 @@ use super::model::Law;
 use super::probe::Reading;
 use super::{BodySection, Case};
 
+/// The fault of a criterion that looks at what bonds of the law do not have.
+fn check_criteria(case: &Case) -> Result<(), KeyFault> {
+    let Some(fracture) = &case.fracture else {
+        return Ok(());
+    };
+    let is_law = case.model.law == Law::MbbPd;
+    for (place, criterion) in fracture.criteria.iter().enumerate() {
+        let is_mixed = matches!(criterion.kind, CriterionKind::MixedMode { .. });
+        if is_mixed == is_law {
+            continue;
+        }
+        let list = KeyPath::default().child("fracture").child("criterion");
+        let (key, kind) = (list.child(place).child("kind"), criterion.kind.word());
+        let reason = if is_law {
+            format!(
+                "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of model.law = \"mbb-pd\" have \
+                 strains of their own: take \"mixed-mode\""
+            )
+        } else {
+            format!(
+                "\"mixed-mode\" looks at strains of the bond's own, which only model.law = \"mbb-pd\" has: for \"{}\" take \
+                 \"critical-stretch\" or \"bond-energy\"",
+                case.model.law.word()
+            )
+        };
+        return Err(KeyFault::new(key, reason));
+    }
+    Ok(())
+}
+
 /// The fault of a case that has the law but not what its elements need: the rows and columns of a square lattice, no correction beside
 /// their own factors, and nothing that looks at forces between two points.
 pub(super) fn check(case: &Case) -> Result<(), KeyFault> {
+    check_criteria(case)?;
     if case.model.law != Law::MbbPd {
         return Ok(());
     }

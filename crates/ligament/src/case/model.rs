@@ -146,6 +146,11 @@ pub(super) struct RawModel {
 }
 
 impl RawModel {
+    /// The law, which other sections ask for before this one is checked.
+    pub(super) fn law(&self) -> Law {
+        self.law
+    }
+
     pub(super) fn check(self, key: &KeyPath) -> Result<ModelSection, KeyFault> {
         let (factor, horizon) = (self.horizon_factor, self.horizon);
         if factor.is_some() == horizon.is_some() {
