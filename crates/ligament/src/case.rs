@@ -45,7 +45,7 @@ pub use lattice_section::{CellSet, Circle, Hole, LatticeSection, MOST_CELLS};
 pub use load::{Action, Load, Profile};
 pub use material::{Anisotropic, Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
-pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
+pub use model::{Calibration, Form, Law, ModelSection, RotationalStiffness, Strains};
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};

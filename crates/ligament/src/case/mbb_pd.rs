@@ -6,7 +6,7 @@ use super::criterion::CriterionKind;
 use super::fault::KeyFault;
 use super::fracture::StressField;
 use super::key_path::KeyPath;
-use super::model::Law;
+use super::model::{Form, Law, Strains};
 use super::probe::Reading;
 use super::{BodySection, Case};
 
@@ -40,6 +40,32 @@ fn check_criteria(case: &Case) -> Result<(), KeyFault> {
     Ok(())
 }
 
+/// The fault of a variant of the law in an analysis that it is not made for.
+fn check_variants(case: &Case) -> Result<(), KeyFault> {
+    let model = KeyPath::default().child("model");
+    let is_static = case.analysis == Analysis::Static;
+    let is_true = case.model.strains == Some(Strains::True);
+    if case.model.form == Some(Form::Pairwise) {
+        let reason = if !is_static {
+            "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be followed: it \
+             is for elastic analyses; take \"full\""
+        } else if !case.precracks.is_empty() {
+            "the printed factors are those of whole families: it takes no pre-cracks; take \"full\""
+        } else if is_true {
+            "it takes strains = \"small\" alone"
+        } else {
+            return Ok(());
+        };
+        return Err(KeyFault::new(model.child("form"), reason));
+    }
+    if is_true && !is_static {
+        let reason = "true strains are not proportional to the load, as the paths of fracture and modes are: they are for elastic \
+                      analyses; take \"small\"";
+        return Err(KeyFault::new(model.child("strains"), reason));
+    }
+    Ok(())
+}
+
 /// The fault of a case that has the law but not what its elements need: the rows and columns of a square lattice, no correction beside
 /// their own factors, and nothing that looks at forces between two points.
 pub(super) fn check(case: &Case) -> Result<(), KeyFault> {
@@ -47,6 +73,7 @@ pub(super) fn check(case: &Case) -> Result<(), KeyFault> {
     if case.model.law != Law::MbbPd {
         return Ok(());
     }
+    check_variants(case)?;
     let section = |name: &str| KeyPath::default().child(name);
     let fault = |key: KeyPath, reason: &str| Err(KeyFault::new(key, reason.to_owned()));
     let BodySection::Lattice(lattice) = &case.body else {

@@ -6,7 +6,7 @@ use ligament_model::failure::mixed_mode::{Components, Lattice, Limits as OfModes
 use ligament_model::failure::{Criterion, Measure, weakest_materials};
 
 use super::Limits;
-use crate::case::MixedModeLimits;
+use crate::case::{Form, MixedModeLimits};
 use crate::resolve;
 
 /// Limits and coefficients of the bonds of a material.
@@ -111,7 +111,10 @@ impl Limits<'_> {
             spacing,
             horizon: resolve::horizon(self.case, spacing),
             thickness: self.system.cloud.thickness,
-            components: Components::All,
+            components: match self.case.case.model.form {
+                Some(Form::Rows) => Components::OwnRows,
+                _ => Components::All,
+            },
         }
     }
 }
