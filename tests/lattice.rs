@@ -170,6 +170,7 @@ fn scattered_squares(columns: u32, rows: u32, side: f64) -> Mesh {
             })
             .collect(),
         groups: Vec::new(),
+        fields: Vec::new(),
         remarks: Vec::new(),
     }
 }

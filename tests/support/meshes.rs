@@ -82,6 +82,7 @@ pub fn renumbered(mesh: &Mesh, order: &[usize]) -> Mesh {
                 ..group.clone()
             })
             .collect(),
+        fields: Vec::new(),
         remarks: Vec::new(),
     }
 }
@@ -134,6 +135,7 @@ pub fn mirrored(mesh: &Mesh) -> (Mesh, Vec<usize>) {
         positions,
         cells,
         groups: groups.map(both).collect(),
+        fields: Vec::new(),
         remarks: Vec::new(),
     };
     (mesh, image)
@@ -173,6 +175,7 @@ pub fn lattice(n: u32, side: f64, corner: [f64; 2]) -> Mesh {
             })
             .collect(),
         groups: vec![curve("bottom", 1, 0), curve("top", 2, n)],
+        fields: Vec::new(),
         remarks: Vec::new(),
     }
 }

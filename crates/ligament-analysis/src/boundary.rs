@@ -12,6 +12,8 @@ pub struct Boundary {
     pub prescribed: Vec<Option<f64>>,
     /// External force or moment on each degree of freedom at load factor 1, shape (3 n_points), N or N m.
     pub force: Vec<f64>,
+    /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
+    pub temperature_change: Vec<f64>,
     /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, at load factor 1, shape
     /// (n_points); empty where no temperature changes.
     pub thermal_strain: Vec<[f64; 3]>,
@@ -127,6 +129,7 @@ impl Boundary {
         Self {
             prescribed: vec![None; COMPONENTS * n_points],
             force: vec![0.0; COMPONENTS * n_points],
+            temperature_change: Vec::new(),
             thermal_strain: Vec::new(),
             groups: Vec::new(),
             control,

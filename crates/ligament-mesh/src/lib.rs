@@ -16,12 +16,14 @@
 //! ```
 
 mod cell;
+mod field;
 pub mod gmsh;
 mod group;
 mod mesh;
 mod remark;
 
 pub use cell::Cell;
+pub use field::NodeField;
 pub use group::Group;
 pub use mesh::Mesh;
 pub use remark::Remark;

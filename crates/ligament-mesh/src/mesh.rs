@@ -1,6 +1,7 @@
 //! What was meshed: nodes, planar cells and named groups.
 
 use crate::cell::Cell;
+use crate::field::NodeField;
 use crate::group::Group;
 use crate::remark::Remark;
 
@@ -17,6 +18,8 @@ pub struct Mesh {
     pub cells: Vec<Cell>,
     /// Physical groups of every dimension, in the order of dimension, then number; none is empty.
     pub groups: Vec<Group>,
+    /// Values at the nodes, in the order of the file.
+    pub fields: Vec<NodeField>,
     /// What was read in another way than it stands in the file, for the user to know.
     pub remarks: Vec<Remark>,
 }

@@ -42,6 +42,7 @@ fn preparation(criterion: &mut Criterion) {
         fracture_energy_sliding: None,
         mixed_mode_exponent: None,
         density: None,
+        expansion: None,
     }];
     let plane = Plane::Stress;
     let energies = [critical_energy(&rock, 3.81e6, plane)];

@@ -4,6 +4,10 @@ mod anisotropic;
 
 pub use anisotropic::Anisotropic;
 
+mod expansion;
+
+pub use expansion::Expansion;
+
 use nalgebra::{Matrix3, Vector3};
 
 /// State of the plane.
@@ -34,6 +38,8 @@ pub struct Material {
     pub mixed_mode_exponent: Option<f64>,
     /// Mass density, kg/m^3.
     pub density: Option<f64>,
+    /// Thermal expansion.
+    pub expansion: Option<Expansion>,
 }
 
 /// Elastic constants.

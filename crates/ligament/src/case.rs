@@ -11,6 +11,7 @@ mod correction;
 mod criterion;
 mod decode;
 mod document;
+mod expansion;
 mod fault;
 mod file;
 mod fracture;
@@ -26,6 +27,7 @@ mod probe;
 mod region;
 mod resolved;
 mod solver;
+mod temperature;
 mod units;
 mod values;
 
@@ -38,6 +40,7 @@ pub use body_section::BodySection;
 pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
 pub use criterion::{After, Criterion, CriterionKind, FrictionCalibration, MixedModeLimits};
+pub use expansion::Expansion;
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
@@ -49,6 +52,7 @@ pub use model::{Calibration, Form, Law, ModelSection, RotationalStiffness, Strai
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
+pub use temperature::{Temperature, TemperatureChange};
 pub use values::{Axis, Point};
 
 use document::Node;
@@ -79,9 +83,12 @@ pub struct Case {
     /// Supports.
     #[serde(rename = "support", skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
-    /// Loads: one or more, but none where modes are wanted.
+    /// Loads: one or more unless the temperature changes, but none where modes are wanted.
     #[serde(rename = "load", skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<Load>,
+    /// Changes of temperature.
+    #[serde(rename = "temperature", skip_serializing_if = "Vec::is_empty")]
+    pub temperatures: Vec<Temperature>,
     /// Parts of the body where bonds never break.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub no_fail: Vec<Region>,
@@ -121,6 +128,8 @@ struct RawCase {
     #[serde(default)]
     load: Vec<load::RawLoad>,
     #[serde(default)]
+    temperature: Vec<temperature::RawTemperature>,
+    #[serde(default)]
     no_fail: Vec<region::RawRegion>,
     #[serde(default)]
     probe: Vec<probe::RawProbe>,
@@ -146,11 +155,12 @@ impl Case {
             fracture: raw.fracture.is_some(),
             modal: raw.modal.is_some(),
             loads: !raw.load.is_empty(),
+            temperature: !raw.temperature.is_empty(),
             probes: !raw.probe.is_empty(),
             output: raw.output.is_some(),
         };
         let analysis = Analysis::of(raw.analysis, &given)?;
-        if raw.load.is_empty() && analysis != Analysis::Modal {
+        if raw.load.is_empty() && raw.temperature.is_empty() && analysis != Analysis::Modal {
             return Err(missing_section("load"));
         }
         let modal = match analysis {
@@ -178,6 +188,9 @@ impl Case {
             precracks: each("precrack", raw.precrack, Precrack::check)?,
             supports: each("support", raw.support, conditions::RawSupport::check)?,
             loads,
+            temperatures: each("temperature", raw.temperature, |it, key| {
+                it.check(key, folder)
+            })?,
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
             solver: raw.solver.check(&section("solver"))?,
@@ -202,6 +215,19 @@ impl Case {
             material::require_densities(&self.materials)?;
         }
         let path = |list: &str, index: usize| KeyPath::default().child(list).child(index);
+        let is_field = |it: &Temperature| matches!(it.change, TemperatureChange::Field { .. });
+        let field = self.temperatures.iter().position(is_field);
+        if let (Some(index), BodySection::Lattice(_)) = (field, &self.body) {
+            let fault = F::NotWith {
+                key: "mesh_field",
+                setting: "[lattice]".to_owned(),
+                reason: "it is in the file of a mesh; a lattice takes a `file` of its own",
+            };
+            return Err(KeyFault::new(
+                path("temperature", index).child("mesh_field"),
+                fault,
+            ));
+        }
         let loads = self.loads.iter().enumerate();
         let advice =
             ": give one of the loads another `name` (the name of a load without one is its group)";
@@ -245,7 +271,7 @@ fn missing_section(name: &str) -> KeyFault {
         "model" => ("[model]".to_owned(), "`law` and `horizon_factor`"),
         _ => (
             format!("[[{name}]]"),
-            "one or more, or nothing would happen (natural modes need none: analysis = \"modal\")",
+            "one or more, or a [[temperature]], or nothing would happen (natural modes need none: analysis = \"modal\")",
         ),
     };
     KeyFault::new(

@@ -10,7 +10,7 @@ use std::path::Path;
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::gauges;
 use ligament_analysis::probe::{Probe, Reading};
-use ligament_analysis::{Boundary, Equilibrium};
+use ligament_analysis::{Boundary, ControlKind, Equilibrium};
 use ligament_model::Elasticity;
 use ligament_output::results::point_grid;
 
@@ -22,7 +22,9 @@ use crate::progress::{Progress, ProgressMode};
 use crate::resolve::{self, Loading};
 use crate::run::ELASTIC_ENERGY_TOLERANCE;
 use crate::stages::{Stage, Stages};
-use crate::summary::{Spread, correction_line, family, formulation_line, heading};
+use crate::summary::{
+    Spread, correction_line, family, formulation_line, heading, temperature_change,
+};
 
 /// How far a check goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,6 +179,14 @@ fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::R
                 write!(out, ", {name} = {value:.4e} {unit}")?;
             }
         }
+        if let Some(expansion) = material.expansion {
+            let [one, two] = expansion.in_plane;
+            write!(out, ", alpha = {one:.4e}")?;
+            if one != two {
+                write!(out, " and {two:.4e}")?;
+            }
+            write!(out, " 1/K")?;
+        }
         match material.density {
             Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,
             None => writeln!(out)?,
@@ -251,12 +261,24 @@ fn write_boundary(
     for group in &boundary.groups {
         write_group(out, body, &group.name, &group.points)?;
     }
+    if let Some(Spread { min, mean, max }) = temperature_change(boundary) {
+        writeln!(
+            out,
+            "  temperature change    {min:.4e} to {max:.4e} K, mean {mean:.4e}"
+        )?;
+    }
     let control = &boundary.control;
     let (count, size) = (control.points.len(), control.magnitude);
-    writeln!(
-        out,
-        "  controlled by         {count} points, size {size:.4e}"
-    )?;
+    match control.kind {
+        ControlKind::Temperature => writeln!(
+            out,
+            "  controlled by         the temperature, size {size:.4e} K"
+        )?,
+        ControlKind::Displacement | ControlKind::Force => writeln!(
+            out,
+            "  controlled by         {count} points, size {size:.4e}"
+        )?,
+    }
     for probe in probes {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {

@@ -78,6 +78,15 @@ pub fn write_summary(out: &mut dyn Write, path: &Path, mesh: &Mesh) -> io::Resul
         longest / shortest
     )?;
     write_groups(out, mesh)?;
+    for field in &mesh.fields {
+        let values = field.components;
+        let plural = if values == 1 { "" } else { "s" };
+        let (name, step) = (&field.name, field.time_step);
+        writeln!(
+            out,
+            "  field         {name}, time step {step}, {values} value{plural} a node"
+        )?;
+    }
     for remark in &mesh.remarks {
         writeln!(out, "  note: {remark}")?;
     }

@@ -105,7 +105,14 @@ fn follow_loads(
     let outcome = stages.time("solution", || follow(case, &problem, &mut watch))?;
 
     let notices = watch.into_notices();
-    let summary = Summary::new(case, model, &outcome, notices, stages.done());
+    let summary = Summary::new(
+        case,
+        model,
+        &loading.boundary,
+        &outcome,
+        notices,
+        stages.done(),
+    );
     let text =
         serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
     folder.write_text("summary.json", &(text + "\n"))?;

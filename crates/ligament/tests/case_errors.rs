@@ -266,7 +266,7 @@ fn missing_sections_are_named_with_their_purpose() {
     );
     assert_eq!(
         error_of(&without_section("[[load]]")),
-        " load: the case has no [[load]] section; it needs one or more, or nothing would happen (natural \
+        " load: the case has no [[load]] section; it needs one or more, or a [[temperature]], or nothing would happen (natural \
          modes need none: analysis = \"modal\")"
     );
 }

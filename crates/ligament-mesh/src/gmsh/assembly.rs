@@ -5,7 +5,7 @@ use super::element_type::Shape;
 use super::error::GmshError;
 use super::records::{Element, Node, Records};
 use super::tags::NodeIndices;
-use super::{cells, groups, nodes};
+use super::{cells, fields, groups, nodes};
 use crate::mesh::Mesh;
 use crate::remark::Remark;
 
@@ -49,6 +49,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
         .filter(|it| records.elements[it.element].higher_order);
     let mut remarks = remarks(higher_order.count(), &uses);
     let groups = groups::collect(records, &corners, &cell_of_element, &mut remarks);
+    let fields = fields::on_nodes(records, &by_tag, &numbers, kept.len());
     let node_tags = kept.iter().map(|node| node.tag).collect();
     let cells = planar.into_iter().map(|it| it.cell).collect();
     Ok(Mesh {
@@ -56,6 +57,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
         positions,
         cells,
         groups,
+        fields,
         remarks,
     })
 }

@@ -6,6 +6,7 @@
 //!   entity in `$Entities`; elements without a group (`Mesh.SaveAll`) are part of the mesh all the same.
 //!   With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1 then.
 //! - Nodes that no cell uses are dropped, from the groups too.
+//! - `$NodeData` makes the fields of the mesh, of which scalars are kept.
 //! - The z coordinate must be constant and is dropped.
 //!
 //! Files by the Python package meshio are read as well. Its writer of 4.1 (`gmsh`) keeps at most one
@@ -18,6 +19,7 @@ mod cells;
 mod cursor;
 mod element_type;
 mod error;
+mod fields;
 mod groups;
 mod nodes;
 mod records;

@@ -39,6 +39,16 @@ impl Element {
     }
 }
 
+/// The records of a section `$NodeData`.
+#[derive(Debug)]
+pub(super) struct FieldRecord {
+    pub(super) name: String,
+    pub(super) time_step: i32,
+    pub(super) components: u64,
+    /// Tags of nodes with their values; empty for all but scalars.
+    pub(super) values: Vec<(u64, f64)>,
+}
+
 /// All records of a file that a mesh is made of.
 #[derive(Debug, Default)]
 pub(super) struct Records {
@@ -50,6 +60,8 @@ pub(super) struct Records {
     pub(super) names: HashMap<(u8, i32), String>,
     /// Numbers of the physical groups by dimension and owner of their elements.
     pub(super) physicals: HashMap<(u8, i32), Vec<i32>>,
+    /// Values at the nodes.
+    pub(super) fields: Vec<FieldRecord>,
     /// Whether a cell in several groups stands once per group (2.2) rather than once (4.1).
     pub(super) repeats_cells: bool,
 }

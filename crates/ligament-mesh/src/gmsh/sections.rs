@@ -3,7 +3,7 @@
 use super::cursor::{Cursor, shown};
 use super::error::GmshError;
 use super::records::Records;
-use super::{v2, v4};
+use super::{fields, v2, v4};
 
 /// Versions of the format that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,14 +12,13 @@ enum Version {
     V4,
 }
 
-/// Sections that say nothing on nodes, cells and groups.
-const SKIPPED: [&str; 8] = [
+/// Sections that say nothing on nodes, cells, groups and values at nodes.
+const SKIPPED: [&str; 7] = [
     "Comments",
     "ElementData",
     "ElementNodeData",
     "GhostElements",
     "InterpolationScheme",
-    "NodeData",
     "Parametrizations",
     "Periodic",
 ];
@@ -41,6 +40,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Records, GmshError> {
             ("Nodes", Version::V4) => v4::read_nodes(cursor, &mut records)?,
             ("Elements", Version::V2) => v2::read_elements(cursor, &mut records)?,
             ("Elements", Version::V4) => v4::read_elements(cursor, &mut records)?,
+            ("NodeData", _) => fields::read_node_data(cursor, &mut records)?,
             _ if SKIPPED.contains(&name) => cursor.skip_section()?,
             _ => return Err(cursor.unknown_section()),
         }

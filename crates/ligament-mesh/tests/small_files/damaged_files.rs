@@ -116,7 +116,6 @@ fn skipped_sections_change_nothing() {
         "ElementNodeData",
         "GhostElements",
         "InterpolationScheme",
-        "NodeData",
         "Parametrizations",
         "Periodic",
     ] {

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod damaged_files;
+mod fields;
 mod groups;
 mod square;
 mod unfit_meshes;

@@ -109,6 +109,20 @@ impl PointCloud {
             .expect("a cloud has points") as u32
     }
 
+    /// The points nearest to many positions of the case, by a search tree; of several at one distance it may be any.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no point at all, which no mesh or lattice with a cell gives.
+    pub fn nearest_points(&self, positions: &[[f64; 2]]) -> Vec<u32> {
+        let tree = search_tree(&self.positions);
+        let nearest = |&position: &[f64; 2]| {
+            let found = tree.nearest_neighbor(self.local(position));
+            found.expect("a cloud has points").data
+        };
+        positions.iter().map(nearest).collect()
+    }
+
     /// Points inside the box (coordinates of the case, rim included), ascending.
     pub fn points_in_box(&self, lower: [f64; 2], upper: [f64; 2]) -> Vec<u32> {
         let (lower, upper) = (self.local(lower), self.local(upper));

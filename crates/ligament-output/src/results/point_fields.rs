@@ -11,6 +11,9 @@ use super::{AbsentBond, WriteRule};
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+/// Field of the strain (eps_xx, eps_yy, gamma_xy) that the temperature would make without stress.
+pub(super) const THERMAL_STRAIN: &str = "thermal_strain";
+
 /// The body as output files show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyGrid {
@@ -135,6 +138,24 @@ pub(super) fn write(
         .then(|| fields::dissipated_energy_density(system, &state.dissipated));
     if let Some(values) = &dissipated {
         fields.push(Field::scalar("dissipated_energy_density", values));
+    }
+    let at_full_load = &view.boundary.temperature_change;
+    let change: Vec<f64> = (at_full_load.iter())
+        .map(|change| state.load_factor * change)
+        .collect();
+    if !change.is_empty() {
+        fields.push(Field::scalar("temperature_change", &change));
+    }
+    let at_full_load = view.boundary.thermal_strain.as_flattened();
+    let thermal: Vec<f64> = (at_full_load.iter())
+        .map(|strain| state.load_factor * strain)
+        .collect();
+    if !thermal.is_empty() {
+        fields.push(Field::components(
+            THERMAL_STRAIN,
+            &["xx", "yy", "xy"],
+            &thermal,
+        ));
     }
     let stress_virial = rule
         .virial

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::model_file::{Absence, COEFFICIENTS, MODEL};
+use super::point_fields::THERMAL_STRAIN;
 use crate::csv::read::Sheet;
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
@@ -125,8 +126,15 @@ pub struct StoredBreak {
     pub shear: f64,
 }
 
-/// Displacements along x and y and rotation of each point, shape (n_points).
-pub type Motions = Vec<[f64; 3]>;
+/// Where the points are in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motions {
+    /// Displacements along x and y and rotation of each point, shape (n_points).
+    pub of_points: Vec<[f64; 3]>,
+    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, shape (n_points, 3); empty
+    /// where it does not change.
+    pub thermal_strain: Vec<[f64; 3]>,
+}
 
 impl StoredRun {
     /// Opens the results in a folder.
@@ -175,11 +183,18 @@ impl StoredRun {
         let displacement = required(&file, location, "displacement", VtuFile::numbers)?;
         let rotation = required(&file, location, "rotation", VtuFile::numbers)?;
         let n_points = self.model.positions.len();
-        if displacement.len() != 3 * n_points || rotation.len() != n_points {
+        let thermal = (file.numbers(location, THERMAL_STRAIN)?).unwrap_or_default();
+        let fits = displacement.len() == 3 * n_points
+            && rotation.len() == n_points
+            && (thermal.is_empty() || thermal.len() == 3 * n_points);
+        if !fits {
             return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
         }
         let motions = displacement.chunks_exact(3).zip(rotation);
-        Ok(Some(motions.map(|(u, turn)| [u[0], u[1], turn]).collect()))
+        Ok(Some(Motions {
+            of_points: motions.map(|(u, turn)| [u[0], u[1], turn]).collect(),
+            thermal_strain: thermal.as_chunks().0.to_vec(),
+        }))
     }
 }
 

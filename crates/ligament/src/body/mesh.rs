@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::Path;
 
-use ligament_mesh::{Cell, Group, Mesh};
+use ligament_mesh::{Cell, Group, Mesh, NodeField};
 use ligament_model::PointCloud;
 use ligament_output::results::{BodyGrid, Canvas};
 use ligament_output::vtu;
@@ -83,6 +83,10 @@ impl Body for MeshBody {
             }
         }
         lengths.into_iter().collect()
+    }
+
+    fn fields(&self) -> &[NodeField] {
+        &self.0.fields
     }
 
     /// The nodes of edges that one cell has alone.

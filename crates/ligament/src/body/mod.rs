@@ -6,7 +6,7 @@ mod mesh;
 use std::fmt::Debug;
 use std::io::{self, Write};
 
-use ligament_mesh::Mesh;
+use ligament_mesh::{Mesh, NodeField};
 use ligament_model::{PointCloud, Shape};
 use ligament_output::results::BodyGrid;
 
@@ -49,6 +49,11 @@ pub trait Body: Debug + Send + Sync {
 
     /// Holes across which there is no bond.
     fn holes(&self) -> &[Shape] {
+        &[]
+    }
+
+    /// Values at its points that its file brings along.
+    fn fields(&self) -> &[NodeField] {
         &[]
     }
 

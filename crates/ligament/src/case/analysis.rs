@@ -74,6 +74,7 @@ pub(super) struct Given {
     pub(super) fracture: bool,
     pub(super) modal: bool,
     pub(super) loads: bool,
+    pub(super) temperature: bool,
     pub(super) probes: bool,
     pub(super) output: bool,
 }
@@ -128,6 +129,11 @@ impl Given {
                 "load",
                 self.loads,
                 "modes are free vibrations without loads; supports hold",
+            ),
+            (
+                "temperature",
+                self.temperature,
+                "modes are free vibrations without loads",
             ),
             ("probe", self.probes, "modes have no history to read"),
             (

@@ -3,10 +3,11 @@
 use std::fmt;
 
 /// Sections that may be repeated.
-const REPEATED: [&[&str]; 7] = [
+const REPEATED: [&[&str]; 8] = [
     &["precrack"],
     &["support"],
     &["load"],
+    &["temperature"],
     &["no_fail"],
     &["probe"],
     &["lattice", "remove"],

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::criterion::{Criterion, CriterionKind};
 use super::decode::decode;
 use super::document::{Node, Value};
+use super::expansion::Expansion;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
@@ -47,6 +48,9 @@ pub struct Material {
     /// Mass density, kg/m^3; always there in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
+    /// Thermal expansion; always there where the temperature changes.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub expansion: Option<Expansion>,
 }
 
 impl Material {
@@ -106,6 +110,7 @@ struct RawIsotropic {
     fracture_energy_sliding: Option<f64>,
     mixed_mode_exponent: Option<f64>,
     density: Option<f64>,
+    thermal_expansion: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -127,6 +132,10 @@ struct RawOrthotropic {
     fracture_energy_sliding: Option<f64>,
     mixed_mode_exponent: Option<f64>,
     density: Option<f64>,
+    thermal_expansion: Option<f64>,
+    thermal_expansion_1: Option<f64>,
+    thermal_expansion_2: Option<f64>,
+    thermal_expansion_3: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -145,6 +154,9 @@ struct RawAnisotropic {
     fracture_energy_sliding: Option<f64>,
     mixed_mode_exponent: Option<f64>,
     density: Option<f64>,
+    thermal_expansion: Option<f64>,
+    thermal_expansion_1: Option<f64>,
+    thermal_expansion_2: Option<f64>,
 }
 
 /// Reads the section: one material, or a table for each of several.
@@ -207,6 +219,11 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             fracture_energy_sliding: raw.fracture_energy_sliding,
             mixed_mode_exponent: raw.mixed_mode_exponent,
             density: raw.density,
+            expansion: Expansion::of(
+                &key,
+                raw.thermal_expansion,
+                [raw.thermal_expansion_1, raw.thermal_expansion_2, None],
+            )?,
         }
     } else if has_one_of(&ORTHOTROPIC_KEYS) {
         let raw: RawOrthotropic = decode(table, &key)?;
@@ -229,6 +246,15 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             fracture_energy_sliding: raw.fracture_energy_sliding,
             mixed_mode_exponent: raw.mixed_mode_exponent,
             density: raw.density,
+            expansion: Expansion::of(
+                &key,
+                raw.thermal_expansion,
+                [
+                    raw.thermal_expansion_1,
+                    raw.thermal_expansion_2,
+                    raw.thermal_expansion_3,
+                ],
+            )?,
         }
     } else {
         let raw: RawIsotropic = decode(table, &key)?;
@@ -245,6 +271,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             fracture_energy_sliding: raw.fracture_energy_sliding,
             mixed_mode_exponent: raw.mixed_mode_exponent,
             density: raw.density,
+            expansion: Expansion::of(&key, raw.thermal_expansion, [None; 3])?,
         }
     };
     if material.name.is_some() && material.group.is_none() {
@@ -376,12 +403,17 @@ pub(super) fn require_suitable(
 
 impl Material {
     fn require_suitable(&self, law: Law, plane: Plane) -> Result<(), KeyFault> {
+        let key = self.key_path();
+        // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
+        let is_of_plane = matches!(self.elasticity, Elasticity::Anisotropic(_));
+        if let Some(expansion) = self.expansion.filter(|_| !is_of_plane) {
+            expansion.require_suitable(&key, plane)?;
+        }
         let (what, laws): (_, &[Law]) = match self.elasticity {
             Elasticity::Isotropic { .. } => return Ok(()),
             Elasticity::Orthotropic(_) => ("an orthotropic", &[Law::Orthotropic, Law::MbbPd]),
             Elasticity::Anisotropic(_) => ("an anisotropic", &[Law::MbbPd]),
         };
-        let key = self.key_path();
         if !laws.contains(&law) {
             let words: Vec<String> = laws.iter().map(|it| format!("\"{}\"", it.word())).collect();
             let reason = format!(

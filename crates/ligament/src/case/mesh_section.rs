@@ -59,7 +59,7 @@ impl RawMesh {
 }
 
 /// An absolute path, without `..` where the file exists; whether it does is for its reader to say.
-fn absolute(path: &Path) -> PathBuf {
+pub(super) fn absolute(path: &Path) -> PathBuf {
     path.canonicalize()
         .or_else(|_| std::path::absolute(path))
         .unwrap_or_else(|_| path.to_owned())

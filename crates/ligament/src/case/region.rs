@@ -67,6 +67,18 @@ pub(super) struct RawRegion {
 }
 
 impl RawRegion {
+    /// The region of these keys at a table; none where neither is given.
+    pub(super) fn optional(
+        key: &KeyPath,
+        group: Option<String>,
+        r#box: Option<[Point; 2]>,
+    ) -> Result<Option<Region>, KeyFault> {
+        if group.is_none() && r#box.is_none() {
+            return Ok(None);
+        }
+        Self { group, r#box }.check(key).map(Some)
+    }
+
     pub(super) fn check(self, key: &KeyPath) -> Result<Region, KeyFault> {
         match (self.group, self.r#box) {
             (Some(group), None) => Ok(Region::Group(group)),

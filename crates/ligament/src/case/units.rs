@@ -29,6 +29,14 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
         ] => Some("Pa"),
         [.., "angle" | "critical_angle"] => Some("rad"),
         [.., "fracture_energy" | "fracture_energy_sliding"] => Some("J/m^2"),
+        [
+            ..,
+            "thermal_expansion"
+            | "thermal_expansion_1"
+            | "thermal_expansion_2"
+            | "thermal_expansion_3",
+        ] => Some("1/K"),
+        [.., "change"] => Some("K"),
         [.., "density"] => Some("kg/m^3"),
         [.., "displacement", "rotation"] => Some("rad"),
         [.., "force", "x" | "y"] => Some("N"),

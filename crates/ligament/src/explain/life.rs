@@ -1,9 +1,9 @@
 //! What bonds went through.
 
-use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
-use ligament_model::element::pair::PairKinematics;
+use ligament_model::element::pair::{Pair, PairKinematics};
 use ligament_model::element::spring::SpringBond;
+use ligament_model::element::{BondDeformation, Element};
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_output::Error;
 use ligament_output::results::stored::{
@@ -166,19 +166,28 @@ impl Life {
         })
     }
 
-    /// The deformation for the motions of all points. The points of springs do not turn, so that this holds for them as well.
+    /// The deformation for the motions of all points, without what the temperature gives it. The points of springs do not
+    /// turn, so that this holds for them as well.
     fn deformed(&self, motions: &Motions) -> BondDeformation {
-        let kinematics = BeamBond {
-            springs: SpringBond {
-                length: self.length,
-                direction: self.direction,
-                axial_rigidity: 0.0,
-                shear_rigidity: 0.0,
+        let pair = Pair {
+            ends: self.ends,
+            bond: BeamBond {
+                springs: SpringBond {
+                    length: self.length,
+                    direction: self.direction,
+                    axial_rigidity: 0.0,
+                    shear_rigidity: 0.0,
+                },
+                rotational_rigidity: 0.0,
             },
-            rotational_rigidity: 0.0,
         };
-        let [a, b] = self.ends.map(|end| &motions[end as usize]);
-        kinematics.deformation(a, b)
+        let [a, b] = self.ends.map(|end| &motions.of_points[end as usize]);
+        let whole = pair.bond.deformation(a, b);
+        if motions.thermal_strain.is_empty() {
+            return whole;
+        }
+        let [a, b] = self.ends.map(|end| motions.thermal_strain[end as usize]);
+        whole.less(&pair.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
     }
 
     /// What follows from all moments.

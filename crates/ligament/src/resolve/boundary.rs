@@ -6,6 +6,7 @@ use ligament_analysis::{
 use ligament_model::{BondSystem, PointCloud};
 
 use super::places::Places;
+use super::temperature::{Heating, heating};
 use crate::body::Body;
 use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
 
@@ -16,7 +17,12 @@ pub(super) fn boundary(
     cloud: &PointCloud,
 ) -> Result<Boundary, CaseError> {
     let places = Places { case, body, cloud };
-    let mut boundary = Boundary::new(cloud.len(), places.control()?);
+    let heating = heating(case, body, cloud)?;
+    let mut boundary = Boundary::new(cloud.len(), places.control(heating.as_ref())?);
+    if let Some(Heating { change, strain }) = heating {
+        boundary.temperature_change = change;
+        boundary.thermal_strain = strain;
+    }
     for (index, support) in case.case.supports.iter().enumerate() {
         let key = format!("support.{index}");
         let points = places.points(&key, Some(&support.place))?;
@@ -139,10 +145,23 @@ impl Places<'_> {
         Ok(())
     }
 
-    /// The first load is the axis of the force-displacement curve.
-    fn control(&self) -> Result<Control, CaseError> {
+    /// The first load is the axis of the force-displacement curve; the temperature where there is none.
+    fn control(&self, heating: Option<&Heating>) -> Result<Control, CaseError> {
         let key = "load.0";
-        let load = &self.case.case.loads[0];
+        let Some(load) = self.case.case.loads.first() else {
+            let changes = heating.map_or(&[][..], |it| &it.change);
+            let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
+            if magnitude == 0.0 {
+                let reason = "there is no [[load]] and no point whose temperature changes: nothing would happen";
+                return Err(self.case.error("temperature", reason));
+            }
+            return Ok(Control {
+                kind: ControlKind::Temperature,
+                points: Vec::new(),
+                shape: Vec::new(),
+                magnitude,
+            });
+        };
         let points = self.points(key, load.place.as_ref())?;
         let factors = self.factors(key, load.profile.as_ref(), &points)?;
         let given = self.forces(key, load, &points)?;

@@ -6,6 +6,7 @@ mod boundary;
 mod loading;
 mod modal;
 mod places;
+mod temperature;
 
 use ligament_analysis::Component;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
@@ -51,6 +52,7 @@ pub fn materials(case: &CaseFile) -> Vec<Material> {
         fracture_energy_sliding: material.fracture_energy_sliding,
         mixed_mode_exponent: material.mixed_mode_exponent,
         density: material.density,
+        expansion: material.expansion.map(Into::into),
     };
     case.case.materials.iter().map(material).collect()
 }

@@ -24,7 +24,7 @@ impl Places<'_> {
         }
     }
 
-    fn points_in_box(
+    pub(super) fn points_in_box(
         &self,
         key: &str,
         [lower, upper]: [[f64; 2]; 2],
@@ -38,7 +38,7 @@ impl Places<'_> {
     }
 
     /// Points of a group of the body.
-    fn points_of_group(&self, key: &str, name: &str) -> Result<Vec<u32>, CaseError> {
+    pub(super) fn points_of_group(&self, key: &str, name: &str) -> Result<Vec<u32>, CaseError> {
         let points = self.body.points_of(name);
         points.ok_or_else(|| unknown_group(self.case, self.body, &format!("{key}.group"), name))
     }

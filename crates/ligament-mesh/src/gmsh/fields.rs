@@ -1,0 +1,104 @@
+//! `$NodeData`: values at the nodes, the same in both formats.
+
+use super::cursor::{Cursor, shown};
+use super::error::GmshError;
+use super::records::{FieldRecord, Records};
+use super::tags::NodeIndices;
+use crate::field::NodeField;
+
+/// Reads `$NodeData` behind its first line: texts, real numbers and integers a line each, also in a binary file, and a row
+/// (node, values) for each node. The integers are the time step, the number of components and the number of rows.
+pub(super) fn read_node_data(
+    cursor: &mut Cursor<'_>,
+    records: &mut Records,
+) -> Result<(), GmshError> {
+    let texts = tag_lines(cursor, "the number of string tags")?;
+    let name = texts.first().copied().unwrap_or_default().1;
+    let name = name.strip_prefix(b"\"").unwrap_or(name);
+    let name = String::from_utf8_lossy(name.strip_suffix(b"\"").unwrap_or(name)).into_owned();
+    tag_lines(cursor, "the number of real tags")?;
+    let begin = cursor.offset();
+    let integers = tag_lines(cursor, "the number of integer tags")?;
+    let &[step, components, count, ..] = integers.as_slice() else {
+        let expected = "the integer tags time step, number of components, number of nodes";
+        return Err(cursor.unexpected(begin, expected, format!("{} of them", integers.len())));
+    };
+    let time_step = number(cursor, step, "a time step")?;
+    let (components, count_offset): (u64, _) = (
+        number(cursor, components, "a number of components")?,
+        count.0,
+    );
+    let count = number(cursor, count, "a number of nodes")?;
+    let smallest = if cursor.is_ascii() {
+        components.saturating_mul(2).saturating_add(2)
+    } else {
+        components.saturating_mul(8).saturating_add(4)
+    };
+    let smallest = usize::try_from(smallest).unwrap_or(usize::MAX);
+    cursor.check_count(count_offset, count, smallest, "values at nodes")?;
+    let mut values = Vec::new();
+    for _ in 0..count {
+        cursor.begin_row();
+        let tag = cursor.unsigned_int("a node number")?;
+        for _ in 0..components {
+            let value = cursor.real("a value at a node")?;
+            if components == 1 {
+                values.push((tag, value));
+            }
+        }
+        cursor.end_row()?;
+    }
+    records.fields.push(FieldRecord {
+        name,
+        time_step,
+        components,
+        values,
+    });
+    cursor.end_section()
+}
+
+/// A count, and as many lines with where each begins.
+fn tag_lines<'a>(
+    cursor: &mut Cursor<'a>,
+    expected: &'static str,
+) -> Result<Vec<(usize, &'a [u8])>, GmshError> {
+    let (_, count) = cursor.count_line(expected)?;
+    (0..count).map(|_| cursor.text_line()).collect()
+}
+
+fn number<T: std::str::FromStr>(
+    cursor: &Cursor<'_>,
+    (offset, line): (usize, &[u8]),
+    expected: &'static str,
+) -> Result<T, GmshError> {
+    let text = std::str::from_utf8(line).ok();
+    text.and_then(|text| text.parse().ok())
+        .ok_or_else(|| cursor.unexpected(offset, expected, shown(line)))
+}
+
+/// The fields on the nodes that stay (`numbers`: new number of every node record); what a section says of others is left
+/// out, for a file may hold a part of the mesh that a view was made on.
+pub(super) fn on_nodes(
+    records: &Records,
+    by_tag: &NodeIndices,
+    numbers: &[Option<u32>],
+    n_nodes: usize,
+) -> Vec<NodeField> {
+    let field = |record: &FieldRecord| {
+        let length = if record.components == 1 { n_nodes } else { 0 };
+        let mut values = vec![None; length];
+        for &(tag, value) in &record.values {
+            let node = by_tag.get(tag).and_then(|index| numbers[index as usize]);
+            if let Some(node) = node {
+                values[node as usize] = Some(value);
+            }
+        }
+        NodeField {
+            name: record.name.clone(),
+            time_step: record.time_step,
+            components: record.components,
+            values,
+        }
+    };
+    records.fields.iter().map(field).collect()
+}

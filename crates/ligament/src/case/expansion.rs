@@ -1,0 +1,109 @@
+//! `thermal_expansion` of a material.
+
+use serde::Serialize;
+
+use super::fault::{Fault, KeyFault};
+use super::key_path::KeyPath;
+use super::mesh_section::Plane;
+use super::values::require;
+
+/// Beyond this, in 1/K, a coefficient was given in other units.
+const LARGEST: f64 = 0.01;
+
+/// Coefficients of linear thermal expansion, 1/K.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Expansion {
+    /// The same in all directions.
+    Uniform {
+        /// The coefficient.
+        thermal_expansion: f64,
+    },
+    /// In the axes of an orthotropic material.
+    Axes {
+        /// Along the axis 1.
+        thermal_expansion_1: f64,
+        /// Along the axis 2.
+        thermal_expansion_2: f64,
+        /// Across the plane, for plane strain.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        thermal_expansion_3: Option<f64>,
+    },
+}
+
+impl Expansion {
+    /// The one coefficient, or those along axes, of the material at a key; none where none is given.
+    pub(super) fn of(
+        key: &KeyPath,
+        uniform: Option<f64>,
+        axes: [Option<f64>; 3],
+    ) -> Result<Option<Self>, KeyFault> {
+        const NAMES: [&str; 3] = [
+            "thermal_expansion_1",
+            "thermal_expansion_2",
+            "thermal_expansion_3",
+        ];
+        let given = NAMES.into_iter().zip(axes);
+        for (name, value) in given.chain([("thermal_expansion", uniform)]) {
+            if let Some(value) = value {
+                let expected = "between -0.01 and 0.01 (1/K; steel has about 12e-6)";
+                require(value.abs() < LARGEST, || key.child(name), expected, value)?;
+            }
+        }
+        let [one, two, across] = axes;
+        if axes.iter().all(Option::is_none) {
+            return Ok(uniform.map(|thermal_expansion| Self::Uniform { thermal_expansion }));
+        }
+        if uniform.is_some() {
+            let reason = "it is the same in all directions, but coefficients along the axes are given as well: remove one of the two";
+            return Err(KeyFault::new(key.child("thermal_expansion"), reason));
+        }
+        let required = |place: usize| {
+            let reason = "(in 1/K) because a coefficient along another axis is given";
+            required(key, NAMES[place], reason)
+        };
+        Ok(Some(Self::Axes {
+            thermal_expansion_1: one.ok_or_else(|| required(0))?,
+            thermal_expansion_2: two.ok_or_else(|| required(1))?,
+            thermal_expansion_3: across,
+        }))
+    }
+
+    /// Plane strain needs the coefficient across the plane.
+    pub(super) fn require_suitable(&self, key: &KeyPath, plane: Plane) -> Result<(), KeyFault> {
+        match self {
+            Self::Axes {
+                thermal_expansion_3: None,
+                ..
+            } if plane == Plane::Strain => {
+                let reason = "(in 1/K) because of plane strain, where it widens the plane";
+                Err(required(key, "thermal_expansion_3", reason))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn required(key: &KeyPath, name: &'static str, reason: &str) -> KeyFault {
+    let fault = Fault::Required {
+        key: name,
+        reason: reason.to_owned(),
+    };
+    KeyFault::new(key.child(name), fault)
+}
+
+impl From<Expansion> for ligament_model::Expansion {
+    fn from(expansion: Expansion) -> Self {
+        match expansion {
+            Expansion::Uniform { thermal_expansion } => Self::uniform(thermal_expansion),
+            Expansion::Axes {
+                thermal_expansion_1,
+                thermal_expansion_2,
+                thermal_expansion_3,
+            } => Self {
+                in_plane: [thermal_expansion_1, thermal_expansion_2],
+                across: thermal_expansion_3,
+            },
+        }
+    }
+}

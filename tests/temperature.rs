@@ -1,0 +1,439 @@
+//! Changes of temperature: bodies that expand freely, bodies that are held, against closed forms of thermoelasticity; and with
+//! breakages against the same bodies under displacements.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ligament_analysis::stress::virial;
+use ligament_analysis::{ControlKind, internal};
+use ligament_model::element::BondDeformation;
+use verification::bench::{Bench, Run};
+use verification::numbers::{component, deviation, largest, relative_error};
+
+const YOUNG: f64 = 65.8e9; // Pa
+const ALPHA: f64 = 23e-6; // 1/K
+const CHANGE: f64 = 50.0; // K
+
+/// 12 x 8 cells of 5 mm, 1 mm thick; each test brings its supports and temperatures along.
+const LATTICE: &str = r#"
+lattice = { cells = [12, 8], spacing = 0.005, thickness = 0.001, set = { left = { left = 1 }, right = { right = 1 }, bottom = { bottom = 4 } } }
+material = { young = 65.8e9, poisson = 0.3, thermal_expansion = 23e-6 }
+model = { law = "mppd", horizon_factor = 3.0 }
+"#;
+
+/// Square of side 0.1 m on 137 irregular points.
+const SQUARE: &str = r#"
+mesh = { file = "reference/square.msh", thickness = 0.001 }
+material = { young = 65.8e9, poisson = 0.3, thermal_expansion = 23e-6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+"#;
+
+/// A lamina whose axes expand by -1e-6 and 30e-6 1/K, at 0.5 rad.
+const LAMINA: &str = "material={ young_1 = 15e9, young_2 = 5e9, poisson_12 = 0.25, shear_modulus = 4.8e9, young_3 = 6e9, \
+                      poisson_13 = 0.2, poisson_23 = 0.3, angle = 0.5, thermal_expansion_1 = -1e-6, \
+                      thermal_expansion_2 = 30e-6, thermal_expansion_3 = 10e-6 }";
+
+/// Every law on its body, in both states of the plane; Poisson's ratio above and below that of central forces.
+const LAWS: [(&str, &[&str]); 9] = [
+    ("bbpd", &["model.law=bbpd"]),
+    ("bbpd-conical", &["model.law=bbpd-conical"]),
+    ("pds", &["model.law=pds"]),
+    ("mppd", &[]),
+    ("mppd, negative k_t", &["material.poisson=0.4"]),
+    ("mppd-beam", &["model.law=mppd-beam"]),
+    ("orthotropic", &["model.law=orthotropic", LAMINA]),
+    ("nhpd", &["model.law=nhpd"]),
+    (
+        "nhpd, anisotropic spacing",
+        &["model.law=nhpd", "lattice.spacing=[0.005, 0.006]"],
+    ),
+];
+
+fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
+    let bench = Bench::new(text, settings);
+    let run = bench.solve();
+    (bench, run)
+}
+
+/// Deformations of the bonds beyond what the temperature gives them, in the last state.
+fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
+    let expansion = bench.boundary.expansion(run.state().load_factor);
+    let intact = &run.state().intact;
+    internal::deformations(&bench.model.system, intact, run.displacement(), expansion)
+}
+
+/// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
+fn free_strain(bench: &Bench) -> [f64; 3] {
+    bench.boundary.thermal_strain[0]
+}
+
+/// A body that nothing but three gauges holds takes the shape of its thermal strain: displacements are (eps_xx x + gamma_xy y/2,
+/// gamma_xy x/2 + eps_yy y) up to a rigid motion, and there is no bond force, energy or reaction. The sums have hundreds of terms
+/// of the size of E alpha dT; 1e-10 leaves room for the condition of the equations.
+fn assert_free(name: &str, bench: &Bench, run: &Run) {
+    let [xx, yy, xy] = free_strain(bench);
+    let positions = bench.positions();
+    let size = largest([xx, yy, xy].map(f64::abs));
+    let motion = run.displacement();
+    let [x, y] = [0, 1].map(|axis| component(motion, axis));
+    // The rigid motion that fits two points, to be taken off.
+    let (first, last) = (0, positions.len() - 1);
+    let wanted = |p: [f64; 2]| [xx * p[0] + 0.5 * xy * p[1], 0.5 * xy * p[0] + yy * p[1]];
+    let miss = |point: usize| {
+        let [u, v] = wanted(positions[point]);
+        [x[point] - u, y[point] - v]
+    };
+    let [[u, v], [u_last, v_last]] = [miss(first), miss(last)];
+    let arm = [0, 1].map(|axis| positions[last][axis] - positions[first][axis]);
+    let turn = ((v_last - v) * arm[0] - (u_last - u) * arm[1]) / arm[0].hypot(arm[1]).powi(2);
+    let length = arm[0].hypot(arm[1]);
+    let off = (0..positions.len()).flat_map(|point| {
+        let [du, dv] = miss(point);
+        let arm = [0, 1].map(|axis| positions[point][axis] - positions[first][axis]);
+        [du - u + turn * arm[1], dv - v - turn * arm[0]]
+    });
+    let off = largest(off.map(f64::abs)) / (size * length);
+    let left = deformations(bench, run);
+    let left = left
+        .iter()
+        .flat_map(|it| [it.stretch.abs(), it.shear.abs()]);
+    let left = largest(left) / size;
+    let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
+    let energy = run.last().stored_energy / (0.5 * YOUNG * size * size * volume);
+    let force = YOUNG * size * volume / length;
+    let forces = run.last().group_forces.iter().flatten();
+    let forces = largest(forces.map(|it| it.abs())) / force;
+    println!("{name}: shape {off:.1e}, bonds {left:.1e}, energy {energy:.1e}, forces {forces:.1e}");
+    assert!(
+        off < 1e-10 && left < 1e-10 && energy.abs() < 1e-10 && forces < 1e-10,
+        "{name}"
+    );
+}
+
+/// A change that is the same everywhere leaves no stress in a body that is free to expand: on a lattice under every law, on an
+/// irregular mesh, in plane stress and plane strain, with a rise and a fall of the temperature.
+#[test]
+fn free_bodies_expand_without_stress() {
+    let held = "support = [{ at = [0, 0], displacement = { x = 0, y = 0 } }, { at = [1, 0], displacement = { y = 0 } }]\n";
+    let unheld = "";
+    for (name, settings) in LAWS {
+        for plane in ["stress", "strain"] {
+            let mut settings = settings.to_vec();
+            let plane_setting = format!("lattice.plane={plane}");
+            settings.push(&plane_setting);
+            // A rotation held would hold the shear of a lamina against pds, which counts turns as shear; nothing else has both.
+            for (support, change) in [(held, CHANGE), (unheld, -CHANGE)] {
+                let text = format!("{LATTICE}{support}temperature = [{{ change = {change:?} }}]\n");
+                let (bench, run) = solved(&text, &settings);
+                assert_eq!(bench.boundary.control.kind, ControlKind::Temperature);
+                assert_free(&format!("{name}, {plane}"), &bench, &run);
+            }
+        }
+    }
+    for poisson in ["-0.3", "0.21", "0.38"] {
+        for plane in ["stress", "strain"] {
+            let settings = [
+                format!("material.poisson={poisson}"),
+                format!("mesh.plane={plane}"),
+            ];
+            let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+            let text = format!("{SQUARE}{held}temperature = [{{ change = {CHANGE:?} }}]\n");
+            let (bench, run) = solved(&text, &settings);
+            assert_free(
+                &format!("nhpd on a mesh, nu {poisson}, {plane}"),
+                &bench,
+                &run,
+            );
+            let expected = if plane == "stress" {
+                ALPHA * CHANGE
+            } else {
+                (1.0 + poisson.parse::<f64>().unwrap()) * ALPHA * CHANGE
+            };
+            for strain in &free_strain(&bench)[..2] {
+                assert!(relative_error(*strain, expected) < 1e-14);
+            }
+        }
+    }
+}
+
+/// A body that is held at every point stores the energy of the biaxial strain -alpha dT, E (alpha dT)^2/(1 - nu) in plane stress
+/// and E (alpha dT)^2 (1 + nu)/(1 - 2 nu) per volume in plane strain, where each family stores what it stores under that strain
+/// (`energy_ratios`); and the axes of the curve are work-conjugate: the energy is half of force times change.
+#[test]
+fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
+    let text = "support = [{ box = [[-1, -1], [1, 1]], displacement = { x = 0, y = 0, rotation = 0 } }]\n\
+                temperature = [{ change = 50.0 }]\n";
+    for (body, plane) in [(LATTICE, "lattice.plane"), (SQUARE, "mesh.plane")] {
+        for (value, nu) in [("stress", 0.3), ("strain", 0.3)] {
+            let (bench, run) = solved(&format!("{body}{text}"), &[&format!("{plane}={value}")]);
+            let strain: f64 = ALPHA * CHANGE;
+            let density = match value {
+                "stress" => YOUNG * strain * strain / (1.0 - nu),
+                _ => YOUNG * strain * strain * (1.0 + nu) / (1.0 - 2.0 * nu),
+            };
+            let biaxial = &bench.model.fixed.energy_ratios[2];
+            let volumes = &bench.model.system.cloud.volumes;
+            let expected: f64 = (biaxial.iter().zip(volumes))
+                .map(|(ratio, volume)| ratio * volume * density)
+                .sum();
+            let last = run.last();
+            assert!(
+                relative_error(last.stored_energy, expected) < 1e-12,
+                "{value}"
+            );
+            let work = 0.5 * last.displacement * last.reaction;
+            assert!(relative_error(work, expected) < 1e-12, "{value}");
+            assert_eq!(last.displacement, CHANGE);
+        }
+    }
+}
+
+/// A bar that is held at both ends and may widen: sigma = -E alpha dT, and E/(1 - nu^2) (1 + nu) alpha dT in plane strain. The
+/// points of the ends lie half a cell inside, and the families at the sides have other stiffness than the bar: within 2 %.
+#[test]
+fn a_bar_between_walls_has_the_stress_of_its_expansion() {
+    let text = "support = [{ group = \"left\", displacement = { x = 0 } }, { group = \"right\", displacement = { x = 0 } }, \
+                { at = [0, 0], displacement = { y = 0 } }]\n\
+                temperature = [{ change = 50.0 }]\n";
+    let section = 8.0 * 0.005 * 0.001;
+    for (plane, modulus) in [("stress", 1.0), ("strain", 1.0 / (1.0 - 0.3))] {
+        let (_, run) = solved(
+            &format!("{LATTICE}{text}"),
+            &[&format!("lattice.plane={plane}")],
+        );
+        let expected = YOUNG * modulus * ALPHA * CHANGE * section;
+        let [left, right] = [0, 1].map(|group| run.last().group_forces[group][0]);
+        println!("{plane}: {:.4} {:.4}", left / expected, right / expected);
+        assert!(relative_error(left, expected) < 0.02 && relative_error(-right, expected) < 0.02);
+    }
+}
+
+/// The same body under displacements: with u' = u - alpha dT (x - x_0) a body that is clamped at its ends and cooled is one whose
+/// ends move apart, bond for bond. Both tear in the same order at the same loads, by load steps and along the exact path; the
+/// order is decided by differences far above the rounding between the two, 1e-9 of the load factors.
+#[test]
+fn cooling_between_clamps_tears_a_body_as_pulling_does() {
+    let common = "material.tensile_strength=4e7";
+    let clamps = "support = [{ group = \"left\", displacement = { x = 0, y = 0 } }, \
+                  { group = \"right\", displacement = { x = 0, y = 0 } }]\n";
+    let cooled = format!("{LATTICE}{clamps}temperature = [{{ change = -50.0 }}]\n");
+    let strain = ALPHA * CHANGE;
+    // x_0 and y_0 are those of the first cell.
+    let along =
+        |axis: &str| format!("profile = {{ along = \"{axis}\", zero = 0.0025, one = 1.0025 }}");
+    let load = |name: &str, group: &str, axis: &str| {
+        let profile = along(axis);
+        format!(
+            "{{ name = \"{name}\", group = \"{group}\", displacement = {{ {axis} = {strain:?} }}, {profile} }}"
+        )
+    };
+    let pulled = format!(
+        "{LATTICE}support = [{{ group = \"left\", displacement = {{ x = 0 }} }}]\nload = [{}, {}, {}]\n",
+        load("pull", "right", "x"),
+        load("left-y", "left", "y"),
+        load("right-y", "right", "y"),
+    );
+    let crack = "precrack=[{ points = [[0.0301, -0.01], [0.0301, 0.0151]] }]";
+    for control in ["{ control = \"event\" }", "{ steps = 20 }"] {
+        let fracture = format!("fracture={control}");
+        let settings = [common, crack, &fracture];
+        let benches = [&cooled, &pulled].map(|text| Bench::new(text, &settings));
+        let runs = benches.each_ref().map(Bench::break_up);
+        let [cooled, pulled] = runs.each_ref().map(|run| &run.outcome.history);
+        println!(
+            "{control}: {} bonds, {} rows",
+            runs[0].breaks.len(),
+            cooled.len()
+        );
+        assert!(runs[0].breaks.len() > 50, "{}", runs[0].breaks.len());
+        assert_eq!(runs[0].breaks.len(), runs[1].breaks.len());
+        for (one, other) in runs[0].breaks.iter().zip(&runs[1].breaks) {
+            assert_eq!(one.bond, other.bond);
+            assert!((one.load_factor - other.load_factor).abs() < 1e-9);
+            assert!((one.ratio - other.ratio).abs() < 1e-9 * one.ratio);
+        }
+        assert_eq!(cooled.len(), pulled.len());
+        let peak = largest(cooled.iter().map(|row| row.stored_energy));
+        let work = largest(cooled.iter().map(|row| row.external_work.abs()));
+        for (one, other) in cooled.iter().zip(pulled) {
+            assert!((one.stored_energy - other.stored_energy).abs() < 1e-9 * peak);
+            assert!((one.released_energy - other.released_energy).abs() < 1e-9 * peak);
+            assert!((one.external_work - other.external_work).abs() < 1e-9 * work);
+            let missing = one.external_work - one.stored_energy - one.released_energy;
+            assert!(missing.abs() < 1e-9 * work);
+        }
+        let conjugate = |row: &ligament_analysis::history::StepRecord| {
+            0.5 * row.displacement * row.reaction - row.stored_energy
+        };
+        assert!(largest(cooled.iter().map(|row| conjugate(row).abs())) < 1e-9 * peak);
+    }
+}
+
+/// Disk of radius b = 50 mm on 1834 irregular points, with a core of radius a = 20 mm, that nothing holds.
+const DISK: &str = r#"
+mesh = { file = "../meshes/heated-disk.msh", thickness = 0.01 }
+material = { young = 70e9, poisson = 0.25, thermal_expansion = 23e-6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+"#;
+
+/// Timoshenko and Goodier, "Theory of Elasticity", on the disk with a radial temperature T(r): with I(r) the integral of T r from
+/// 0 to r, u = alpha ((1 + nu) I(r)/r + (1 - nu) r I(b)/b^2), sigma_r = E alpha (I(b)/b^2 - I(r)/r^2).
+struct HotDisk {
+    integral: fn(f64) -> f64,
+}
+
+impl HotDisk {
+    const YOUNG: f64 = 70e9;
+    const POISSON: f64 = 0.25;
+    const RADIUS: f64 = 0.05;
+
+    fn displacement(&self, r: f64) -> f64 {
+        let (whole, b) = ((self.integral)(Self::RADIUS), Self::RADIUS);
+        ALPHA
+            * ((1.0 + Self::POISSON) * (self.integral)(r) / r
+                + (1.0 - Self::POISSON) * r * whole / (b * b))
+    }
+
+    fn radial_stress(&self, r: f64) -> f64 {
+        let whole = (self.integral)(Self::RADIUS) / Self::RADIUS.powi(2);
+        Self::YOUNG * ALPHA * (whole - (self.integral)(r) / (r * r))
+    }
+}
+
+/// A parabola from a field of the mesh file, and a core that is hot by group: mean radial displacement of the rim, displacements
+/// of all points (root mean square), and the radial stress of the points inside the core, all against the closed form.
+#[test]
+fn hot_disks_are_those_of_thermoelasticity() {
+    let parabola = HotDisk {
+        integral: |r| 100.0 * (0.5 * r * r - 0.25 * r.powi(4) / HotDisk::RADIUS.powi(2)),
+    };
+    let core = HotDisk {
+        integral: |r| 50.0 * r.min(0.02).powi(2),
+    };
+    for (name, heat, exact) in [
+        ("parabola", "mesh_field = \"heat\"", parabola),
+        ("core", "group = \"core\", change = 100.0", core),
+    ] {
+        let text = format!("{DISK}temperature = [{{ {heat} }}]\n");
+        let (bench, run) = solved(&text, &[]);
+        let positions = bench.positions();
+        let motion = run.displacement();
+        // The gauges leave a rigid motion, which the points as a whole show.
+        let count = positions.len() as f64;
+        let mean = |axis: usize| component(motion, axis).iter().sum::<f64>() / count;
+        let (u, v) = (mean(0), mean(1));
+        let spin: f64 = (positions.iter().zip(motion.chunks(3)))
+            .map(|(p, m)| p[0] * (m[1] - v) - p[1] * (m[0] - u))
+            .sum::<f64>()
+            / positions
+                .iter()
+                .map(|p| p[0] * p[0] + p[1] * p[1])
+                .sum::<f64>();
+        let radial = |point: usize| {
+            let (p, m) = (positions[point], &motion[3 * point..3 * point + 2]);
+            let motion = [m[0] - u + spin * p[1], m[1] - v - spin * p[0]];
+            let r = p[0].hypot(p[1]);
+            ((motion[0] * p[0] + motion[1] * p[1]) / r, r)
+        };
+        let rim = bench.group("rim");
+        let widening: f64 = rim
+            .iter()
+            .map(|&point| radial(point as usize).0)
+            .sum::<f64>()
+            / rim.len() as f64;
+        let expected = exact.displacement(HotDisk::RADIUS);
+        let [mut off, mut size] = [0.0; 2];
+        for point in 0..positions.len() {
+            let (found, r) = radial(point);
+            let wanted = exact.displacement(r);
+            off += (found - wanted).powi(2);
+            size += wanted * wanted;
+        }
+        let off = (off / size).sqrt();
+        let deformations = deformations(&bench, &run);
+        let stress = virial::stress(&bench.model.system, run.state().bonds(), &deformations);
+        let mut ratios = Vec::new();
+        for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
+            let r = p[0].hypot(p[1]);
+            if r > 0.001 && r < 0.012 {
+                let [c, s] = [p[0] / r, p[1] / r];
+                let radial = xx * c * c + yy * s * s + 2.0 * xy * s * c;
+                ratios.push(radial / exact.radial_stress(r));
+            }
+        }
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        println!(
+            "{name}: rim {:.5}, displacements off by {off:.2e}, radial stress {mean:.4} ({:.4} to {:.4})",
+            widening / expected,
+            ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            largest(ratios.iter().copied())
+        );
+    }
+}
+
+/// The change of temperature rises linearly along x from zero to 50 K: a continuum that is free bends without any stress, by the
+/// curvature alpha dT/L. Peridynamic bonds come near: what is left of them, relative to alpha dT.
+#[test]
+fn a_linear_temperature_bends_free_bodies() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, settings) in LAWS {
+        let (plain, _) = solved(
+            &format!("{LATTICE}temperature = [{{ change = 1.0 }}]\n"),
+            settings,
+        );
+        let rows = plain.positions().iter();
+        let rows: String = rows
+            .map(|p| format!("{:?},{:?},{:?}\n", p[0], p[1], CHANGE * p[0] / 0.06))
+            .collect();
+        let path = folder.path().join("linear.csv");
+        std::fs::write(&path, format!("x,y,change\n{rows}")).unwrap();
+        let text = format!(
+            "{LATTICE}temperature = [{{ file = \"{}\" }}]\n",
+            path.display()
+        );
+        let (bench, run) = solved(&text, settings);
+        let size = largest(
+            bench
+                .boundary
+                .thermal_strain
+                .as_flattened()
+                .iter()
+                .map(|it| it.abs()),
+        );
+        let left = deformations(&bench, &run);
+        let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
+        let shear = largest(left.iter().map(|it| it.shear.abs())) / size;
+        println!("{name}: stretch {stretch:.2e}, shear {shear:.2e}");
+    }
+}
+
+/// Two layers of one thickness h/2 and stiffness, of which one expands more: the strip bends with the curvature 1.5 (alpha_2 -
+/// alpha_1) dT/h (Timoshenko, "Analysis of bi-metal thermostats", 1925).
+#[test]
+fn a_strip_of_two_metals_bends() {
+    let text = r#"
+lattice = { cells = [120, 16], spacing = 0.001, thickness = 0.001, set = { base = { left = 3 }, below = { bottom = 8 }, above = { top = 8 } } }
+model = { law = "mppd", horizon_factor = 3.0 }
+support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
+temperature = [{ change = 50.0 }]
+probe = [{ name = "near", at = [0.0305, 0.0005], field = "displacement_y" }, { name = "middle", at = [0.0705, 0.0005], field = "displacement_y" }, { name = "far", at = [0.1105, 0.0005], field = "displacement_y" }]
+[material.low]
+group = "below"
+young = 65.8e9
+poisson = 0.3
+thermal_expansion = 10e-6
+[material.high]
+group = "above"
+young = 65.8e9
+poisson = 0.3
+thermal_expansion = 30e-6
+"#;
+    for law in ["nhpd", "mppd", "pds", "bbpd"] {
+        let (bench, run) = solved(text, &[&format!("model.law={law}")]);
+        let [near, middle, far] = run.last().probes[..] else {
+            panic!("three probes");
+        };
+        let curvature = (near - 2.0 * middle + far) / 0.04_f64.powi(2);
+        let expected = -1.5 * 20e-6 * CHANGE / 0.016;
+        println!("{law}: {:.4}", curvature / expected);
+        assert_eq!(bench.boundary.control.magnitude, CHANGE);
+    }
+}
