@@ -130,7 +130,11 @@ impl<'a> Equilibrium<'a> {
                 Unknowns::of_problem(system, boundary),
                 problem.solver,
             )?,
-            energy_tolerance,
+            // With true strains the energy settles before they are those of the displacements: the residual decides.
+            energy_tolerance: match system.element {
+                ElementKind::TrueStrain => 0.0,
+                _ => energy_tolerance,
+            },
             point_stiffness: largest_point_stiffness(system),
             largest_forces: [0.0; 2],
             connectivity: Connectivity::new(system),

@@ -9,7 +9,7 @@ use ligament_analysis::{Observer, SetupError};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, Control, Fracture, Strains, StressField};
+use crate::case::{CaseFile, Control, Fracture, StressField};
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
@@ -127,10 +127,6 @@ pub(crate) fn follow(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     match &case.case.fracture {
-        // True strains are iterated until the residual tells that they are those of the displacements.
-        None if case.case.model.strains == Some(Strains::True) => {
-            driver::elastic::run(problem, 0.0, observer)
-        }
         None => driver::elastic::run(problem, ELASTIC_ENERGY_TOLERANCE, observer),
         Some(fracture) => break_bonds(problem, fracture, observer),
     }
