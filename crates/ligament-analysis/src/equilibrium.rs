@@ -3,12 +3,13 @@
 mod anderson;
 mod error;
 mod secant;
+mod unsymmetric;
 
 use std::time::Instant;
 
-use ligament_linalg::FactorKind;
+use ligament_linalg::{FactorKind, Lu};
 use ligament_model::BondSystem;
-use ligament_model::element::BondDeformation;
+use ligament_model::element::{BondDeformation, ElementKind};
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
@@ -59,6 +60,8 @@ pub struct Equilibrium<'a> {
     /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
     largest_forces: [f64; 2],
     connectivity: Connectivity,
+    /// The factor of a stiffness without symmetry, once there is one.
+    unsymmetric: Option<Lu>,
 }
 
 /// A state in equilibrium.
@@ -127,10 +130,15 @@ impl<'a> Equilibrium<'a> {
                 Unknowns::of_problem(system, boundary),
                 problem.solver,
             )?,
-            energy_tolerance,
+            // With true strains the energy settles before they are those of the displacements: the residual decides.
+            energy_tolerance: match system.element {
+                ElementKind::TrueStrain => 0.0,
+                _ => energy_tolerance,
+            },
             point_stiffness: largest_point_stiffness(system),
             largest_forces: [0.0; 2],
             connectivity: Connectivity::new(system),
+            unsymmetric: None,
         })
     }
 
@@ -205,6 +213,9 @@ impl<'a> Equilibrium<'a> {
     ) -> Result<Result<Balanced, Unbalanced>, ObserverError> {
         if !state.softening.remaining.is_empty() {
             return self.balance_secants(state, observer);
+        }
+        if self.system.element == ElementKind::Pairwise {
+            return self.balance_unsymmetric(state, observer);
         }
         self.prescribe(state);
         let mut mechanisms = Vec::new();

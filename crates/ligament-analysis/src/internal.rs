@@ -6,7 +6,9 @@ use ligament_model::BondSystem;
 use ligament_model::element::beam::BeamBond;
 use ligament_model::element::imaginary::ImaginaryElement;
 use ligament_model::element::pair::Pair;
+use ligament_model::element::pairwise::PairwiseElement;
 use ligament_model::element::spring::SpringBond;
+use ligament_model::element::true_strain::TrueStrainElement;
 use ligament_model::element::{BondDeformation, Element, ElementKind};
 use rayon::prelude::*;
 
@@ -70,6 +72,8 @@ pub fn deformations(
         ElementKind::Beam => deformations_of::<Pair<BeamBond>>,
         ElementKind::Spring => deformations_of::<Pair<SpringBond>>,
         ElementKind::Imaginary => deformations_of::<ImaginaryElement>,
+        ElementKind::TrueStrain => deformations_of::<TrueStrainElement>,
+        ElementKind::Pairwise => deformations_of::<PairwiseElement>,
     };
     of(system, intact, displacement, expansion)
 }
@@ -85,6 +89,8 @@ pub fn forces(
         ElementKind::Beam => forces_of::<Pair<BeamBond>>,
         ElementKind::Spring => forces_of::<Pair<SpringBond>>,
         ElementKind::Imaginary => forces_of::<ImaginaryElement>,
+        ElementKind::TrueStrain => forces_of::<TrueStrainElement>,
+        ElementKind::Pairwise => forces_of::<PairwiseElement>,
     };
     of(system, bonds, deformations, expansion)
 }

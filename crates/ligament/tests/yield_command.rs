@@ -244,7 +244,7 @@ fn what_makes_no_sense_is_told() {
     let mut arguments = vec!["--case", lattice, "--criterion", "stretch"];
     arguments.extend(law.iter().flat_map(|setting| ["--set", setting]));
     let error = refused(&arguments);
-    assert!(error.contains("nothing to compare"), "{error}");
+    assert!(error.contains("directions weaken nothing"), "{error}");
     let error = refused(&["--case", lattice, "--criterion", "stretch", "--at", "5,5"]);
     assert!(error.contains("the nearest is cell 1369"), "{error}");
     let error = refused(&[

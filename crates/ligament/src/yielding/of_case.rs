@@ -2,11 +2,11 @@
 
 use std::io::Write;
 
+use ligament_model::Isotropic;
 use ligament_model::failure::Criteria;
 use ligament_model::law::bbpd;
 use ligament_model::yielding::field::{Distribution, FamilyYield, families, interior};
 use ligament_model::yielding::{PrincipalStretches, lattice};
-use ligament_model::{ElementKind, Isotropic};
 use ligament_output::csv::Table;
 use ligament_output::results::write_points;
 use ligament_output::vtu::Field;
@@ -14,8 +14,7 @@ use ligament_output::vtu::Field;
 use super::diagrams::{self, Comparison};
 use super::subject::{Strain, Subject};
 use super::{Place, Request, SUMMARY, YieldError, console};
-use crate::case::CaseFile;
-use crate::formulation;
+use crate::case::{CaseFile, Law};
 use crate::model::{Model, build_model};
 use crate::plots::{Colour, Mark, Plot, Series};
 use crate::progress::{Progress, ProgressMode};
@@ -341,9 +340,8 @@ fn write_fields(
 }
 
 fn model(case: &CaseFile) -> anyhow::Result<Model> {
-    let law = case.case.model.law;
-    if formulation::element(law) == ElementKind::Imaginary {
-        return Err(YieldError::NoDirections { law: law.word() }.into());
+    if case.case.model.law == Law::MbbPd {
+        return Err(YieldError::NoDirections.into());
     }
     let progress = Progress::new(ProgressMode::Quiet);
     build_model(case, &mut Stages::default(), &progress)
