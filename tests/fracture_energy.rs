@@ -318,13 +318,14 @@ impl Separation {
             stored: 0.0,
             unbroken: 0,
         };
+        let positions = bench.positions().iter();
+        let is_left = positions.map(|&position| segment.side(position) > 0.0);
+        let motions: Vec<[f64; 3]> = is_left
+            .map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] })
+            .collect();
         for bond in segment.crossing(bench) {
-            let motions = system.bonds.ends[bond].map(|end| {
-                let is_left = segment.side(bench.positions()[end as usize]) > 0.0;
-                if is_left { [x, y, 0.0] } else { [0.0; 3] }
-            });
             let element = BondElement::of(system, &[], bond);
-            let deformation = element.deformation(&motions[0], &motions[1]);
+            let deformation = element.deformation(motions.as_flattened());
             let ratio = bench.model.criteria.utilisation(bond, &deformation);
             if ratio == 0.0 {
                 sum.unbroken += 1;

@@ -24,7 +24,8 @@ struct Entry {
 
 const ALL: &[&str] = &["-0.3", "0.21", "0.333333333333333333", "0.38"];
 
-/// The laws. A new law is a row here, and the tests below hold it to the rest.
+/// The laws on any body. A new law is a row here, and the tests below hold it to the rest; MBB-PD, which needs the rows and columns of a
+/// lattice, has tests of its own.
 static LAWS: [Entry; 7] = [
     Entry {
         law: Law::Nhpd,
@@ -72,7 +73,8 @@ static LAWS: [Entry; 7] = [
 
 #[test]
 fn every_law_is_in_the_table() {
-    assert_eq!(LAWS.each_ref().map(|entry| entry.law), Law::ALL);
+    let on_any_body = Law::ALL.into_iter().filter(|&law| law != Law::MbbPd);
+    assert!(LAWS.iter().map(|entry| entry.law).eq(on_any_body));
 }
 
 /// Poisson's ratio of central forces in plane stress.
@@ -234,7 +236,8 @@ fn every_law_is_solved() {
 /// order as one that is made anew, with the energy balance closed to rounding.
 #[test]
 fn bonds_of_every_law_break() {
-    for law in Law::ALL.into_iter().filter(|&law| law != Law::Orthotropic) {
+    let isotropic = |law: &Law| !matches!(law, Law::Orthotropic | Law::MbbPd);
+    for law in Law::ALL.into_iter().filter(isotropic) {
         let poisson = format!(
             "material.poisson={}",
             if law.fixes_poisson() { CENTRAL } else { "0.21" }

@@ -192,13 +192,12 @@ fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
         place[*dof] = k;
     }
     let mut matrix = DMatrix::zeros(dofs.len(), dofs.len());
-    for (bond, ends) in system.bonds.ends.iter().enumerate() {
-        let of_ends = ends.map(|end| [0, 1, 2].map(|c| place[3 * end as usize + c]));
-        let places = of_ends.as_flattened();
-        for (rigidity, row) in BondElement::of(system, &[], bond).modes() {
-            for (&i, a) in places.iter().zip(row).filter(|(i, _)| **i != usize::MAX) {
-                for (&j, b) in places.iter().zip(row).filter(|(j, _)| **j != usize::MAX) {
-                    matrix[(i, j)] += rigidity * a * b;
+    for bond in 0..system.bonds.len() {
+        for (rigidity, mut row) in BondElement::of(system, &[], bond).terms() {
+            row.retain(|(dof, _)| place[*dof] != usize::MAX);
+            for &(i, a) in &row {
+                for &(j, b) in &row {
+                    matrix[(place[i], place[j])] += rigidity * a * b;
                 }
             }
         }

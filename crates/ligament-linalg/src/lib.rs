@@ -8,8 +8,10 @@
 
 mod eigen;
 mod factorisation;
+mod general;
 mod ldlt;
 mod llt;
+mod lu;
 mod matrix;
 mod modification;
 mod storage;
@@ -19,6 +21,8 @@ mod symbolic;
 
 pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
 pub use factorisation::{FactorError, FactorKind, Factorisation, HalfSolved, Inertia};
+pub use general::GeneralMatrix;
+pub use lu::Lu;
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};
 pub use modification::{RankOne, VANISHING_PIVOT};
 pub use symbolic::{Elimination, Symbolic};

@@ -39,6 +39,8 @@ fn preparation(criterion: &mut Criterion) {
         tensile_strength: Some(3.81e6),
         compressive_strength: None,
         fracture_energy: None,
+        fracture_energy_sliding: None,
+        mixed_mode_exponent: None,
         density: None,
         expansion: None,
     }];

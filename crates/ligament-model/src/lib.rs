@@ -38,6 +38,6 @@ pub use element::ElementKind;
 pub use horizon::Horizons;
 pub use law::BondStiffness;
 pub use mass::LumpedMass;
-pub use material::{Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
+pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use shape::Shape;
 pub use system::BondSystem;

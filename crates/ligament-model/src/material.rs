@@ -1,4 +1,8 @@
-//! Linear elastic materials, isotropic or orthotropic, with their strengths.
+//! Linear elastic materials, isotropic, orthotropic or anisotropic, with their strengths.
+
+mod anisotropic;
+
+pub use anisotropic::Anisotropic;
 
 mod expansion;
 
@@ -26,8 +30,12 @@ pub struct Material {
     pub tensile_strength: Option<f64>,
     /// Compressive strength F_c, Pa, positive.
     pub compressive_strength: Option<f64>,
-    /// Fracture energy G_c, J/m^2.
+    /// Fracture energy G_c, J/m^2; where opening and sliding differ, that of opening G_Ic.
     pub fracture_energy: Option<f64>,
+    /// Fracture energy of sliding, mode II, where it is another: G_IIc, J/m^2.
+    pub fracture_energy_sliding: Option<f64>,
+    /// Exponent eta between the two (Benzeggagh and Kenane 1996).
+    pub mixed_mode_exponent: Option<f64>,
     /// Mass density, kg/m^3.
     pub density: Option<f64>,
     /// Thermal expansion.
@@ -41,6 +49,8 @@ pub enum Elasticity {
     Isotropic(Isotropic),
     /// With three planes of symmetry, one of them the plane of the body.
     Orthotropic(Orthotropic),
+    /// With no symmetry in the plane.
+    Anisotropic(Anisotropic),
 }
 
 /// Constants of an isotropic material.
@@ -82,6 +92,7 @@ impl Elasticity {
         match self {
             Self::Isotropic(material) => material.plane_stiffness(plane),
             Self::Orthotropic(material) => material.plane_stiffness(plane),
+            Self::Anisotropic(material) => material.stiffness,
         }
     }
 
@@ -89,7 +100,7 @@ impl Elasticity {
     pub fn isotropic(&self) -> Option<Isotropic> {
         match *self {
             Self::Isotropic(constants) => Some(constants),
-            Self::Orthotropic(_) => None,
+            Self::Orthotropic(_) | Self::Anisotropic(_) => None,
         }
     }
 }

@@ -161,12 +161,19 @@ fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::R
                     it.poisson, it.shear_modulus, it.angle
                 )
             }
+            Elasticity::Anisotropic(it) => {
+                let c = it.stiffness;
+                let of_rows = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+                let values = of_rows.map(|place| format!("{:.4e}", c[place]));
+                format!("c11, c12, c16, c22, c26, c66 = {} Pa", values.join(", "))
+            }
         };
         write!(out, "  {name}: {constants}, volume {volume:.6e} m^3")?;
         for (name, value, unit) in [
             ("F_t", material.tensile_strength, "Pa"),
             ("F_c", material.compressive_strength, "Pa"),
             ("G_c", material.fracture_energy, "J/m^2"),
+            ("G_IIc", material.fracture_energy_sliding, "J/m^2"),
         ] {
             if let Some(value) = value {
                 write!(out, ", {name} = {value:.4e} {unit}")?;

@@ -1,5 +1,7 @@
 //! The failure criteria that a case chooses, with the limits of its bonds.
 
+mod mixed_mode;
+
 use ligament_model::failure::{
     AfterLimit, Criteria, Criterion, Measure, fracture_energy, frictional, sliding,
     softening::{bilinear, exponential},
@@ -33,11 +35,11 @@ pub fn criteria(
         plane: resolve::plane(case),
         materials: resolve::materials(case),
     };
-    let list = fracture.criteria.iter().enumerate();
-    let list = list.map(|(place, criterion)| limits.criterion(place, criterion));
-    Ok(Criteria {
-        list: list.collect::<Result<_, _>>()?,
-    })
+    let mut list = Vec::new();
+    for (place, criterion) in fracture.criteria.iter().enumerate() {
+        list.extend(limits.criterion(place, criterion)?);
+    }
+    Ok(Criteria { list })
 }
 
 /// The elastic constants that the law of the case makes of a material, which limits are made with: Young's modulus with
@@ -61,7 +63,12 @@ struct Limits<'a> {
 }
 
 impl Limits<'_> {
-    fn criterion(&self, place: usize, wanted: &case::Criterion) -> Result<Criterion, CaseError> {
+    /// The criterion of an entry of the case, or the two that it stands for.
+    fn criterion(
+        &self,
+        place: usize,
+        wanted: &case::Criterion,
+    ) -> Result<Vec<Criterion>, CaseError> {
         let key = format!("fracture.criterion.{place}");
         let (name, plane) = (wanted.kind.word(), self.plane);
         let given_or = |given: Option<f64>, of: &dyn Fn(&Isotropic, &Material) -> Option<f64>| {
@@ -110,9 +117,10 @@ impl Limits<'_> {
                     ),
                 )
             },
+            CriterionKind::MixedMode { limits } => return Ok(self.mixed_mode(limits).to_vec()),
         };
         criterion.after = self.after(&key, &criterion, wanted.after)?;
-        Ok(criterion)
+        Ok(vec![criterion])
     }
 
     /// A value of each material, with the constants that the law makes of its own; infinite where it has none.

@@ -28,7 +28,7 @@ fn materials_with_axes_need_their_law_and_all_constants() {
     let isotropic = "young = 15e9\npoisson = 0.21\n";
     assert_eq!(
         error_with(isotropic, AXES),
-        "7:1: material: an orthotropic material needs model.law = \"orthotropic\": \"nhpd\" is a law for isotropic ones"
+        "7:1: material: an orthotropic material needs model.law = \"orthotropic\" or \"mbb-pd\": \"nhpd\" is a law for isotropic ones"
     );
     let with_law = |plane: &str, axes: &str| {
         let text = TEXT

@@ -1,5 +1,6 @@
 //! How a criterion looks at the deformation of a bond.
 
+use super::mixed_mode;
 use crate::element::BondDeformation;
 
 /// The equivalent deformation of a bond that a criterion compares with its limit.
@@ -19,6 +20,10 @@ pub enum Measure {
     /// sqrt(max(s, 0)^2 + q gamma^2), q = k_t/k_n: the stretch that would store the same energy. Compression stores none that
     /// counts.
     Energy,
+    /// Of a bond with strains of its own: S_xx as opening, and S_xy ([`mixed_mode::measure`]).
+    MixedModeX,
+    /// The same with S_yy as opening.
+    MixedModeY,
 }
 
 /// What a criterion weakens in a bond once its limit is passed and before it breaks.
@@ -34,12 +39,14 @@ pub enum Weakened {
 
 impl Measure {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Tension,
         Self::Compression,
         Self::Sliding,
         Self::Friction,
         Self::Energy,
+        Self::MixedModeX,
+        Self::MixedModeY,
     ];
 
     /// The word for it in results.
@@ -50,13 +57,22 @@ impl Measure {
             Self::Sliding => "sliding",
             Self::Friction => "friction",
             Self::Energy => "energy",
+            Self::MixedModeX => "mixed-mode-x",
+            Self::MixedModeY => "mixed-mode-y",
         }
     }
 
-    /// The measure of a deformation, with the coefficient q of the bond where the measure has one.
+    /// Whether it looks at strains of the bond's own, and not at the relative motion of its ends.
+    pub fn takes_strains(self) -> bool {
+        matches!(self, Self::MixedModeX | Self::MixedModeY)
+    }
+
+    /// The measure of a deformation, with the coefficients of the bond where the measure has some: q, and for those of
+    /// strains what [`mixed_mode::measure`] takes.
     #[inline]
-    pub fn of(self, deformation: &BondDeformation, coefficient: f64) -> f64 {
+    pub fn of(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
         let BondDeformation { stretch, shear, .. } = *deformation;
+        let coefficient = coefficients.first().copied().unwrap_or(0.0);
         match self {
             Self::Tension => stretch,
             Self::Compression => -stretch,
@@ -66,13 +82,15 @@ impl Measure {
                 let square = stretch.max(0.0).powi(2) + coefficient * shear * shear;
                 square.max(0.0).sqrt()
             }
+            Self::MixedModeX => mixed_mode::measure(stretch, shear, coefficients),
+            Self::MixedModeY => mixed_mode::measure(deformation.rotation, shear, coefficients),
         }
     }
 
     /// What a criterion of this measure weakens.
     pub fn weakens(self) -> Weakened {
         match self {
-            Self::Tension | Self::Energy => Weakened::Opening,
+            Self::Tension | Self::Energy | Self::MixedModeX | Self::MixedModeY => Weakened::Opening,
             Self::Compression => Weakened::Crushing,
             Self::Sliding | Self::Friction => Weakened::Sliding,
         }
@@ -93,22 +111,35 @@ mod tests {
 
     #[test]
     fn values_by_hand() {
-        let of = |stretch, shear| Measure::ALL.map(|it| it.of(&deformation(stretch, shear), 0.25));
-        assert_eq!(of(3.0, -8.0), [3.0, -3.0, 8.0, 8.75, 5.0]);
-        assert_eq!(of(-4.0, 2.0), [-4.0, 4.0, 2.0, 1.0, 1.0]);
+        let of =
+            |stretch, shear| Measure::ALL.map(|it| it.of(&deformation(stretch, shear), &[0.25]));
+        let along_y = |shear: f64| (0.3_f64.powi(2) + 0.25 * shear.powi(2)).sqrt();
+        assert_eq!(
+            of(3.0, -8.0),
+            [3.0, -3.0, 8.0, 8.75, 5.0, 5.0, along_y(8.0)]
+        );
+        assert_eq!(of(-4.0, 2.0), [-4.0, 4.0, 2.0, 1.0, 1.0, 1.0, along_y(2.0)]);
     }
 
     #[test]
     fn a_negative_shear_stiffness_never_gives_less_than_nothing() {
-        assert_eq!(Measure::Energy.of(&deformation(1.0, 10.0), -0.5), 0.0);
+        assert_eq!(Measure::Energy.of(&deformation(1.0, 10.0), &[-0.5]), 0.0);
     }
 
     #[test]
     fn measures_grow_with_the_load() {
         for measure in Measure::ALL {
-            let [once, twice] =
-                [1.0, 2.0].map(|it| measure.of(&deformation(it * 0.3, it * -0.7), 0.5));
-            assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");
+            for coefficients in [&[0.5] as &[f64], &[0.5, 3.0, 1.75]] {
+                let [once, twice] = [1.0, 2.0].map(|load| {
+                    let deformation = BondDeformation {
+                        stretch: load * 0.3,
+                        shear: load * -0.7,
+                        rotation: load * 0.4,
+                    };
+                    measure.of(&deformation, coefficients)
+                });
+                assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");
+            }
         }
     }
 }

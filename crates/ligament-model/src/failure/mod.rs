@@ -10,10 +10,12 @@
 //! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
 //! | [`frictional`] | friction | a, tan(beta) (MPPD eqs 52 to 58) |
 //! | [`fracture_energy`] | tension, energy | from G_c, the elastic moduli and the mean length of the bonds (Silling and Askari 2005) |
+//! | [`mixed_mode`] | mixed mode, along x or y | from G_Ic, G_IIc and the bonds that a crack cuts (MBB-PD appendix C) |
 
 pub mod fracture_energy;
 pub mod frictional;
 mod measure;
+pub mod mixed_mode;
 pub mod sliding;
 pub mod softening;
 pub mod strength;
@@ -22,7 +24,6 @@ pub mod stretch;
 pub use measure::{Measure, Weakened};
 pub use softening::{AfterLimit, Softened};
 
-use crate::cloud::PointCloud;
 use crate::element::BondDeformation;
 use crate::system::BondSystem;
 
@@ -35,7 +36,7 @@ pub struct Criterion {
     pub measure: Measure,
     /// Limit of each bond; infinite where it never fails, shape (n_bonds).
     pub limit: Vec<f64>,
-    /// Coefficient q of the measure for each bond; empty where the measure has none, shape (n_bonds).
+    /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Vec<f64>,
     /// What happens after the limit.
     pub after: AfterLimit,
@@ -56,8 +57,18 @@ impl Criterion {
     /// The measure of a deformation of a bond.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
-        let coefficient = self.coefficient.get(bond).copied().unwrap_or(0.0);
-        self.measure.of(deformation, coefficient)
+        self.measure.of(deformation, self.coefficients(bond))
+    }
+
+    /// The coefficients of the measure for a bond, shape (n).
+    #[inline]
+    pub fn coefficients(&self, bond: usize) -> &[f64] {
+        let count = match self.coefficient.len() {
+            0 => return &[],
+            len if len == self.limit.len() => 1,
+            len => len / self.limit.len(),
+        };
+        &self.coefficient[count * bond..count * (bond + 1)]
     }
 
     /// Measure at which a bond breaks.
@@ -140,24 +151,46 @@ impl Criteria {
 /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where an end
 /// is marked in `no_fail` (n_points), shape (n_bonds).
 pub fn weakest(system: &BondSystem, no_fail: &[bool], of_materials: &[f64]) -> Vec<f64> {
-    let at_points: Vec<f64> = (0..system.cloud.len())
-        .map(|point| smallest(&system.cloud, point, of_materials))
-        .collect();
-    let of_bond = |ends: &[u32; 2]| {
-        let [a, b] = ends.map(|end| end as usize);
-        if no_fail[a] || no_fail[b] {
+    let materials = weakest_materials(system, of_materials);
+    let of_bond = |(ends, material): (&[u32; 2], usize)| {
+        if ends.iter().any(|end| no_fail[*end as usize]) {
             f64::INFINITY
         } else {
-            at_points[a].min(at_points[b])
+            of_materials[material]
         }
     };
-    system.bonds.ends.iter().map(of_bond).collect()
+    system
+        .bonds
+        .ends
+        .iter()
+        .zip(materials)
+        .map(of_bond)
+        .collect()
 }
 
-fn smallest(cloud: &PointCloud, point: usize, of_materials: &[f64]) -> f64 {
-    let shares = cloud.shares(point).iter().zip(of_materials);
-    let present = shares.filter(|(share, _)| **share > 0.0);
-    present
-        .map(|(_, &value)| value)
-        .fold(f64::INFINITY, f64::min)
+/// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond, the first of
+/// equals, shape (n_bonds).
+pub fn weakest_materials(system: &BondSystem, of_materials: &[f64]) -> Vec<usize> {
+    let smaller = |one: usize, other: usize| {
+        let is_smaller = of_materials[other] < of_materials[one];
+        let is_equal = of_materials[other] == of_materials[one];
+        if is_smaller || (is_equal && other < one) {
+            other
+        } else {
+            one
+        }
+    };
+    let at_point = |point: usize| {
+        let shares = system.cloud.shares(point).iter().enumerate();
+        let present = shares
+            .filter(|(_, share)| **share > 0.0)
+            .map(|(material, _)| material);
+        present.reduce(smaller).unwrap_or_default()
+    };
+    let at_points: Vec<usize> = (0..system.cloud.len()).map(at_point).collect();
+    let of_bond = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| at_points[end as usize]);
+        smaller(a, b)
+    };
+    system.bonds.ends.iter().map(of_bond).collect()
 }

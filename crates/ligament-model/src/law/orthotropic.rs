@@ -17,6 +17,10 @@ use crate::material::{Elasticity, Plane};
 ///
 /// and a chosen k_theta. Plane strain takes the reduced constants C of [`crate::material::Orthotropic::principal_stiffness`]. An
 /// isotropic material gives the densities of [`super::mppd`].
+///
+/// # Panics
+///
+/// Panics for a material without axes ([`Elasticity::Anisotropic`]): its six constants have no place in four.
 pub fn stiffness(
     bonds: &BondSet,
     cloud: &PointCloud,
@@ -49,6 +53,7 @@ fn harmonics(material: &Elasticity, plane: Plane, thickness: f64) -> [f64; 8] {
     let (c, angle) = match material {
         Elasticity::Isotropic(material) => (material.plane_stiffness(plane), 0.0),
         Elasticity::Orthotropic(material) => (material.principal_stiffness(plane), material.angle),
+        Elasticity::Anisotropic(_) => panic!("the orthotropic law needs a material with axes"),
     };
     let [c11, c12, c22, c66] = [c[(0, 0)], c[(0, 1)], c[(1, 1)], c[(2, 2)]];
     let unit = 3.0 / (PI * thickness);

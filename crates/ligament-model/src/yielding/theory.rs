@@ -4,6 +4,8 @@ use super::PrincipalStretches;
 use crate::element::BondDeformation;
 use crate::failure::Measure;
 
+const NO_DIRECTION: &str = "a bond with strains of its own has no worst direction";
+
 /// Deformation of the bond, of bonds in all directions, at which a measure with the coefficient q is largest:
 ///
 /// | measure | worst direction x | measure there |
@@ -15,6 +17,10 @@ use crate::failure::Measure;
 ///
 /// with s_m = (s_1 + s_2)/2 and s_d = |s_1 - s_2|/2 (for friction MPPD Fig. 10). Of the two signs of the sliding it
 /// is the positive one.
+///
+/// # Panics
+///
+/// Panics for a measure of strains of the bond's own, which are those of the body in all directions.
 pub fn critical_deformation(
     measure: Measure,
     coefficient: f64,
@@ -44,7 +50,7 @@ pub fn critical_deformation(
                 mean / (deviator * (coefficient - 1.0)),
             ];
             let finite = candidates.into_iter().filter(|cosine| cosine.is_finite());
-            let value = |it: &BondDeformation| measure.of(it, coefficient);
+            let value = |it: &BondDeformation| measure.of(it, &[coefficient]);
             finite.map(at).fold(
                 at(1.0),
                 |best, it| {
@@ -52,16 +58,22 @@ pub fn critical_deformation(
                 },
             )
         }
+        Measure::MixedModeX | Measure::MixedModeY => panic!("{NO_DIRECTION}"),
     }
 }
 
 /// Largest slope of a measure with the coefficient q over the orientation of a strain, per radian and unit of s_d: 2 for
 /// stretch and sliding, 2/cos(beta) for friction, 2 max(1, sqrt(q)) for the energy.
+///
+/// # Panics
+///
+/// Panics like [`critical_deformation`].
 pub fn steepest_slope(measure: Measure, coefficient: f64) -> f64 {
     2.0 * match measure {
         Measure::Tension | Measure::Compression | Measure::Sliding => 1.0,
         Measure::Friction => (1.0 + coefficient * coefficient).sqrt(),
         Measure::Energy => coefficient.max(1.0).sqrt(),
+        Measure::MixedModeX | Measure::MixedModeY => panic!("{NO_DIRECTION}"),
     }
 }
 
@@ -97,11 +109,11 @@ mod tests {
                 ] {
                     let strains = PrincipalStretches::new(first, second);
                     let critical = critical_deformation(measure, q, strains);
-                    let largest = measure.of(&critical, q);
+                    let largest = measure.of(&critical, &[q]);
                     let sampled = (0..20_000)
                         .map(|k| PI * f64::from(k) / 20_000.0)
                         .map(|x| strains.along([(2.0 * x).cos(), (2.0 * x).sin()]))
-                        .map(|it| measure.of(&it, q))
+                        .map(|it| measure.of(&it, &[q]))
                         .fold(f64::NEG_INFINITY, f64::max);
                     let place = format!("{measure:?} {q} {first} {second}: {sampled} {largest}");
                     assert!(sampled <= largest + 1e-14, "{place}");
@@ -120,7 +132,7 @@ mod tests {
             let bound = steepest_slope(measure, 2.0) * strains.deviator();
             let value = |x: f64| {
                 let twice = [(2.0 * x).cos(), (2.0 * x).sin()];
-                measure.of(&strains.along(twice), 2.0)
+                measure.of(&strains.along(twice), &[2.0])
             };
             let slope = |k: u32| {
                 let x = f64::from(k) * PI / 5000.0;

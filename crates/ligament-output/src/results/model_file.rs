@@ -10,6 +10,7 @@
 //! | `length_factor`, `domain_factor` | alpha, Omega |
 //! | `limit.NAME` | limit of the criterion; infinite where it never fails by it |
 //! | `coefficient.NAME` | coefficient q of its measure, where that has one |
+//! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of its measure, where they differ from 1 |
 //! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
 
@@ -61,6 +62,10 @@ impl Absence {
             .find(|it| it.number() == number)
     }
 }
+
+/// Names of the fields with the coefficients of a measure, in their order; most measures have none or one.
+pub(super) const COEFFICIENTS: [&str; 3] =
+    ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
 
 /// Writes the model, and how near its bonds came to their limits once that is known.
 pub(super) fn write(
@@ -129,16 +134,22 @@ fn limits(problem: &Problem<'_>, n_absent: usize) -> Vec<(String, Vec<f64>)> {
         .iter()
         .zip(labels(criteria.iter().map(|it| it.name)))
     {
-        for (what, values) in [
-            ("limit", criterion.limit.as_slice()),
-            ("coefficient", &criterion.coefficient),
-            ("after", criterion.after.parameter()),
-        ] {
-            if !values.is_empty() {
-                let nothing = std::iter::repeat_n(f64::NAN, n_absent);
-                let all = values.iter().copied().chain(nothing);
-                found.push((format!("{what}.{label}"), all.collect()));
-            }
+        let mut push = |what: &str, values: &mut dyn Iterator<Item = f64>| {
+            let nothing = std::iter::repeat_n(f64::NAN, n_absent);
+            found.push((format!("{what}.{label}"), values.chain(nothing).collect()));
+        };
+        push("limit", &mut criterion.limit.iter().copied());
+        let coefficients = &criterion.coefficient;
+        let count = coefficients.len() / criterion.limit.len().max(1);
+        for (place, what) in COEFFICIENTS.iter().take(count).enumerate() {
+            push(
+                what,
+                &mut coefficients.iter().skip(place).step_by(count).copied(),
+            );
+        }
+        let parameter = criterion.after.parameter();
+        if !parameter.is_empty() {
+            push("after", &mut parameter.iter().copied());
         }
     }
     found

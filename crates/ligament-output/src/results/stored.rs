@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::model_file::{Absence, MODEL};
+use super::model_file::{Absence, COEFFICIENTS, MODEL};
 use super::point_fields::THERMAL_STRAIN;
 use crate::csv::read::Sheet;
 use crate::folder::RESOLVED_CASE;
@@ -75,8 +75,8 @@ pub struct StoredCriterion {
     pub after: String,
     /// Limits, shape (n_bonds).
     pub limit: Vec<f64>,
-    /// Coefficients of the measure, shape (n_bonds) or empty.
-    pub coefficient: Vec<f64>,
+    /// Coefficients of the measure, each with shape (n_bonds); none where it has none.
+    pub coefficients: Vec<Vec<f64>>,
     /// Numbers of the law after the limit, shape (n_bonds) or empty.
     pub parameter: Vec<f64>,
 }
@@ -293,9 +293,9 @@ impl StoredModel {
             bonds.domain_factor.len(),
         ];
         let of_criteria = self.criteria.iter().all(|it| {
-            let may_be_empty = [&it.coefficient, &it.parameter];
-            let fits = |values: &&Vec<f64>| values.is_empty() || values.len() == n_bonds;
-            it.limit.len() == n_bonds && may_be_empty.iter().all(fits)
+            let mut all = it.coefficients.iter().chain([&it.limit]);
+            let parameter = it.parameter.len();
+            all.all(|values| values.len() == n_bonds) && (parameter == 0 || parameter == n_bonds)
         });
         let mut of_largest =
             largest.flat_map(|it| [it.utilisation.len(), it.step.len(), it.criterion.len()]);
@@ -339,9 +339,12 @@ fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error
             file.numbers(FieldLocation::Cell, &format!("{what}.{name}"))
                 .map(Option::unwrap_or_default)
         };
+        let coefficients = COEFFICIENTS.iter().map(|what| field(what));
+        let mut coefficients = coefficients.collect::<Result<Vec<_>, _>>()?;
+        coefficients.retain(|values| !values.is_empty());
         Ok(StoredCriterion {
             limit: field("limit")?,
-            coefficient: field("coefficient")?,
+            coefficients,
             parameter: field("after")?,
             name,
             measure,

@@ -55,6 +55,21 @@ pub enum CriterionKind {
         #[serde(skip_serializing_if = "Option::is_none")]
         limit: Option<f64>,
     },
+    /// Opening and shear of bonds with strains of their own, from the fracture energies, or these limits.
+    MixedMode {
+        /// The limits, both or none.
+        #[serde(flatten)]
+        limits: Option<MixedModeLimits>,
+    },
+}
+
+/// Limits of opening and of shear.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MixedModeLimits {
+    /// Stretch at which a bond without shear breaks.
+    pub critical_stretch: f64,
+    /// Shear at which a bond that does not open breaks, rad.
+    pub critical_angle: f64,
 }
 
 /// How cohesion and friction come from the strengths.
@@ -103,7 +118,8 @@ impl Criterion {
             CriterionKind::Tension { limit: Some(_) }
             | CriterionKind::Compression { limit: Some(_) }
             | CriterionKind::Sliding { limit: Some(_) }
-            | CriterionKind::BondEnergy { limit: Some(_) } => Vec::new(),
+            | CriterionKind::BondEnergy { limit: Some(_) }
+            | CriterionKind::MixedMode { limits: Some(_) } => Vec::new(),
             CriterionKind::Strength => vec![("tensile_strength", None)],
             CriterionKind::Tension { limit: None } | CriterionKind::Sliding { limit: None } => {
                 vec![("tensile_strength", Some("limit"))]
@@ -117,6 +133,9 @@ impl Criterion {
             CriterionKind::CriticalStretch => vec![("fracture_energy", None)],
             CriterionKind::BondEnergy { limit: None } => {
                 vec![("fracture_energy", Some("limit"))]
+            }
+            CriterionKind::MixedMode { limits: None } => {
+                vec![("fracture_energy", Some("critical_stretch"))]
             }
         };
         match self.after {
@@ -142,7 +161,21 @@ impl CriterionKind {
             Self::Frictional { .. } => "frictional",
             Self::CriticalStretch => "critical-stretch",
             Self::BondEnergy { .. } => "bond-energy",
+            Self::MixedMode { .. } => "mixed-mode",
         }
+    }
+
+    /// Number of criteria of the model that it stands for: one for opening along each axis, or one.
+    pub fn parts(&self) -> usize {
+        match self {
+            Self::MixedMode { .. } => 2,
+            _ => 1,
+        }
+    }
+
+    /// Whether its limits come from constants of isotropic materials alone.
+    pub(super) fn is_isotropic(&self) -> bool {
+        !matches!(self, Self::MixedMode { .. })
     }
 }
 
@@ -168,6 +201,7 @@ enum KindName {
     Frictional,
     CriticalStretch,
     BondEnergy,
+    MixedMode,
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]
@@ -185,6 +219,8 @@ enum AfterName {
 pub(super) struct RawCriterion {
     kind: KindName,
     limit: Option<f64>,
+    critical_stretch: Option<f64>,
+    critical_angle: Option<f64>,
     calibration: Option<FrictionCalibration>,
     #[serde(default)]
     after: AfterName,
@@ -195,13 +231,19 @@ pub(super) struct RawCriterion {
 impl RawCriterion {
     pub(super) fn check(self, key: &KeyPath, control: &Control) -> Result<Criterion, KeyFault> {
         let criterion = Criterion {
-            kind: self.kind(),
+            kind: self.kind(key)?,
             after: self.after(),
         };
         self.refuse_other_kinds(key, &criterion)?;
         self.refuse_after(key, &criterion, control)?;
-        if let Some(limit) = self.limit {
-            require_positive(key, "limit", limit)?;
+        for (name, limit) in [
+            ("limit", self.limit),
+            ("critical_stretch", self.critical_stretch),
+            ("critical_angle", self.critical_angle),
+        ] {
+            if let Some(limit) = limit {
+                require_positive(key, name, limit)?;
+            }
         }
         if let Some(end) = self.end {
             require(end > 1.0, || key.child("end"), "greater than 1", end)?;
@@ -212,9 +254,9 @@ impl RawCriterion {
         Ok(criterion)
     }
 
-    fn kind(&self) -> CriterionKind {
+    fn kind(&self, key: &KeyPath) -> Result<CriterionKind, KeyFault> {
         let limit = self.limit;
-        match self.kind {
+        Ok(match self.kind {
             KindName::Strength => CriterionKind::Strength,
             KindName::Tension => CriterionKind::Tension { limit },
             KindName::Compression => CriterionKind::Compression { limit },
@@ -224,6 +266,27 @@ impl RawCriterion {
             },
             KindName::CriticalStretch => CriterionKind::CriticalStretch,
             KindName::BondEnergy => CriterionKind::BondEnergy { limit },
+            KindName::MixedMode => CriterionKind::MixedMode {
+                limits: self.mixed_mode_limits(key)?,
+            },
+        })
+    }
+
+    fn mixed_mode_limits(&self, key: &KeyPath) -> Result<Option<MixedModeLimits>, KeyFault> {
+        let missing = |name: &'static str, given: &str| {
+            let reason = format!(
+                "beside `{given}`: the limits of opening and of shear are given together, or both come from the fracture energies"
+            );
+            KeyFault::new(key.child(name), Fault::Required { key: name, reason })
+        };
+        match (self.critical_stretch, self.critical_angle) {
+            (None, None) => Ok(None),
+            (Some(critical_stretch), Some(critical_angle)) => Ok(Some(MixedModeLimits {
+                critical_stretch,
+                critical_angle,
+            })),
+            (Some(_), None) => Err(missing("critical_angle", "critical_stretch")),
+            (None, Some(_)) => Err(missing("critical_stretch", "critical_angle")),
         }
     }
 
@@ -243,6 +306,21 @@ impl RawCriterion {
             self.kind,
             KindName::Tension | KindName::Compression | KindName::Sliding | KindName::BondEnergy
         );
+        let is_mixed = self.kind == KindName::MixedMode;
+        for (name, given) in [
+            ("critical_stretch", self.critical_stretch),
+            ("critical_angle", self.critical_angle),
+        ] {
+            if given.is_some() && !is_mixed {
+                let reason = "only \"mixed-mode\" has a limit for opening and one for shear";
+                return Err(not_with(key, name, name, kind, reason));
+            }
+        }
+        if self.limit.is_some() && is_mixed {
+            let reason =
+                "it has two limits: `critical_stretch` of opening and `critical_angle` of shear";
+            return Err(not_with(key, "limit", "limit", kind, reason));
+        }
         if self.limit.is_some() && !takes_limit {
             let reason = "its limits come from the material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one";
             return Err(not_with(key, "limit", "limit", kind, reason));
@@ -281,6 +359,11 @@ impl RawCriterion {
         };
         if self.kind == KindName::Frictional {
             let reason = "its limit moves with the stretch, so that there is no one deformation at which softening begins";
+            return Err(not_with(key, "after", named, kind, reason));
+        }
+        if self.kind == KindName::MixedMode {
+            let reason = "which bonds a strain is taken from changes when their neighbours break, so that it says nothing of \
+                          what a bond went through";
             return Err(not_with(key, "after", named, kind, reason));
         }
         if criterion.after == After::Plastic && self.kind != KindName::Sliding {

@@ -1,5 +1,7 @@
 //! `[material]` or `[material.NAME]`: the materials of the body.
 
+mod elasticity;
+
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -13,6 +15,8 @@ use super::mesh_section::Plane;
 use super::model::Law;
 use super::units::unit_of;
 use super::values::{require, require_positive, require_unique};
+use elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
+pub use elasticity::{Anisotropic, Elasticity, Orthotropic};
 
 /// A linear elastic material with its strengths.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,6 +39,12 @@ pub struct Material {
     /// Fracture energy, J/m^2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fracture_energy: Option<f64>,
+    /// Fracture energy of sliding where it is another, J/m^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fracture_energy_sliding: Option<f64>,
+    /// Exponent between the two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mixed_mode_exponent: Option<f64>,
     /// Mass density, kg/m^3; always there in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
@@ -42,57 +52,6 @@ pub struct Material {
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub expansion: Option<Expansion>,
 }
-
-/// Elastic constants.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Elasticity {
-    /// The same in all directions.
-    Isotropic {
-        /// Young's modulus, Pa.
-        young: f64,
-        /// Poisson's ratio.
-        poisson: f64,
-    },
-    /// With axes.
-    Orthotropic(Orthotropic),
-}
-
-/// Constants of an orthotropic material.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Orthotropic {
-    /// Young's modulus along the axis 1, Pa.
-    pub young_1: f64,
-    /// Young's modulus along the axis 2, Pa.
-    pub young_2: f64,
-    /// Poisson's ratio: contraction along 2 under stress along 1.
-    pub poisson_12: f64,
-    /// Shear modulus in the plane, Pa.
-    pub shear_modulus: f64,
-    /// Angle from the x axis to the axis 1, rad.
-    pub angle: f64,
-    /// Constants across the plane, for plane strain: Young's modulus, Pa.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub young_3: Option<f64>,
-    /// Contraction across under stress along 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poisson_13: Option<f64>,
-    /// Contraction across under stress along 2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poisson_23: Option<f64>,
-}
-
-/// Keys that only an orthotropic material has: one of them tells it.
-const ORTHOTROPIC_KEYS: [&str; 8] = [
-    "young_1",
-    "young_2",
-    "poisson_12",
-    "shear_modulus",
-    "angle",
-    "young_3",
-    "poisson_13",
-    "poisson_23",
-];
 
 impl Material {
     /// Key path of its table in the case file.
@@ -120,11 +79,14 @@ impl Material {
                 )?;
             }
             Elasticity::Orthotropic(constants) => constants.check(&key)?,
+            Elasticity::Anisotropic(constants) => constants.check(&key)?,
         }
         let positive = [
             ("tensile_strength", self.tensile_strength),
             ("compressive_strength", self.compressive_strength),
             ("fracture_energy", self.fracture_energy),
+            ("fracture_energy_sliding", self.fracture_energy_sliding),
+            ("mixed_mode_exponent", self.mixed_mode_exponent),
             ("density", self.density),
         ];
         for (name, value) in positive {
@@ -133,68 +95,6 @@ impl Material {
             }
         }
         Ok(self)
-    }
-}
-
-impl Orthotropic {
-    fn check(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        require_positive(key, "young_1", self.young_1)?;
-        require_positive(key, "young_2", self.young_2)?;
-        require_positive(key, "shear_modulus", self.shear_modulus)?;
-        let across = [self.young_3, self.poisson_13, self.poisson_23];
-        if across.iter().any(Option::is_some) {
-            self.require_across(
-                key,
-                "because the other constants across the plane are given",
-            )?;
-        }
-        if let Some(young_3) = self.young_3 {
-            require_positive(key, "young_3", young_3)?;
-        }
-        let stable = ligament_model::Orthotropic::from(*self).is_stable();
-        require(
-            stable,
-            || key.child("poisson_12"),
-            "so small that every strain costs energy (nu_12^2 < E_1/E_2, and the like across the plane)",
-            self.poisson_12,
-        )
-    }
-
-    fn require_across(&self, key: &KeyPath, reason: &'static str) -> Result<(), KeyFault> {
-        let across = [
-            ("young_3", self.young_3),
-            ("poisson_13", self.poisson_13),
-            ("poisson_23", self.poisson_23),
-        ];
-        match across.into_iter().find(|(_, value)| value.is_none()) {
-            None => Ok(()),
-            Some((name, _)) => {
-                let fault = Fault::Required {
-                    key: name,
-                    reason: reason.to_owned(),
-                };
-                Err(KeyFault::new(key.child(name), fault))
-            }
-        }
-    }
-}
-
-impl From<Orthotropic> for ligament_model::Orthotropic {
-    fn from(constants: Orthotropic) -> Self {
-        let across = constants.young_3.zip(constants.poisson_13);
-        let across = across.zip(constants.poisson_23);
-        Self {
-            young: [constants.young_1, constants.young_2],
-            poisson: constants.poisson_12,
-            shear_modulus: constants.shear_modulus,
-            out_of_plane: across.map(|((young, along_1), along_2)| {
-                ligament_model::material::OutOfPlane {
-                    young,
-                    poisson: [along_1, along_2],
-                }
-            }),
-            angle: constants.angle,
-        }
     }
 }
 
@@ -207,6 +107,8 @@ struct RawIsotropic {
     tensile_strength: Option<f64>,
     compressive_strength: Option<f64>,
     fracture_energy: Option<f64>,
+    fracture_energy_sliding: Option<f64>,
+    mixed_mode_exponent: Option<f64>,
     density: Option<f64>,
     thermal_expansion: Option<f64>,
 }
@@ -227,11 +129,34 @@ struct RawOrthotropic {
     tensile_strength: Option<f64>,
     compressive_strength: Option<f64>,
     fracture_energy: Option<f64>,
+    fracture_energy_sliding: Option<f64>,
+    mixed_mode_exponent: Option<f64>,
     density: Option<f64>,
     thermal_expansion: Option<f64>,
     thermal_expansion_1: Option<f64>,
     thermal_expansion_2: Option<f64>,
     thermal_expansion_3: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawAnisotropic {
+    group: Option<String>,
+    c11: f64,
+    c12: f64,
+    c16: f64,
+    c22: f64,
+    c26: f64,
+    c66: f64,
+    tensile_strength: Option<f64>,
+    compressive_strength: Option<f64>,
+    fracture_energy: Option<f64>,
+    fracture_energy_sliding: Option<f64>,
+    mixed_mode_exponent: Option<f64>,
+    density: Option<f64>,
+    thermal_expansion: Option<f64>,
+    thermal_expansion_1: Option<f64>,
+    thermal_expansion_2: Option<f64>,
 }
 
 /// Reads the section: one material, or a table for each of several.
@@ -274,8 +199,33 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
 fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let section = KeyPath::default().child("material");
     let key = name.iter().fold(section, |path, name| path.child(name));
-    let is_orthotropic = ORTHOTROPIC_KEYS.iter().any(|key| table.get(key).is_some());
-    let material = if is_orthotropic {
+    let has_one_of = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
+    let material = if has_one_of(&ANISOTROPIC_KEYS) {
+        let raw: RawAnisotropic = decode(table, &key)?;
+        Material {
+            name,
+            group: raw.group,
+            elasticity: Elasticity::Anisotropic(Anisotropic {
+                c11: raw.c11,
+                c12: raw.c12,
+                c16: raw.c16,
+                c22: raw.c22,
+                c26: raw.c26,
+                c66: raw.c66,
+            }),
+            tensile_strength: raw.tensile_strength,
+            compressive_strength: raw.compressive_strength,
+            fracture_energy: raw.fracture_energy,
+            fracture_energy_sliding: raw.fracture_energy_sliding,
+            mixed_mode_exponent: raw.mixed_mode_exponent,
+            density: raw.density,
+            expansion: Expansion::of(
+                &key,
+                raw.thermal_expansion,
+                [raw.thermal_expansion_1, raw.thermal_expansion_2, None],
+            )?,
+        }
+    } else if has_one_of(&ORTHOTROPIC_KEYS) {
         let raw: RawOrthotropic = decode(table, &key)?;
         Material {
             name,
@@ -293,6 +243,8 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             tensile_strength: raw.tensile_strength,
             compressive_strength: raw.compressive_strength,
             fracture_energy: raw.fracture_energy,
+            fracture_energy_sliding: raw.fracture_energy_sliding,
+            mixed_mode_exponent: raw.mixed_mode_exponent,
             density: raw.density,
             expansion: Expansion::of(
                 &key,
@@ -316,6 +268,8 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             tensile_strength: raw.tensile_strength,
             compressive_strength: raw.compressive_strength,
             fracture_energy: raw.fracture_energy,
+            fracture_energy_sliding: raw.fracture_energy_sliding,
+            mixed_mode_exponent: raw.mixed_mode_exponent,
             density: raw.density,
             expansion: Expansion::of(&key, raw.thermal_expansion, [None; 3])?,
         }
@@ -349,7 +303,8 @@ impl Material {
     fn require_strengths(&self, criterion: &Criterion) -> Result<(), KeyFault> {
         let (path, kind) = (self.key_path(), criterion.kind.word());
         for (key, instead) in criterion.needs() {
-            if let Elasticity::Orthotropic(_) = self.elasticity {
+            let is_isotropic = matches!(self.elasticity, Elasticity::Isotropic { .. });
+            if criterion.kind.is_isotropic() && !is_isotropic {
                 let advice = match instead {
                     Some(instead) => format!("give it its own `{instead}`"),
                     None => {
@@ -380,7 +335,26 @@ impl Material {
                 ));
             }
         }
+        self.require_exponent(criterion)?;
         self.require_friction(criterion)
+    }
+
+    /// Between two fracture energies the exponent says what a mixture of both modes takes.
+    fn require_exponent(&self, criterion: &Criterion) -> Result<(), KeyFault> {
+        let differ =
+            (self.fracture_energy_sliding).is_some_and(|it| Some(it) != self.fracture_energy);
+        let takes_energies = matches!(criterion.kind, CriterionKind::MixedMode { limits: None });
+        if !takes_energies || !differ || self.mixed_mode_exponent.is_some() {
+            return Ok(());
+        }
+        let (key, reason) = (
+            "mixed_mode_exponent",
+            "because fracture_energy_sliding is not fracture_energy: G_c = G_Ic + (G_IIc - G_Ic) (G_II/G)^exponent".to_owned(),
+        );
+        Err(KeyFault::new(
+            self.key_path().child(key),
+            Fault::Required { key, reason },
+        ))
     }
 
     /// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
@@ -422,25 +396,42 @@ pub(super) fn require_suitable(
     plane: Plane,
 ) -> Result<(), KeyFault> {
     for material in materials {
-        let key = material.key_path();
-        if let Some(expansion) = &material.expansion {
-            expansion.require_suitable(&key, plane)?;
-        }
-        let Elasticity::Orthotropic(constants) = &material.elasticity else {
-            continue;
+        material.require_suitable(law, plane)?;
+    }
+    Ok(())
+}
+
+impl Material {
+    fn require_suitable(&self, law: Law, plane: Plane) -> Result<(), KeyFault> {
+        let (what, laws): (_, &[Law]) = match self.elasticity {
+            Elasticity::Isotropic { .. } => return Ok(()),
+            Elasticity::Orthotropic(_) => ("an orthotropic", &[Law::Orthotropic, Law::MbbPd]),
+            Elasticity::Anisotropic(_) => ("an anisotropic", &[Law::MbbPd]),
         };
-        if !matches!(law, Law::Orthotropic | Law::MbbPd) {
+        let key = self.key_path();
+        if !laws.contains(&law) {
+            let words: Vec<String> = laws.iter().map(|it| format!("\"{}\"", it.word())).collect();
             let reason = format!(
-                "an orthotropic material needs model.law = \"orthotropic\" or \"mbb-pd\": \"{}\" is a law for isotropic ones",
-                law.word()
+                "{what} material needs model.law = {}: \"{}\" is a law for {} ones",
+                words.join(" or "),
+                law.word(),
+                if law == Law::Orthotropic {
+                    "orthotropic"
+                } else {
+                    "isotropic"
+                }
             );
             return Err(KeyFault::new(key, reason));
         }
-        if plane == Plane::Strain {
-            constants.require_across(&key, "because of plane strain")?;
+        match &self.elasticity {
+            Elasticity::Orthotropic(constants) if plane == Plane::Strain => {
+                constants.require_across(&key, "because of plane strain")?;
+                let expansion = self.expansion.iter();
+                expansion.map(|it| it.require_across(&key)).collect()
+            }
+            _ => Ok(()),
         }
     }
-    Ok(())
 }
 
 /// Writes the materials as they stand in a case file.

@@ -19,10 +19,16 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
             | "young_3"
             | "shear_modulus"
             | "tensile_strength"
-            | "compressive_strength",
+            | "compressive_strength"
+            | "c11"
+            | "c12"
+            | "c16"
+            | "c22"
+            | "c26"
+            | "c66",
         ] => Some("Pa"),
-        [.., "angle"] => Some("rad"),
-        [.., "fracture_energy"] => Some("J/m^2"),
+        [.., "angle" | "critical_angle"] => Some("rad"),
+        [.., "fracture_energy" | "fracture_energy_sliding"] => Some("J/m^2"),
         [
             ..,
             "thermal_expansion"

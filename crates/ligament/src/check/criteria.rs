@@ -15,7 +15,9 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::
         return Ok(());
     };
     writeln!(out, "failure criteria")?;
-    for (given, criterion) in fracture.criteria.iter().zip(&model.criteria.list) {
+    let given = fracture.criteria.iter();
+    let given = given.flat_map(|it| std::iter::repeat_n(it, it.kind.parts()));
+    for (given, criterion) in given.zip(&model.criteria.list) {
         write_limits(out, criterion)?;
         let takes_energy = matches!(
             given.kind,
@@ -35,6 +37,8 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
         Measure::Sliding => "|gamma|",
         Measure::Friction => "|gamma| + s tan(beta)",
         Measure::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
+        Measure::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
+        Measure::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
     };
     write!(out, "  {:<21} {measure} = ", criterion.name)?;
     let failing = |bond: &usize| criterion.limit[*bond].is_finite();
@@ -48,6 +52,18 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
         && let Some(slopes) = of_bonds(&criterion.coefficient)
     {
         write!(out, "; tan(beta) = {slopes}")?;
+    }
+    if criterion.measure.takes_strains() {
+        let count = criterion.coefficients(0).len();
+        let names = ["q", "G_IIc/G_Ic", "eta"].into_iter().take(count);
+        for (place, name) in names.enumerate() {
+            let values = bonds
+                .iter()
+                .map(|&bond| criterion.coefficients(bond)[place]);
+            if let Some(values) = Range::of(values) {
+                write!(out, "; {name} = {values}")?;
+            }
+        }
     }
     let ends = match &criterion.after {
         AfterLimit::Brittle => None,

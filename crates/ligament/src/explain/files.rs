@@ -93,7 +93,7 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
             "criterion": limit.name,
             "measure": limit.measure.word(),
             "limit": limit.limit,
-            "coefficient": limit.coefficient,
+            "coefficients": limit.coefficients,
             "after": limit.after.word(),
             "break_limit": limit.limit * limit.after.end(0),
         })

@@ -52,7 +52,7 @@ pub(super) struct Limit {
     pub(super) name: String,
     pub(super) measure: Measure,
     pub(super) limit: f64,
-    pub(super) coefficient: f64,
+    pub(super) coefficients: Vec<f64>,
     pub(super) after: AfterLimit,
 }
 
@@ -121,14 +121,14 @@ impl Limit {
             name: criterion.name.clone(),
             measure,
             limit: criterion.limit[pair],
-            coefficient: criterion.coefficient.get(pair).copied().unwrap_or(0.0),
+            coefficients: criterion.coefficients.iter().map(|it| it[pair]).collect(),
             after: AfterLimit::from_word(&criterion.after, parameter.into_iter().collect())?,
         })
     }
 
     /// The measure of a deformation.
     pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
-        self.measure.of(deformation, self.coefficient)
+        self.measure.of(deformation, &self.coefficients)
     }
 
     /// Measure over limit, 0 where the measure is not positive.
@@ -305,7 +305,7 @@ mod tests {
             name: "tension".to_owned(),
             measure: Measure::Tension,
             limit: 2.0,
-            coefficient: 0.0,
+            coefficients: Vec::new(),
             after: AfterLimit::Bilinear { end: vec![4.0] },
         };
         let stretched = |stretch| BondDeformation {

@@ -21,6 +21,8 @@ pub(super) fn formula(measure: Measure) -> &'static str {
         Measure::Sliding => "sliding |gamma|",
         Measure::Friction => "|gamma| + q s",
         Measure::Energy => "sqrt(max(s, 0)^2 + q gamma^2)",
+        Measure::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
+        Measure::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
     }
 }
 
@@ -43,10 +45,9 @@ fn deformed(BondDeformation { stretch, shear, .. }: &BondDeformation) -> String 
 pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
     let words = |limit: &Limit| {
         let what = formula(limit.measure);
-        let coefficient = match limit.measure {
-            Measure::Friction | Measure::Energy => format!(", q = {}", number(limit.coefficient)),
-            Measure::Tension | Measure::Compression | Measure::Sliding => String::new(),
-        };
+        let coefficient: String = (["q", "G_IIc/G_Ic", "eta"].iter().zip(&limit.coefficients))
+            .map(|(name, &value)| format!(", {name} = {}", number(value)))
+            .collect();
         if limit.limit.is_infinite() {
             return format!("never fails by its {what}{coefficient}");
         }
@@ -242,11 +243,16 @@ mod tests {
     use crate::explain::life::life_of;
 
     fn said(measure: Measure, limit: f64, after: AfterLimit) -> String {
+        let coefficients: &[f64] = match measure {
+            Measure::Friction => &[0.5],
+            Measure::MixedModeY => &[0.25, 4.0, 2.0],
+            _ => &[],
+        };
         let limit = Limit {
             name: "own".to_owned(),
             measure,
             limit,
-            coefficient: 0.5,
+            coefficients: coefficients.to_vec(),
             after,
         };
         limits(&life_of(vec![limit], Vec::new())).remove(0).1
@@ -279,6 +285,12 @@ mod tests {
                 f64::INFINITY,
                 AfterLimit::Brittle,
                 "never fails by its sliding |gamma|",
+            ),
+            (
+                Measure::MixedModeY,
+                1e-2,
+                AfterLimit::Brittle,
+                "breaks at sqrt(max(S_yy, 0)^2 + q S_xy^2) = 1.0000e-2, q = 2.5000e-1, G_IIc/G_Ic = 4.0000e0, eta = 2.0000e0",
             ),
         ] {
             assert_eq!(said(measure, limit, after), expected);

@@ -44,10 +44,13 @@ pub fn materials(case: &CaseFile) -> Vec<Material> {
                 Elasticity::Isotropic(Isotropic { young, poisson })
             }
             case::Elasticity::Orthotropic(constants) => Elasticity::Orthotropic(constants.into()),
+            case::Elasticity::Anisotropic(constants) => Elasticity::Anisotropic(constants.into()),
         },
         tensile_strength: material.tensile_strength,
         compressive_strength: material.compressive_strength,
         fracture_energy: material.fracture_energy,
+        fracture_energy_sliding: material.fracture_energy_sliding,
+        mixed_mode_exponent: material.mixed_mode_exponent,
         density: material.density,
         expansion: material.expansion.map(Into::into),
     };
@@ -60,6 +63,15 @@ pub fn horizons(case: &CaseFile, cloud: &PointCloud) -> Horizons {
     match (model.horizon_factor, model.horizon) {
         (Some(factor), _) => Horizons::from_spacing(&cloud.spacing, factor),
         (None, horizon) => Horizons::unified(horizon.unwrap_or_default(), cloud.len()),
+    }
+}
+
+/// The horizon of points at this distance from their neighbours, m.
+pub fn horizon(case: &CaseFile, spacing: f64) -> f64 {
+    let model = &case.case.model;
+    match model.horizon_factor {
+        Some(factor) => factor * spacing,
+        None => model.horizon.unwrap_or_default(),
     }
 }
 
