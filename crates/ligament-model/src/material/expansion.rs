@@ -5,7 +5,7 @@ use super::{Elasticity, Plane};
 /// Coefficients of linear thermal expansion, 1/K.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
-    /// alpha_1 and alpha_2, along the axes of the material in the plane; along x and y if it is known by six constants.
+    /// alpha_1 and alpha_2, along the axes of the material in the plane.
     pub in_plane: [f64; 2],
     /// alpha_3 across the plane, which plane strain needs.
     pub across: Option<f64>,
@@ -27,7 +27,7 @@ impl Expansion {
     /// - in plane strain (alpha_1 + nu_31 alpha_3, alpha_2 + nu_32 alpha_3, 0) with nu_3i = nu_i3 E_3/E_i: the stress
     ///   -E_3 alpha_3 across the plane keeps the strain there zero and widens the plane. If isotropic, (1 + nu) alpha.
     ///
-    /// What is known of an anisotropic material belongs to its state of the plane, and so do its coefficients.
+    /// A material given by the stiffness of its plane expands by (alpha_1, alpha_2, 0) along x and y in either.
     ///
     /// # Panics
     ///
@@ -35,7 +35,11 @@ impl Expansion {
     pub fn free_strain(&self, elasticity: &Elasticity, plane: Plane) -> [f64; 3] {
         const NEEDED: &str = "plane strain needs the constants across the plane";
         let (minor, angle) = match elasticity {
-            Elasticity::Anisotropic(_) => return [self.in_plane[0], self.in_plane[1], 0.0],
+            // The constants are those of the plane, whichever it is.
+            Elasticity::Anisotropic(_) => {
+                let [xx, yy] = self.in_plane;
+                return [xx, yy, 0.0];
+            }
             Elasticity::Isotropic(material) => ([material.poisson; 2], 0.0),
             Elasticity::Orthotropic(material) => {
                 let minor = match plane {

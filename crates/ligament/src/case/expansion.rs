@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::mesh_section::Plane;
 use super::values::require;
 
 /// Beyond this, in 1/K, a coefficient was given in other units.
@@ -18,7 +19,7 @@ pub enum Expansion {
         /// The coefficient.
         thermal_expansion: f64,
     },
-    /// In the axes of a material that has some; along x and y if it is known by six constants.
+    /// In the axes of an orthotropic material.
     Axes {
         /// Along the axis 1.
         thermal_expansion_1: f64,
@@ -68,13 +69,13 @@ impl Expansion {
         }))
     }
 
-    /// Plane strain of a material with axes needs the coefficient across the plane.
-    pub(super) fn require_across(&self, key: &KeyPath) -> Result<(), KeyFault> {
+    /// Plane strain needs the coefficient across the plane.
+    pub(super) fn require_suitable(&self, key: &KeyPath, plane: Plane) -> Result<(), KeyFault> {
         match self {
             Self::Axes {
                 thermal_expansion_3: None,
                 ..
-            } => {
+            } if plane == Plane::Strain => {
                 let reason = "(in 1/K) because of plane strain, where it widens the plane";
                 Err(required(key, "thermal_expansion_3", reason))
             }

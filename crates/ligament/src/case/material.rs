@@ -403,12 +403,17 @@ pub(super) fn require_suitable(
 
 impl Material {
     fn require_suitable(&self, law: Law, plane: Plane) -> Result<(), KeyFault> {
+        let key = self.key_path();
+        // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
+        let is_of_plane = matches!(self.elasticity, Elasticity::Anisotropic(_));
+        if let Some(expansion) = self.expansion.filter(|_| !is_of_plane) {
+            expansion.require_suitable(&key, plane)?;
+        }
         let (what, laws): (_, &[Law]) = match self.elasticity {
             Elasticity::Isotropic { .. } => return Ok(()),
             Elasticity::Orthotropic(_) => ("an orthotropic", &[Law::Orthotropic, Law::MbbPd]),
             Elasticity::Anisotropic(_) => ("an anisotropic", &[Law::MbbPd]),
         };
-        let key = self.key_path();
         if !laws.contains(&law) {
             let words: Vec<String> = laws.iter().map(|it| format!("\"{}\"", it.word())).collect();
             let reason = format!(
@@ -425,9 +430,7 @@ impl Material {
         }
         match &self.elasticity {
             Elasticity::Orthotropic(constants) if plane == Plane::Strain => {
-                constants.require_across(&key, "because of plane strain")?;
-                let expansion = self.expansion.iter();
-                expansion.map(|it| it.require_across(&key)).collect()
+                constants.require_across(&key, "because of plane strain")
             }
             _ => Ok(()),
         }
