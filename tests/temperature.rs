@@ -232,7 +232,8 @@ fn a_bar_between_walls_has_the_stress_of_its_expansion() {
 
 /// The same body under displacements: with u' = u - alpha dT (x - x_0) a body that is clamped at its ends and cooled is one whose
 /// ends move apart, bond for bond. Both tear in the same order at the same loads, by load steps and along the exact path; the
-/// order is decided by differences far above the rounding between the two, 1e-9 of the load factors.
+/// order is decided by differences far above the rounding between the two, 1e-9 of the load factors. Bonds that
+/// soften are compared before the first of them breaks: those beyond their end keep what the iterates happened to leave them.
 #[test]
 fn cooling_between_clamps_tears_a_body_as_pulling_does() {
     let clamps = "support = [{ group = \"left\", displacement = { x = 0, y = 0 } }, \
@@ -257,16 +258,23 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
     let crack = "precrack=[{ points = [[0.0301, -0.01], [0.0301, 0.0151]] }]";
     let strength: [&str; 2] = ["material.tensile_strength=4e7", "model.law=mppd"];
     let energy = ["material.fracture_energy=100.0", "model.law=mbb-pd"];
-    for (law, control) in [
-        (strength, "{ control = \"event\" }"),
-        (strength, "{ steps = 20 }"),
+    for (law, control, least) in [
+        (strength, "{ control = \"event\" }", 50),
+        (strength, "{ steps = 20 }", 50),
+        (
+            strength,
+            "{ steps = [0.2, 0.4, 0.5, 0.6, 0.7, 0.71], energy_tolerance = 1e-12, criterion = [{ kind = \"strength\", after = \"bilinear\", end = 3.0 }] }",
+            0,
+        ),
         (
             energy,
             "{ control = \"event\", criterion = [{ kind = \"mixed-mode\" }] }",
+            50,
         ),
         (
             energy,
             "{ steps = 20, criterion = [{ kind = \"mixed-mode\" }] }",
+            50,
         ),
     ] {
         let fracture = format!("fracture={control}");
@@ -282,7 +290,7 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
         );
         // Nothing loads the halves that a pulled body falls into; a cooled one may go on breaking at its clamps.
         let [cooled_ones, pulled_ones] = runs.each_ref().map(|run| run.breaks.len());
-        assert!(pulled_ones > 50 && cooled_ones >= pulled_ones);
+        assert!(pulled_ones >= least && cooled_ones >= pulled_ones);
         for (one, other) in runs[0].breaks.iter().zip(&runs[1].breaks) {
             assert_eq!(one.bond, other.bond);
             assert!((one.load_factor - other.load_factor).abs() < 1e-9);
