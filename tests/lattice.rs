@@ -328,3 +328,52 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
     let error = error.unwrap_err().to_string();
     assert!(error.contains("this group has no length"), "{error}");
 }
+
+/// Bonds of n x n cells on a plate of 100 mm at m = 3 that a crack on its axis from -a to a meets, without and with those that
+/// only touch its ends; lengths in quarters of a millimetre, so that all is whole numbers.
+fn met_by_a_crack(n: i64, half_length: i64) -> [usize; 2] {
+    let d = 400 / n;
+    let at = |k: i64| (2 * k - n + 1) * d / 2;
+    let mut met = [0; 2];
+    for [p, q] in half_of_offsets([1.0; 2], 3.0) {
+        for column in 0..n {
+            for row in 0..n - q {
+                let (below, above) = (at(row), at(row + q));
+                if !(0..n).contains(&(column + p)) || below >= 0 || above <= 0 {
+                    continue;
+                }
+                // The axis is crossed at x - p d y/(q d).
+                let crossing = (at(column) * q - p * below).abs();
+                met[0] += usize::from(crossing < half_length * q);
+                met[1] += usize::from(crossing <= half_length * q);
+            }
+        }
+    }
+    met
+}
+
+/// A crack of 10 mm in the middle of a plate of 100 mm, between two rows, with and without the bonds through its ends, against
+/// whole numbers; across the whole plate it cuts q (n - |p|) bonds of the offset (p, q): 882 at 2 mm, 1782 at 1 mm.
+#[test]
+fn a_crack_with_its_ends_cuts_what_meets_it() {
+    for (n, cut, across) in [(50, [82, 98], 882), (100, [174, 186], 1782)] {
+        let spacing = 0.1 / n as f64;
+        let count = |half_length: f64, ends: &str| {
+            let text = format!(
+                "lattice = {{ cells = [{n}, {n}], spacing = {spacing:?}, corner = [-0.05, -0.05], set = {{ top = {{ top = 3 }}, \
+                 bottom = {{ bottom = 3 }} }} }}\n\
+                 material = {{ young = 65.8e9, poisson = 0.3 }}\nmodel = {{ law = \"pds\", horizon_factor = 3.0 }}\n\
+                 support = [{{ group = \"bottom\", displacement = {{ x = 0.0, y = 0.0 }} }}]\n\
+                 load = [{{ group = \"top\", displacement = {{ y = 1e-4 }} }}]\n\
+                 precrack = [{{ points = [[{:?}, 0.0], [{half_length:?}, 0.0]], ends = \"{ends}\" }}]\n",
+                -half_length
+            );
+            Bench::new(&text, &[]).model.cut_bonds
+        };
+        // Without its ends a crack from 0.1 um before them: bonds through them pass it, however their coordinates are rounded.
+        let found = [count(0.005 - 1e-7, "excluded"), count(0.005, "included")];
+        assert_eq!(found, met_by_a_crack(n, 20));
+        assert_eq!(found, cut);
+        assert_eq!(count(0.06, "included"), across);
+    }
+}

@@ -131,6 +131,16 @@ fn displacement_and_force_do_the_work_of_the_load() {
         ),
         ("body_couple = 5e4".to_owned(), ControlKind::Force, 20.0),
         (
+            "group = \"right\", pressure = -2e5".to_owned(),
+            ControlKind::Force,
+            2e5,
+        ),
+        (
+            format!("group = \"right\", pressure = 3e5, {profile}"),
+            ControlKind::Force,
+            3e5,
+        ),
+        (
             "group = \"right\", displacement = { x = 1e-5, y = 0.0 }".to_owned(),
             ControlKind::Displacement,
             1e-5,

@@ -46,7 +46,9 @@ pub struct BoundaryGroup {
 ///   -sum over the bonds of force . thermal deformation for m = 1 K, J/K.
 ///
 /// So a load that is the same everywhere has the sum of its forces and the mean of its displacements along it, a bending
-/// load the moments of both about its zero.
+/// load the moments of both about its zero. A pressure has no resultant where it acts all round: its magnitude is the
+/// pressure and its shape the areas with their normals into the body, so that the force is the pressure and the displacement
+/// the volume by which its surface gave way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Control {
     /// Whether the motion or the force is given.
@@ -55,7 +57,8 @@ pub struct Control {
     pub points: Vec<u32>,
     /// What each of them takes of a load of size one, in (x, y, rotation).
     pub shape: Vec<[f64; COMPONENTS]>,
-    /// Size at load factor 1 of the displacement (m, rad) or of the force or couple in total (N, N m), before a profile.
+    /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa),
+    /// before a profile.
     pub magnitude: f64,
 }
 
@@ -234,8 +237,8 @@ impl Boundary {
 }
 
 impl Control {
-    /// Displacement along the load at some load factor, m, rad or K: the prescribed one, or the mean that does the work of the
-    /// given forces.
+    /// Displacement along the load at some load factor, m, rad or K, or m^3 with a pressure: the prescribed one, or the mean that
+    /// does the work of the given forces.
     pub fn displacement(&self, load_factor: f64, displacement: &[f64]) -> f64 {
         match self.kind {
             ControlKind::Displacement | ControlKind::Temperature => self.magnitude * load_factor,

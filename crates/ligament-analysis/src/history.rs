@@ -21,9 +21,9 @@ pub struct StepRecord {
     pub step: usize,
     /// Load factor.
     pub load_factor: f64,
-    /// Displacement of the control load along its direction, m.
+    /// Displacement of the control load along its direction, m; rad with a couple, m^3 with a pressure.
     pub displacement: f64,
-    /// Force of the control load along its direction, N.
+    /// Force of the control load along its direction, N; a couple, N m, or a pressure, Pa.
     pub reaction: f64,
     /// Energy stored in the bonds, J.
     pub stored_energy: f64,

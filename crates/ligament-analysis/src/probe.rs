@@ -1,7 +1,7 @@
 //! Probes: numbers read off the body at every load step.
 
 use ligament_model::BondSystem;
-use ligament_model::bonds::precrack::PreCrack;
+use ligament_model::bonds::precrack::{Ends, PreCrack};
 use ligament_model::failure::Weakened;
 
 use crate::driver::Problem;
@@ -84,6 +84,7 @@ impl Reading {
     ) -> Self {
         let line = PreCrack {
             points: vec![start, end],
+            ends: Ends::Excluded,
         }
         .in_local_coordinates(&system.cloud);
         let position = |point: u32| system.cloud.positions[point as usize];

@@ -12,6 +12,13 @@ pub enum Shape {
         /// Radius, m.
         radius: f64,
     },
+    /// Everything outside of a disk.
+    Outside {
+        /// Centre of the disk, m.
+        centre: [f64; 2],
+        /// Radius of the disk, m.
+        radius: f64,
+    },
     /// The inside of a closed polygon that does not cross itself: three corners or more, m.
     Polygon(Vec<[f64; 2]>),
 }
@@ -30,6 +37,10 @@ impl Shape {
                 centre: move_point(centre),
                 radius: *radius,
             },
+            Self::Outside { centre, radius } => Self::Outside {
+                centre: move_point(centre),
+                radius: *radius,
+            },
             Self::Polygon(corners) => Self::Polygon(corners.iter().map(move_point).collect()),
         }
     }
@@ -44,6 +55,8 @@ impl Shape {
     pub fn is_crossed_by(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         match self {
             Self::Circle { centre, .. } => self.depth(along(a, b, foot(a, b, *centre))) > slack,
+            // A disk is convex: a line leaves it nowhere if its ends do not.
+            Self::Outside { .. } => self.depth(a).max(self.depth(b)) > slack,
             Self::Polygon(corners) => {
                 let [lower, upper] = bounding_box(corners);
                 let misses = (0..2).any(|axis| {
@@ -75,6 +88,7 @@ impl Shape {
     fn depth(&self, point: [f64; 2]) -> f64 {
         match self {
             Self::Circle { centre, radius } => radius - distance(*centre, point),
+            Self::Outside { centre, radius } => distance(*centre, point) - radius,
             Self::Polygon(corners) => {
                 let to_rim = sides(corners)
                     .map(|[p, q]| distance(along(p, q, foot(p, q, point)), point))
@@ -113,7 +127,7 @@ fn turns_back(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> bool {
     orientation(p, q, r) == 0.0 && ahead <= 0.0
 }
 
-/// Whether two segments have a point in common.
+/// Whether two segments have a point in common, decided exactly.
 fn meet(p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]) -> bool {
     let boxes_meet = (0..2).all(|axis| {
         p[axis].min(q[axis]) <= r[axis].max(s[axis]) && r[axis].min(s[axis]) <= p[axis].max(q[axis])
@@ -121,6 +135,13 @@ fn meet(p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]) -> bool {
     boxes_meet
         && orientation(p, q, r) * orientation(p, q, s) <= 0.0
         && orientation(r, s, p) * orientation(r, s, q) <= 0.0
+}
+
+/// Whether two segments have a point in common, or come no farther apart than `slack` (m).
+pub(crate) fn meet_within([p, q]: [[f64; 2]; 2], [r, s]: [[f64; 2]; 2], slack: f64) -> bool {
+    // Segments apart are nearest to each other at an end of one of them.
+    let is_near = |a, b, c| distance(along(a, b, foot(a, b, c)), c) <= slack;
+    meet(p, q, r, s) || is_near(p, q, r) || is_near(p, q, s) || is_near(r, s, p) || is_near(r, s, q)
 }
 
 /// Sign of the orientation of c seen from a to b, exact: positive on the left.

@@ -44,13 +44,13 @@ pub use expansion::Expansion;
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
 pub use fracture::{BreakOrder, Control, Fracture, Output, Stepping, Steps, Stop, StressField};
-pub use lattice_section::{CellSet, Circle, Hole, LatticeSection, MOST_CELLS};
-pub use load::{Action, Load, Profile};
+pub use lattice_section::{CellSet, Circle, Hole, HoleShape, LatticeSection, MOST_CELLS};
+pub use load::{Action, Load, Profile, Units};
 pub use material::{Anisotropic, Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
 pub use probe::{Component, Field, Probe, Reading};
-pub use region::{Place, Precrack, Region};
+pub use region::{Ends, Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
 pub use temperature::{Temperature, TemperatureChange};
 pub use values::{Axis, Point};
@@ -202,6 +202,13 @@ impl Case {
         };
         case.check_across_sections()?;
         Ok(case)
+    }
+
+    /// Units of the displacement and the force in the history, which are those of the first load, or of the temperature where
+    /// there is none.
+    pub fn units(&self) -> Units {
+        let first = self.loads.first();
+        first.map_or(Units::TEMPERATURE, |load| load.action.units())
     }
 
     fn check_across_sections(&self) -> Result<(), KeyFault> {

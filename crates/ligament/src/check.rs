@@ -9,8 +9,8 @@ use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::gauges;
-use ligament_analysis::probe::{Probe, Reading};
-use ligament_analysis::{Boundary, ControlKind, Equilibrium};
+use ligament_analysis::probe::Reading;
+use ligament_analysis::{ControlKind, Equilibrium};
 use ligament_model::Elasticity;
 use ligament_output::results::point_grid;
 
@@ -105,7 +105,7 @@ fn check_loading(
     };
 
     write_model(out, case, model)?;
-    write_boundary(out, &*model.body, &loading.boundary, &loading.probes)?;
+    write_boundary(out, case, &*model.body, &loading)?;
     for free in gauges::of_intact_body(&model.system, &loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, &*model.body))?;
     }
@@ -253,33 +253,40 @@ fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 
 fn write_boundary(
     out: &mut dyn Write,
+    case: &CaseFile,
     body: &dyn Body,
-    boundary: &Boundary,
-    probes: &[Probe],
+    loading: &Loading,
 ) -> io::Result<()> {
     writeln!(out, "supports and loads")?;
-    for group in &boundary.groups {
+    for group in &loading.boundary.groups {
         write_group(out, body, &group.name, &group.points)?;
     }
-    if let Some(Spread { min, mean, max }) = temperature_change(boundary) {
+    if let Some(Spread { min, mean, max }) = temperature_change(&loading.boundary) {
         writeln!(
             out,
             "  temperature change    {min:.4e} to {max:.4e} K, mean {mean:.4e}"
         )?;
     }
-    let control = &boundary.control;
-    let (count, size) = (control.points.len(), control.magnitude);
+    let control = &loading.boundary.control;
+    let (count, size, units) = (control.points.len(), control.magnitude, case.case.units());
     match control.kind {
         ControlKind::Temperature => writeln!(
             out,
-            "  controlled by         the temperature, size {size:.4e} K"
+            "  controlled by         the temperature, size {size:.4e} {}",
+            units.displacement
         )?,
-        ControlKind::Displacement | ControlKind::Force => writeln!(
+        ControlKind::Displacement => writeln!(
             out,
-            "  controlled by         {count} points, size {size:.4e}"
+            "  controlled by         {count} points, size {size:.4e} {}",
+            units.displacement
+        )?,
+        ControlKind::Force => writeln!(
+            out,
+            "  controlled by         {count} points, size {size:.4e} {}",
+            units.force
         )?,
     }
-    for probe in probes {
+    for probe in &loading.probes {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {
                 points.map(|point| body.place(point)).join(" to ")

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::case::Units;
+
 /// Steps that follow sooner than this on the last logged one are left out of a log, ...
 const LOG_PAUSE: Duration = Duration::from_secs(2);
 
@@ -41,10 +43,12 @@ pub struct StepLine {
     pub step: u64,
     /// Its load factor.
     pub load_factor: f64,
-    /// The displacement that goes with the load, m, if there is one.
+    /// The displacement that goes with the load, if there is one.
     pub displacement: Option<f64>,
-    /// The load, N, if there is one.
+    /// The load, if there is one.
     pub load: Option<f64>,
+    /// Units of both.
+    pub units: Units,
     /// Bonds broken so far.
     pub broken_bonds: u64,
 }
@@ -54,10 +58,10 @@ impl StepLine {
         let mut text = format!("factor {:.4}", self.load_factor);
         // Writing to a string cannot fail.
         if let Some(displacement) = self.displacement {
-            let _ = write!(text, ", {displacement:.3e} m");
+            let _ = write!(text, ", {displacement:.3e} {}", self.units.displacement);
         }
         if let Some(load) = self.load {
-            let _ = write!(text, ", {load:.4e} N");
+            let _ = write!(text, ", {load:.4e} {}", self.units.force);
         }
         let _ = write!(text, ", {} broken", self.broken_bonds);
         text
@@ -215,6 +219,7 @@ mod tests {
         load_factor: 0.25,
         displacement: Some(-1e-4),
         load: Some(1234.5),
+        units: Units::FORCE,
         broken_bonds: 7,
     };
 

@@ -96,12 +96,7 @@ fn follow_loads(
         },
     };
     let writer = ResultWriter::new(&folder, &grid, &model.fixed, rule, &problem)?;
-    let mut watch = Watch::new(
-        writer,
-        &mut progress,
-        &*model.body,
-        case.case.fracture.as_ref(),
-    );
+    let mut watch = Watch::new(writer, &mut progress, &*model.body, &case.case);
     let outcome = stages.time("solution", || follow(case, &problem, &mut watch))?;
 
     let notices = watch.into_notices();

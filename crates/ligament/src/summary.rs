@@ -6,12 +6,12 @@ mod solver;
 
 use std::io::{self, Write};
 
+use ligament_analysis::Boundary;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::equilibrium::Stability;
-use ligament_analysis::{Boundary, ControlKind};
 use serde::Serialize;
 
-use crate::case::CaseFile;
+use crate::case::{CaseFile, Units};
 use crate::model::Model;
 use crate::stages::Stage;
 
@@ -30,7 +30,9 @@ pub struct Summary {
     /// Smallest, mean and largest change of the temperature of the points at load factor 1, where it changes, K.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_change: Option<Spread>,
-    /// Force over displacement of the first load before the first breakage, N/m; J/K^2 where the temperature is the load.
+    /// Units of the displacement and the force of the first load, or of the temperature where it is the load.
+    pub units: Units,
+    /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
     /// Where the first bond breaks, from the elastic solution.
     pub first_break: Option<PathPoint>,
@@ -48,9 +50,6 @@ pub struct Summary {
     /// Why the run ended: `termination` and `termination_message`.
     #[serde(flatten)]
     pub termination: TerminationSummary,
-    /// Whether no load but the temperature acts: it is what `displacement` and `reaction` belong to then.
-    #[serde(skip)]
-    pub heated_alone: bool,
     /// Largest |external work - stored - released energy| over the largest external work.
     pub energy_balance_error: f64,
     /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
@@ -72,9 +71,9 @@ const WARNINGS_SHOWN: usize = 10;
 /// A point of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PathPoint {
-    /// Displacement of the first load, m, or the largest change of temperature where it is the load, K.
+    /// Displacement of the first load.
     pub displacement: f64,
-    /// Its force, N, or J/K.
+    /// Its force.
     pub reaction: f64,
     /// Load factor.
     pub load_factor: f64,
@@ -122,14 +121,6 @@ impl From<Stability> for StabilitySummary {
     }
 }
 
-/// Units of force, displacement and their quotient.
-#[derive(Clone, Copy)]
-struct Units {
-    force: &'static str,
-    displacement: &'static str,
-    stiffness: &'static str,
-}
-
 /// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
 pub(crate) fn temperature_change(boundary: &Boundary) -> Option<Spread> {
     let changes = &boundary.temperature_change;
@@ -159,6 +150,7 @@ impl Summary {
         Self {
             model: ModelSummary::new(case, model),
             temperature_change: temperature_change(boundary),
+            units: case.case.units(),
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),
@@ -171,29 +163,11 @@ impl Summary {
                 reason: outcome.termination.name(),
                 message: outcome.termination.to_string(),
             },
-            heated_alone: boundary.control.kind == ControlKind::Temperature,
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
             stages: stages.to_vec(),
             warnings,
-        }
-    }
-
-    /// Units of the force-displacement curve, where its motion is no rotation.
-    fn units(&self) -> Units {
-        if self.heated_alone {
-            Units {
-                force: "J/K",
-                displacement: "K",
-                stiffness: "J/K^2",
-            }
-        } else {
-            Units {
-                force: "N",
-                displacement: "m",
-                stiffness: "N/m",
-            }
         }
     }
 
@@ -206,7 +180,11 @@ impl Summary {
             "  points {}, bonds {}, volume {:.6e} m^3",
             self.model.points, self.model.bonds, self.model.volume
         )?;
-        let units = self.units();
+        let Units {
+            displacement: along,
+            force,
+            stiffness: per_displacement,
+        } = self.units;
         if let Some(Spread { min, mean, max }) = self.temperature_change {
             writeln!(
                 out,
@@ -216,8 +194,7 @@ impl Summary {
         if let Some(stiffness) = self.elastic_stiffness {
             writeln!(
                 out,
-                "  elastic stiffness  {stiffness:.6e} {}",
-                units.stiffness
+                "  elastic stiffness  {stiffness:.6e} {per_displacement}"
             )?;
         }
         let broke = self.broken_bonds > 0;
@@ -233,14 +210,9 @@ impl Summary {
                 ..
             }) = point
             {
-                let Units {
-                    force,
-                    displacement: unit,
-                    ..
-                } = units;
                 writeln!(
                     out,
-                    "  {name:<18} {reaction:.6e} {force} at {displacement:.6e} {unit}"
+                    "  {name:<18} {reaction:.6e} {force} at {displacement:.6e} {along}"
                 )?;
             }
         }

@@ -38,7 +38,7 @@ pub fn of_model(
     if touched > 0 {
         warnings.push(format!(
             "{touched} bonds only touch an end of a pre-crack and stay whole: if the crack begins at the outline, let \
-             it begin a little outside"
+             it begin a little outside, or give it `ends = \"included\"`"
         ));
     }
     let plane = resolve::plane(case);

@@ -5,7 +5,7 @@ use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, S
 use ligament_output::results::ResultWriter;
 
 use crate::body::Body;
-use crate::case::{Control, Fracture, Steps};
+use crate::case::{Case, Control, Steps};
 use crate::gauges;
 use crate::progress::{Progress, StepLine};
 
@@ -22,14 +22,14 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Watches with a writer and a progress display.
+    /// Watches a case with a writer and a progress display.
     pub fn new(
         writer: ResultWriter<'a>,
         progress: &'a mut Progress,
         body: &'a dyn Body,
-        fracture: Option<&Fracture>,
+        case: &Case,
     ) -> Self {
-        let total = match fracture.map(|fracture| &fracture.control) {
+        let total = match case.fracture.as_ref().map(|fracture| &fracture.control) {
             None => Some(1),
             Some(Control::Stepped(stepping)) => Some(match &stepping.steps {
                 Steps::Uniform(count) => u64::from(*count),
@@ -38,11 +38,13 @@ impl<'a> Watch<'a> {
             Some(Control::Event) => None,
         };
         progress.begin_steps(total);
+        let units = case.units();
         let last = StepLine {
             step: 0,
             load_factor: 0.0,
             displacement: None,
             load: None,
+            units,
             broken_bonds: 0,
         };
         Self {
@@ -142,6 +144,7 @@ impl Observer for Watch<'_> {
             load_factor: record.load_factor,
             displacement: Some(record.displacement),
             load: Some(record.reaction),
+            units: self.last.units,
             broken_bonds: record.broken_bonds as u64,
         };
         if record.step > 0 {

@@ -51,7 +51,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
          `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, \
-         `moment`, `body_couple`, `profile`"
+         `moment`, `body_couple`, `pressure`, `profile`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
@@ -326,6 +326,12 @@ fn values_outside_of_their_range_are_refused() {
             "20:10: precrack.0.points: must be two points or more, found [[0.0, 0.0]]",
         ),
         (
+            "[[-0.015, 0.0], [0.015, 0.0]]",
+            "[[-0.015, 0.0], [0.015, 0.0]]\nends = \"include\"",
+            "21:8: precrack.0.ends: unknown value \"include\"; did you mean \"included\"? valid values: \"excluded\", \
+             \"included\"",
+        ),
+        (
             "box = [[0.01, 0.04], [-0.01, 0.05]]",
             "box = [[0, 0], [0, 1]]",
             "36:7: no_fail.0.box: must be two opposite corners of a rectangle with a width and a \
@@ -355,7 +361,7 @@ fn keys_that_exclude_each_other_are_listed() {
             "force = { y = 1 }\nforce_per_length = { y = 1 }"
         ),
         "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-         `body_force`, `moment`, `body_couple`; found `force`, `force_per_length`"
+         `body_force`, `moment`, `body_couple`, `pressure`; found `force`, `force_per_length`"
     );
 }
 

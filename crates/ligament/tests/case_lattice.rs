@@ -6,7 +6,9 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
-use ligament::case::{BodySection, CaseFile, CellSet, Circle, Hole, LatticeSection, Plane};
+use ligament::case::{
+    BodySection, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection, Plane,
+};
 
 const TEXT: &str = r#"title = "Plate"
 [lattice]
@@ -63,7 +65,18 @@ fn the_section_is_read_with_its_defaults() {
     assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], 1.0));
     assert_eq!(lattice.plane, Plane::Stress);
     let circle = |centre, radius| Circle { centre, radius };
-    assert_eq!(lattice.remove, [Hole::Circle(circle([0.1, 0.06], 0.02))]);
+    let hole = |name: Option<&str>, shape| Hole {
+        name: name.map(str::to_owned),
+        shape,
+    };
+    let bore = circle([0.1, 0.06], 0.02);
+    assert_eq!(lattice.remove, [hole(None, HoleShape::Circle(bore))]);
+    let named =
+        "lattice.remove=[{ name = \"rim\", outside = { centre = [0.1, 0.06], radius = 0.02 } }]";
+    assert_eq!(
+        section(TEXT, &[named]).remove,
+        [hole(Some("rim"), HoleShape::Outside(bore))]
+    );
     let sets: Vec<(&str, &CellSet)> = (lattice.sets.iter())
         .map(|(name, set)| (name.as_str(), set))
         .collect();
@@ -94,7 +107,8 @@ fn the_section_is_read_with_its_defaults() {
 
 #[test]
 fn a_resolved_lattice_reads_as_the_same_case() {
-    let case = parse(TEXT, &["lattice.corner=[0.1, -3]"]).unwrap();
+    let named = "lattice.remove.0.name=bore";
+    let case = parse(TEXT, &["lattice.corner=[0.1, -3]", named]).unwrap();
     let resolved = case.resolved_toml().unwrap();
     assert!(resolved.contains("[lattice]\n") && resolved.contains("\nhorizon = 0.03\n"));
     assert!(!resolved.contains("[mesh]") && !resolved.contains("horizon_factor"));
@@ -191,6 +205,26 @@ fn wrong_keys_and_values_are_refused() {
             "radius = 0.02",
             "radius = 0",
             "lattice.remove.0.circle.radius: must be greater than 0, found 0.0",
+        ),
+        (
+            "radius = 0.02 }",
+            "radius = 0.02 }\noutside = { centre = [0, 0], radius = 1 }",
+            "lattice.remove.0: needs exactly one of `circle`, `rectangle`, `polygon`, `outside`; found `circle`, `outside`",
+        ),
+        (
+            "circle = { centre = [0.1, 0.06], radius = 0.02",
+            "outside = { centre = [0.1, 0.06], radius = -1",
+            "lattice.remove.0.outside.radius: must be greater than 0, found -1.0",
+        ),
+        (
+            "[[lattice.remove]]",
+            "[[lattice.remove]]\nname = \"disk\"",
+            "7:8: lattice.remove.0.name: `lattice.set` has a `disk` as well: rename one of them",
+        ),
+        (
+            "[[lattice.remove]]",
+            "[[lattice.remove]]\nname = \"a,b\"",
+            "7:8: lattice.remove.0.name: must be a name without commas, quotes or surrounding blanks",
         ),
         (
             "circle = { centre = [0.1",
@@ -294,6 +328,10 @@ fn what_does_not_fit_the_lattice_is_told() {
         (
             "lattice.set.nowhere.box=[[1, 1], [2, 2]]",
             "lattice.set.nowhere: no cell has its centre in this set",
+        ),
+        (
+            "lattice.remove.0={ name = \"far\", circle = { centre = [9, 9], radius = 0.1 } }",
+            "lattice.remove.0: no cell that is left borders on this hole",
         ),
         (
             "load.0.group=rigth",

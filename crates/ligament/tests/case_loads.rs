@@ -73,10 +73,38 @@ fn profiles_and_couples_are_checked() {
         (
             "moment = 1.0\nbody_couple = 1.0",
             "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, `body_force`, `moment`, \
-             `body_couple`; found `moment`, `body_couple`",
+             `body_couple`, `pressure`; found `moment`, `body_couple`",
+        ),
+        (
+            "pressure = 0",
+            "33:12: load.0.pressure: must be other than 0, or the load does nothing, found 0.0",
+        ),
+        (
+            "pressure = \"1 MPa\"",
+            "33:12: load.0.pressure: expected a number, found the string \"1 MPa\"; values are plain numbers in SI units, here \
+             Pa",
         ),
     ] {
         assert_eq!(error_of(&with_load(load)), message, "{load}");
+    }
+}
+
+#[test]
+fn a_pressure_needs_a_group() {
+    let case = CaseFile::parse(Path::new("case.toml"), with_load("pressure = -2e6"), &[]).unwrap();
+    assert_eq!(case.case.loads[0].action, Action::Pressure(-2e6));
+    let units = case.case.loads[0].action.units();
+    assert_eq!((units.displacement, units.force), ("m^3", "Pa"));
+    let written = case.resolved_toml().unwrap();
+    let again = CaseFile::parse(Path::new("case.toml"), written, &[]).unwrap();
+    assert_eq!(again.case.loads, case.case.loads);
+    for place in ["at = [0, 0]", "box = [[0, 0], [1, 1]]", ""] {
+        let text = with_load("pressure = 1").replace("group = \"platen-top\"", place);
+        assert_eq!(
+            error_of(&text),
+            "33:12: load.0.pressure: acts on the outline of a `group`, so the load needs one",
+            "{place}"
+        );
     }
 }
 

@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use ligament::case::{
-    Action, CaseFile, Control, CorrectionRule, Displacement, Place, Plane, Precrack, Region, Steps,
-    Vector,
+    Action, CaseFile, Control, CorrectionRule, Displacement, Ends, Place, Plane, Precrack, Region,
+    Steps, Vector,
 };
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -61,7 +61,8 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(
         case.precracks,
         [Precrack {
-            points: vec![[-0.015, 0.0], [0.015, 0.0]]
+            points: vec![[-0.015, 0.0], [0.015, 0.0]],
+            ends: Ends::Excluded,
         }]
     );
     let held = Displacement {
@@ -245,7 +246,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         (
             "load.0.force.y=1",
             "load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-             `body_force`, `moment`, `body_couple`; found `displacement`, `force`",
+             `body_force`, `moment`, `body_couple`, `pressure`; found `displacement`, `force`",
         ),
     ] {
         assert_eq!(

@@ -1,22 +1,39 @@
 //! Pre-cracks and slots: polylines that cut the bonds whose straight line they cross.
 //!
-//! The rule, decided with exact orientation predicates:
+//! The rule, decided with exact orientation predicates, with the ends of the polyline excluded:
 //! - a point exactly on the crack counts as lying on its left side (seen along the polyline);
 //! - a bond collinear with a piece of the crack survives;
 //! - a bond that only touches an end of the polyline survives; one through an inner vertex, or through any vertex of a
 //!   closed polyline, is cut.
+//!
+//! With the ends included every bond is cut that has a point in common with the polyline, whatever the point: an end of the
+//! polyline or of the bond, or a part of it where the two are collinear. A point on the crack then loses all of its bonds. Bonds
+//! of a lattice pass exactly through such ends, but not their rounded coordinates: what comes closer than 1e-9 of the nearest
+//! distance of the bond's ends has a point in common.
 
 use rayon::prelude::*;
 
 use super::BondSet;
 use crate::cloud::PointCloud;
-use crate::shape::orientation;
+use crate::horizon::INCLUSION_TOLERANCE;
+use crate::shape::{meet_within, orientation};
 
 /// A polyline that cuts bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreCrack {
     /// Vertices in coordinates of the case, two or more, m.
     pub points: Vec<[f64; 2]>,
+    /// Whether it cuts bonds that only touch it.
+    pub ends: Ends,
+}
+
+/// Whether the ends of a pre-crack belong to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// It cuts bonds that pass through it.
+    Excluded,
+    /// It cuts bonds that have a point in common with it.
+    Included,
 }
 
 /// Which bonds the pre-cracks cut, shape (n_bonds).
@@ -32,8 +49,13 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
         .ends
         .par_iter()
         .map(|&[a, b]| {
-            let (a, b) = (cloud.positions[a as usize], cloud.positions[b as usize]);
-            cracks.iter().any(|crack| crack.cuts(a, b))
+            let [a, b] = [a, b].map(|end| end as usize);
+            let slack = INCLUSION_TOLERANCE * cloud.spacing[a].min(cloud.spacing[b]);
+            let (a, b) = (cloud.positions[a], cloud.positions[b]);
+            cracks.iter().any(|crack| match crack.ends {
+                Ends::Excluded => crack.cuts(a, b),
+                Ends::Included => crack.meets(a, b, slack),
+            })
         })
         .collect()
 }
@@ -66,6 +88,7 @@ impl PreCrack {
     pub fn in_local_coordinates(&self, cloud: &PointCloud) -> Self {
         Self {
             points: self.points.iter().map(|&p| cloud.local(p)).collect(),
+            ends: self.ends,
         }
     }
 
@@ -82,7 +105,14 @@ impl PreCrack {
         is_left(self.points[0], self.points[1], point)
     }
 
-    /// Whether the polyline cuts the bond from `a` to `b` (all in the same coordinates).
+    /// Whether the polyline with its ends has a point in common with the bond from `a` to `b`, or comes no farther away than
+    /// `slack` (m).
+    fn meets(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
+        let mut pieces = self.points.windows(2);
+        pieces.any(|ends| meet_within([ends[0], ends[1]], [a, b], slack))
+    }
+
+    /// Whether the polyline without its ends cuts the bond from `a` to `b` (all in the same coordinates).
     pub fn cuts(&self, a: [f64; 2], b: [f64; 2]) -> bool {
         let last = self.points.len() - 1;
         let closed = last > 1 && self.points[0] == self.points[last];
@@ -116,6 +146,7 @@ mod tests {
     fn crack(points: &[[f64; 2]]) -> PreCrack {
         PreCrack {
             points: points.to_vec(),
+            ends: Ends::Excluded,
         }
     }
 
@@ -171,6 +202,31 @@ mod tests {
                 && !edge.ends_on(a, [1.0, 0.1])
                 && !edge.ends_on(a, [0.0, 0.0])
         );
+    }
+
+    #[test]
+    fn a_crack_with_its_ends_cuts_what_it_touches() {
+        let slot = crack(&[[-1.0, 0.0], [1.0, 0.0]]);
+        let tip = [1.0, 0.0];
+        for (a, b, meets) in [
+            ([1.0, -1.0], [1.0, 1.0], true),
+            ([0.5, 1.0], [1.5, -1.0], true),
+            ([1.0 + 1e-15, -1.0], [1.0 + 1e-15, 1.0], false),
+            ([0.0, 0.0], [0.0, 1.0], true),
+            ([0.0, 0.0], [0.0, -1.0], true),
+            ([0.0, 1e-300], [0.0, 1.0], false),
+            (tip, [2.0, 0.0], true),
+            ([-2.0, 0.0], [2.0, 0.0], true),
+            ([1.5, 0.0], [2.0, 0.0], false),
+            ([-0.5, 0.0], [0.5, 0.0], true),
+            ([-0.5, 0.1], [0.5, 0.1], false),
+        ] {
+            assert_eq!(slot.meets(a, b, 0.0), meets, "{a:?} {b:?}");
+            assert_eq!(slot.meets(b, a, 0.0), meets, "{b:?} {a:?}");
+        }
+        let (beside, above) = ([1.0 + 1e-10, -1.0], [1.0 + 1e-10, 1.0]);
+        assert!(slot.meets(beside, above, 1e-9) && !slot.meets(beside, above, 1e-11));
+        assert!(slot.meets([0.3, 1e-10], [0.3, 1.0], 1e-9));
     }
 
     #[test]

@@ -22,6 +22,19 @@ pub struct Lattice {
     pub cells: Vec<[u32; 2]>,
 }
 
+/// A side of a cell behind which there is no cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// The point at the centre of the cell.
+    pub point: u32,
+    /// Outward normal.
+    pub normal: [i8; 2],
+    /// Whether it lies on the rectangle.
+    pub is_on_rectangle: bool,
+    /// Number of the first hole in which the centre of the missing cell lies; the cells go on beyond the rectangle.
+    pub hole: Option<usize>,
+}
+
 impl Lattice {
     /// The rectangle of nx by ny cells with its lower left corner at `corner`, without the cells whose centre lies in one
     /// of the holes (rim included, to 1e-9 of the spacing).
@@ -62,10 +75,44 @@ impl Lattice {
     /// Centre of a cell relative to the middle of the rectangle, m: a whole number of half cells, so that opposite cells
     /// have opposite positions to the last bit and distances are rounded but once.
     pub fn offset(&self, cell: [u32; 2]) -> [f64; 2] {
+        self.centre(cell.map(i64::from))
+    }
+
+    /// The same for a cell that may lie beyond the rectangle.
+    fn centre(&self, cell: [i64; 2]) -> [f64; 2] {
         [0, 1].map(|axis| {
-            let half_cells = 2 * i64::from(cell[axis]) + 1 - i64::from(self.size[axis]);
+            let half_cells = 2 * cell[axis] + 1 - i64::from(self.size[axis]);
             half_cells as f64 * (0.5 * self.spacing[axis])
         })
+    }
+
+    /// The faces of cells behind which there is no cell, by the numbers of the points, then left, right, below, above.
+    pub fn outline(&self) -> Vec<Face> {
+        let (slack, size) = (self.slack(), self.size.map(i64::from));
+        let holes: Vec<Shape> = self.holes.iter().map(|hole| self.local(hole)).collect();
+        let has = |cell: [i64; 2]| {
+            let is_in = |&[column, row]: &[u32; 2]| [i64::from(row), i64::from(column)];
+            self.cells
+                .binary_search_by_key(&[cell[1], cell[0]], is_in)
+                .is_ok()
+        };
+        let mut faces = Vec::new();
+        for (point, cell) in (0..).zip(&self.cells) {
+            for normal in [[-1, 0], [1, 0], [0, -1], [0, 1]] {
+                let next = [0, 1].map(|axis| i64::from(cell[axis]) + i64::from(normal[axis]));
+                if has(next) {
+                    continue;
+                }
+                let centre = self.centre(next);
+                faces.push(Face {
+                    point,
+                    normal,
+                    is_on_rectangle: (0..2).any(|axis| next[axis] < 0 || next[axis] >= size[axis]),
+                    hole: holes.iter().position(|hole| hole.contains(centre, slack)),
+                });
+            }
+        }
+        faces
     }
 
     /// Numbers of the points whose centre lies in a shape (rim included, to 1e-9 of the spacing), ascending.

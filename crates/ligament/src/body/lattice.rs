@@ -1,13 +1,14 @@
 //! A body on a lattice: points at the centres of the cells, named sets.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use ligament_model::cloud::lattice::Face;
 use ligament_model::{Lattice, PointCloud, Shape};
 use ligament_output::results::{BodyGrid, Canvas};
 
-use super::Body;
-use crate::case::{CaseError, CaseFile, CellSet, Circle, Hole, LatticeSection};
+use super::{Body, OffOutline};
+use crate::case::{CaseError, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection};
 
 #[derive(Debug)]
 pub(super) struct LatticeBody {
@@ -23,11 +24,24 @@ struct Set {
     points: Vec<u32>,
     /// Length of the side that each point stands for, m: none where the set is no part of a side.
     length: Option<f64>,
+    /// Its part of the outline.
+    faces: Faces,
+}
+
+/// Which faces behind which there is no cell belong to a set.
+#[derive(Debug)]
+enum Faces {
+    /// Those of its cells.
+    OfCells,
+    /// Those on one side of the rectangle, with this outward normal.
+    OfSide([i8; 2]),
+    /// Those at some of the holes, shape (n_holes).
+    AtHoles(Vec<bool>),
 }
 
 impl LatticeBody {
     pub(super) fn new(case: &CaseFile, section: &LatticeSection) -> Result<Self, CaseError> {
-        let holes = section.remove.iter().map(hole).collect();
+        let holes = section.remove.iter().map(|it| shape(&it.shape)).collect();
         let lattice = Lattice::new(section.cells, section.spacing, section.corner, holes);
         if lattice.cells.is_empty() {
             let reason = format!("nothing is left of the {} cells", lattice.n_whole());
@@ -39,6 +53,18 @@ impl LatticeBody {
             if set.points.is_empty() {
                 let reason = "no cell has its centre in this set";
                 return Err(case.error(&LatticeSection::set_key(name), reason));
+            }
+            sets.insert(name.clone(), set);
+        }
+        for (index, hole) in section.remove.iter().enumerate() {
+            let Some(name) = hole.name.as_ref().filter(|&name| !sets.contains_key(name)) else {
+                continue;
+            };
+            let shares_name = |it: &Hole| it.name.as_ref() == Some(name);
+            let set = Set::at_holes(section.remove.iter().map(shares_name).collect(), &lattice);
+            if set.points.is_empty() {
+                let reason = "no cell that is left borders on this hole";
+                return Err(case.error(&format!("lattice.remove.{index}"), reason));
             }
             sets.insert(name.clone(), set);
         }
@@ -56,21 +82,41 @@ impl LatticeBody {
 }
 
 impl Set {
+    /// The cells at the rim of some of the holes, marked in `holes` (n_holes).
+    fn at_holes(holes: Vec<bool>, lattice: &Lattice) -> Self {
+        let faces = lattice.outline().into_iter();
+        let towards = faces.filter(|face| face.hole.is_some_and(|hole| holes[hole]));
+        let mut points: Vec<u32> = towards.map(|face| face.point).collect();
+        points.dedup();
+        Self {
+            points,
+            length: None,
+            faces: Faces::AtHoles(holes),
+        }
+    }
+
     fn of(cells: &CellSet, lattice: &Lattice) -> Self {
         let ([columns, rows], [dx, dy]) = (lattice.size, lattice.spacing);
-        let side = |is_in: &dyn Fn([u32; 2]) -> bool, length: f64, count: u32| Self {
-            points: lattice.points_where(is_in),
-            length: Some(length / f64::from(count)),
+        let side = |is_in: &dyn Fn([u32; 2]) -> bool, count: u32, normal: [i8; 2]| {
+            let length = if normal[0] == 0 { dx } else { dy };
+            Self {
+                points: lattice.points_where(is_in),
+                length: Some(length / f64::from(count)),
+                faces: Faces::OfSide(normal),
+            }
         };
         let part = |shape: Shape| Self {
             points: lattice.points_in(&shape),
             length: None,
+            faces: Faces::OfCells,
         };
         match cells {
-            CellSet::Bottom(count) => side(&|[_, row]| row < *count, dx, *count),
-            CellSet::Top(count) => side(&|[_, row]| rows - row <= *count, dx, *count),
-            CellSet::Left(count) => side(&|[column, _]| column < *count, dy, *count),
-            CellSet::Right(count) => side(&|[column, _]| columns - column <= *count, dy, *count),
+            CellSet::Bottom(count) => side(&|[_, row]| row < *count, *count, [0, -1]),
+            CellSet::Top(count) => side(&|[_, row]| rows - row <= *count, *count, [0, 1]),
+            CellSet::Left(count) => side(&|[column, _]| column < *count, *count, [-1, 0]),
+            CellSet::Right(count) => {
+                side(&|[column, _]| columns - column <= *count, *count, [1, 0])
+            }
             CellSet::Box(corners) => part(Shape::rectangle(*corners)),
             CellSet::Circle(it) => part(circle(it)),
             CellSet::Polygon(corners) => part(Shape::Polygon(corners.clone())),
@@ -78,11 +124,15 @@ impl Set {
     }
 }
 
-fn hole(hole: &Hole) -> Shape {
+fn shape(hole: &HoleShape) -> Shape {
     match hole {
-        Hole::Circle(it) => circle(it),
-        Hole::Rectangle(corners) => Shape::rectangle(*corners),
-        Hole::Polygon(corners) => Shape::Polygon(corners.clone()),
+        HoleShape::Circle(it) => circle(it),
+        HoleShape::Rectangle(corners) => Shape::rectangle(*corners),
+        HoleShape::Polygon(corners) => Shape::Polygon(corners.clone()),
+        HoleShape::Outside(disk) => Shape::Outside {
+            centre: disk.centre,
+            radius: disk.radius,
+        },
     }
 }
 
@@ -142,24 +192,38 @@ impl Body for LatticeBody {
         .unwrap_or_default()
     }
 
+    /// The face of a cell at its point; on rows and columns of a side those on the rectangle, at the cells of a hole those towards
+    /// it, else all faces of the cells behind which there is no cell.
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+        let Some(set) = self.sets.get(group) else {
+            return Ok(Vec::new());
+        };
+        let belongs = |face: &Face| match set.faces {
+            Faces::OfSide(normal) => face.is_on_rectangle && face.normal == normal,
+            Faces::AtHoles(ref holes) => face.hole.is_some_and(|hole| holes[hole]),
+            Faces::OfCells => set.points.binary_search(&face.point).is_ok(),
+        };
+        let [dx, dy] = self.lattice.spacing;
+        let mut normals: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
+        for face in self.lattice.outline().iter().filter(|face| belongs(face)) {
+            let [x, y] = face.normal.map(f64::from);
+            let sum = normals.entry(face.point).or_default();
+            *sum = [sum[0] + x * dy, sum[1] + y * dx];
+        }
+        Ok(normals.into_iter().collect())
+    }
+
     fn holes(&self) -> &[Shape] {
         &self.lattice.holes
     }
 
     /// The cells that lack one of four neighbours.
     fn rim(&self) -> Vec<bool> {
-        let cells: HashSet<[u32; 2]> = self.lattice.cells.iter().copied().collect();
-        let is_outer = |&[column, row]: &[u32; 2]| {
-            // Below zero there is no cell: the number wraps to one that no lattice has.
-            let sides = [
-                [column.wrapping_sub(1), row],
-                [column + 1, row],
-                [column, row.wrapping_sub(1)],
-                [column, row + 1],
-            ];
-            !sides.iter().all(|side| cells.contains(side))
-        };
-        self.lattice.cells.iter().map(is_outer).collect()
+        let mut marked = vec![false; self.positions.len()];
+        for face in self.lattice.outline() {
+            marked[face.point as usize] = true;
+        }
+        marked
     }
 
     fn grid(&self) -> BodyGrid {

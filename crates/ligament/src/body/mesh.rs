@@ -1,6 +1,6 @@
 //! A meshed body: points at the nodes, physical groups.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use ligament_model::PointCloud;
 use ligament_output::results::{BodyGrid, Canvas};
 use ligament_output::vtu;
 
-use super::Body;
+use super::{Body, OffOutline};
 use crate::inspect::{MeshFileError, read_mesh};
 
 #[derive(Debug)]
@@ -22,6 +22,21 @@ impl MeshBody {
 
     pub(super) fn new(mesh: Mesh) -> Self {
         Self(mesh)
+    }
+
+    /// For each edge of a cell, by its nodes in ascending order, how many cells have it, and the nodes in the order in which the
+    /// last of these cells, on their left, goes along it.
+    fn edges_of_cells(&self) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
+        let mut edges = BTreeMap::new();
+        for cell in &self.0.cells {
+            let corners = cell.corners();
+            let next = corners.iter().cycle().skip(1);
+            for (&from, &to) in corners.iter().zip(next) {
+                let edge = edges.entry(ascending([from, to])).or_insert((0, [0; 2]));
+                *edge = (edge.0 + 1, [from, to]);
+            }
+        }
+        edges
     }
 
     /// What the groups of this name hold, whatever their dimension, ascending; `None` where there is none.
@@ -89,20 +104,43 @@ impl Body for MeshBody {
         &self.0.fields
     }
 
-    /// The nodes of edges that one cell has alone.
-    fn rim(&self) -> Vec<bool> {
-        let mut cells_of_edge: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-        for cell in &self.0.cells {
-            let corners = cell.corners();
-            let next = corners.iter().cycle().skip(1);
-            for (&from, &to) in corners.iter().zip(next) {
-                *cells_of_edge
-                    .entry([from.min(to), from.max(to)])
-                    .or_insert(0) += 1;
+    /// Half of the normal of each edge, away from its one cell, at each of its nodes.
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+        let groups = self.0.groups_named(group);
+        let edges: BTreeSet<[u32; 2]> = groups
+            .flat_map(|group| &group.edges)
+            .map(|&edge| ascending(edge))
+            .collect();
+        if edges.is_empty() {
+            return Ok(Vec::new());
+        }
+        let of_cells = self.edges_of_cells();
+        let mut normals = BTreeMap::new();
+        for edge in edges {
+            let (cells, along) = of_cells.get(&edge).copied().unwrap_or((0, edge));
+            let [p, q] = along.map(|node| self.0.positions[node as usize]);
+            if cells != 1 {
+                return Err(OffOutline {
+                    nodes: edge.map(|node| self.tag(node)),
+                    middle: [0, 1].map(|axis| 0.5 * (p[axis] + q[axis])),
+                    cells,
+                });
+            }
+            // Corners stand counter-clockwise: the outside is on the right.
+            let half = [0.5 * (q[1] - p[1]), 0.5 * (p[0] - q[0])];
+            for node in edge {
+                let sum = normals.entry(node).or_insert([0.0; 2]);
+                *sum = [0, 1].map(|axis| sum[axis] + half[axis]);
             }
         }
+        Ok(normals.into_iter().collect())
+    }
+
+    /// The nodes of edges that one cell has alone.
+    fn rim(&self) -> Vec<bool> {
         let mut marked = vec![false; self.0.positions.len()];
-        let outer = cells_of_edge.iter().filter(|(_, cells)| **cells == 1);
+        let edges = self.edges_of_cells();
+        let outer = edges.iter().filter(|(_, (cells, _))| *cells == 1);
         for node in outer.flat_map(|(edge, _)| edge) {
             marked[*node as usize] = true;
         }
@@ -143,4 +181,8 @@ impl Body for MeshBody {
         }
         Ok(())
     }
+}
+
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }

@@ -9,11 +9,28 @@ use std::io::{self, Write};
 use ligament_mesh::{Mesh, NodeField};
 use ligament_model::{PointCloud, Shape};
 use ligament_output::results::BodyGrid;
+use thiserror::Error;
 
 use self::lattice::LatticeBody;
 use self::mesh::MeshBody;
 use crate::case::{BodySection, CaseFile};
 use crate::stages::Stages;
+
+/// An edge of a group that is none of the outline of the body, on which a pressure could act.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "a pressure acts on the outline of the body, but the edge of this group from node {} to node {}, around ({:.6}, {:.6}), {}",
+    .nodes[0], .nodes[1], .middle[0], .middle[1],
+    if *.cells == 0 { "is no edge of a cell" } else { "has cells on both sides" }
+)]
+pub struct OffOutline {
+    /// Tags of its nodes.
+    pub nodes: [u64; 2],
+    /// Its middle in the coordinates of the case, m.
+    pub middle: [f64; 2],
+    /// Number of cells that have it.
+    pub cells: usize,
+}
 
 /// What the program needs to know of a body, whatever its points come from.
 pub trait Body: Debug + Send + Sync {
@@ -46,6 +63,14 @@ pub trait Body: Debug + Send + Sync {
 
     /// Length that each point of a group stands for, m; empty where the group has no length.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)>;
+
+    /// Outward normals of the outline along a group times their lengths, m, added up at its points: half of an edge of a mesh
+    /// at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
+    ///
+    /// # Errors
+    ///
+    /// If an edge of the group is none of the outline.
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline>;
 
     /// Holes across which there is no bond.
     fn holes(&self) -> &[Shape] {

@@ -11,7 +11,9 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
 use super::region::ordered_box;
-use super::values::{Point, not_exactly_one, require, require_at_least_one, require_positive};
+use super::values::{
+    Point, not_exactly_one, require, require_at_least_one, require_column_name, require_positive,
+};
 
 /// Cells of a lattice at most.
 pub const MOST_CELLS: u64 = 50_000_000;
@@ -60,14 +62,27 @@ pub struct Circle {
 
 /// A hole: cells whose centre lies in it are removed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Hole {
+    /// Name of the group that the cells at its rim are; several holes may share it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// What it takes.
+    #[serde(flatten)]
+    pub shape: HoleShape,
+}
+
+/// What a hole takes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Hole {
+pub enum HoleShape {
     /// A disk.
     Circle(Circle),
     /// A rectangle: its lower left and its upper right corner.
     Rectangle([Point; 2]),
     /// A polygon by its corners.
     Polygon(Vec<Point>),
+    /// Everything outside of a disk.
+    Outside(Circle),
 }
 
 /// A set of cells.
@@ -107,9 +122,11 @@ pub(super) struct RawLattice {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawHole {
+    name: Option<String>,
     circle: Option<Circle>,
     rectangle: Option<[Point; 2]>,
     polygon: Option<Vec<Point>>,
+    outside: Option<Circle>,
 }
 
 #[derive(Deserialize)]
@@ -154,7 +171,20 @@ impl RawLattice {
             corner,
         )?;
         let holes = self.remove.into_iter().enumerate();
-        let remove = holes.map(|(index, hole)| hole.check(&key.child("remove").child(index)));
+        let holes = holes.map(|(index, hole)| {
+            let key = key.child("remove").child(index);
+            let hole = hole.check(&key)?;
+            if let Some(name) = hole
+                .name
+                .as_ref()
+                .filter(|&name| self.set.contains_key(name))
+            {
+                let reason = format!("`lattice.set` has a `{name}` as well: rename one of them");
+                return Err(KeyFault::new(key.child("name"), reason));
+            }
+            Ok(hole)
+        });
+        let remove = holes.collect::<Result<_, _>>()?;
         let sets = self.set.into_iter().map(|(name, set)| {
             let checked = set.check(&key.child("set").child(&name), cells)?;
             Ok((name, checked))
@@ -165,7 +195,7 @@ impl RawLattice {
             corner,
             thickness,
             plane: self.plane.unwrap_or_default(),
-            remove: remove.collect::<Result<_, _>>()?,
+            remove,
             sets: sets.collect::<Result<_, KeyFault>>()?,
         })
     }
@@ -173,21 +203,34 @@ impl RawLattice {
 
 impl RawHole {
     fn check(self, key: &KeyPath) -> Result<Hole, KeyFault> {
-        match (self.circle, self.rectangle, self.polygon) {
-            (Some(circle), None, None) => circle.check(key).map(Hole::Circle),
-            (None, Some(corners), None) => {
-                ordered_box(&key.child("rectangle"), corners).map(Hole::Rectangle)
+        if let Some(name) = &self.name {
+            require_column_name(|| key.child("name"), name)?;
+        }
+        let shape = match (self.circle, self.rectangle, self.polygon, self.outside) {
+            (Some(circle), None, None, None) => {
+                HoleShape::Circle(circle.check(&key.child("circle"))?)
             }
-            (None, None, Some(corners)) => polygon(key, corners).map(Hole::Polygon),
-            (circle, rectangle, polygon) => Err(not_exactly_one(
-                key,
-                &[
+            (None, Some(corners), None, None) => {
+                HoleShape::Rectangle(ordered_box(&key.child("rectangle"), corners)?)
+            }
+            (None, None, Some(corners), None) => HoleShape::Polygon(polygon(key, corners)?),
+            (None, None, None, Some(circle)) => {
+                HoleShape::Outside(circle.check(&key.child("outside"))?)
+            }
+            (circle, rectangle, polygon, outside) => {
+                let given = [
                     ("circle", circle.is_some()),
                     ("rectangle", rectangle.is_some()),
                     ("polygon", polygon.is_some()),
-                ],
-            )),
-        }
+                    ("outside", outside.is_some()),
+                ];
+                return Err(not_exactly_one(key, &given));
+            }
+        };
+        Ok(Hole {
+            name: self.name,
+            shape,
+        })
     }
 }
 
@@ -208,7 +251,7 @@ impl RawSet {
         }
         let shapes = [
             (self.r#box).map(|corners| ordered_box(&key.child("box"), corners).map(CellSet::Box)),
-            (self.circle).map(|circle| circle.check(key).map(CellSet::Circle)),
+            (self.circle).map(|it| it.check(&key.child("circle")).map(CellSet::Circle)),
             (self.polygon).map(|corners| polygon(key, corners).map(CellSet::Polygon)),
         ];
         let side = |name: &str, count: Option<u32>, most: u32, set: fn(u32) -> CellSet| {
@@ -232,7 +275,7 @@ impl RawSet {
 
 impl Circle {
     fn check(self, key: &KeyPath) -> Result<Self, KeyFault> {
-        require_positive(&key.child("circle"), "radius", self.radius)?;
+        require_positive(key, "radius", self.radius)?;
         Ok(self)
     }
 }

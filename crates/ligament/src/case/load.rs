@@ -40,6 +40,39 @@ pub enum Action {
     Moment(f64),
     /// A couple in the volume, counter-clockwise, N m/m^3.
     BodyCouple(f64),
+    /// A pressure on the outline of the body, Pa; positive pushes on it.
+    Pressure(f64),
+}
+
+/// Units of the axes of the force-displacement curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Units {
+    /// Of the displacement.
+    pub displacement: &'static str,
+    /// Of the force.
+    pub force: &'static str,
+    /// Of their quotient.
+    #[serde(skip)]
+    pub stiffness: &'static str,
+}
+
+impl Units {
+    /// A force and the displacement along it.
+    pub const FORCE: Self = Self::new("m", "N", "N/m");
+    /// A couple and its rotation.
+    pub const COUPLE: Self = Self::new("rad", "N m", "N m/rad");
+    /// A pressure and the volume that it sweeps.
+    pub const PRESSURE: Self = Self::new("m^3", "Pa", "Pa/m^3");
+    /// A change of temperature and what does work with it.
+    pub const TEMPERATURE: Self = Self::new("K", "J/K", "J/K^2");
+
+    const fn new(displacement: &'static str, force: &'static str, stiffness: &'static str) -> Self {
+        Self {
+            displacement,
+            force,
+            stiffness,
+        }
+    }
 }
 
 /// A load that varies linearly: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
@@ -90,6 +123,7 @@ pub(super) struct RawLoad {
     body_force: Option<Vector>,
     moment: Option<f64>,
     body_couple: Option<f64>,
+    pressure: Option<f64>,
     profile: Option<Profile>,
 }
 
@@ -124,6 +158,7 @@ impl RawLoad {
             ("body_force", self.body_force.map(Action::BodyForce)),
             ("moment", self.moment.map(Action::Moment)),
             ("body_couple", self.body_couple.map(Action::BodyCouple)),
+            ("pressure", self.pressure.map(Action::Pressure)),
         ];
         let mut actions = given
             .iter()
@@ -146,17 +181,31 @@ impl Action {
             Self::Force(vector) | Self::ForcePerLength(vector) | Self::BodyForce(vector) => {
                 vector.check(key).map(drop)
             }
-            Self::Moment(couple) | Self::BodyCouple(couple) => require(
-                couple != 0.0,
+            Self::Moment(value) | Self::BodyCouple(value) | Self::Pressure(value) => require(
+                value != 0.0,
                 || key.clone(),
                 "other than 0, or the load does nothing",
-                couple,
+                value,
             ),
+        }
+    }
+
+    /// Units of its displacement and its force in the history: their product is work.
+    pub fn units(&self) -> Units {
+        let turns = |it: &Displacement| it.x.is_none() && it.y.is_none();
+        match self {
+            Self::Displacement(motion) if turns(motion) => Units::COUPLE,
+            Self::Displacement(_)
+            | Self::Force(_)
+            | Self::ForcePerLength(_)
+            | Self::BodyForce(_) => Units::FORCE,
+            Self::Moment(_) | Self::BodyCouple(_) => Units::COUPLE,
+            Self::Pressure(_) => Units::PRESSURE,
         }
     }
 }
 
-/// A force per length needs the length of a group; only what acts on a volume may act on everything.
+/// Forces per length and pressures need the edges of a group; only what acts on a volume may act on everything.
 fn check_place(key: &KeyPath, place: Option<&Place>, action: &Action) -> Result<(), KeyFault> {
     match (action, place) {
         (Action::BodyForce(_) | Action::BodyCouple(_), Some(Place::At(_))) => {
@@ -164,10 +213,14 @@ fn check_place(key: &KeyPath, place: Option<&Place>, action: &Action) -> Result<
             Err(KeyFault::new(key.child("at"), reason))
         }
         (Action::BodyForce(_) | Action::BodyCouple(_), _)
-        | (Action::ForcePerLength(_), Some(Place::Group(_))) => Ok(()),
+        | (Action::ForcePerLength(_) | Action::Pressure(_), Some(Place::Group(_))) => Ok(()),
         (Action::ForcePerLength(_), _) => {
             let reason = "acts along the curve of a `group`, so the load needs one";
             Err(KeyFault::new(key.child("force_per_length"), reason))
+        }
+        (Action::Pressure(_), _) => {
+            let reason = "acts on the outline of a `group`, so the load needs one";
+            Err(KeyFault::new(key.child("pressure"), reason))
         }
         (_, None) => Err(no_place(key, [false; 3])),
         (_, Some(_)) => Ok(()),

@@ -34,6 +34,20 @@ pub enum Region {
 pub struct Precrack {
     /// Corners of the polyline, two or more, m.
     pub points: Vec<Point>,
+    /// Whether it cuts bonds that only touch it.
+    #[serde(default)]
+    pub ends: Ends,
+}
+
+/// Whether the ends of a pre-crack belong to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ends {
+    /// It cuts bonds that pass through it.
+    #[default]
+    Excluded,
+    /// It cuts bonds that have a point in common with it.
+    Included,
 }
 
 impl Precrack {

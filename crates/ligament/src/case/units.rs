@@ -44,6 +44,7 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
         [.., "body_force", "x" | "y"] => Some("N/m^3"),
         [.., "moment"] => Some("N m"),
         [.., "body_couple"] => Some("N m/m^3"),
+        [.., "pressure"] => Some("Pa"),
         [.., "profile", "zero" | "one"] => Some("m"),
         [.., "displacement", "x" | "y"] | [.., "stop", "displacement"] => Some("m"),
         [

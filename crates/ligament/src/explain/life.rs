@@ -10,6 +10,9 @@ use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
+use super::Loading;
+use crate::case::Units;
+
 /// The lives of some bonds, over the same moments.
 #[derive(Debug)]
 pub(super) struct Lives {
@@ -21,6 +24,8 @@ pub(super) struct Lives {
     pub(super) absent: Vec<usize>,
     /// Whether a moment is just before the breakages of its step.
     pub(super) before_breakages: bool,
+    /// Units of the displacement and the reaction of the moments.
+    pub(super) units: Units,
 }
 
 /// The life of a bond.
@@ -78,18 +83,15 @@ pub(super) fn pair_of(run: &StoredRun, ends: [u32; 2]) -> Option<usize> {
 
 impl Lives {
     /// Reads each file of fields once.
-    pub(super) fn of(
-        run: &StoredRun,
-        pairs: Vec<usize>,
-        before_breakages: bool,
-    ) -> Result<Self, Error> {
+    pub(super) fn of(run: &StoredRun, pairs: Vec<usize>, loading: Loading) -> Result<Self, Error> {
         let is_absent = |pair: &usize| run.model.bonds.absence[*pair].is_some();
         let (absent, bonds): (Vec<usize>, Vec<usize>) = pairs.into_iter().partition(is_absent);
         let mut lives = Self {
             moments: Vec::new(),
             of_bonds: Vec::new(),
             absent,
-            before_breakages,
+            before_breakages: loading.follows_path,
+            units: loading.units,
         };
         for pair in bonds {
             lives.of_bonds.push(Life::begin(run, pair)?);
@@ -105,7 +107,7 @@ impl Lives {
             }
         }
         for life in &mut lives.of_bonds {
-            life.complete(run, &lives.moments, before_breakages);
+            life.complete(run, &lives.moments, loading.follows_path);
         }
         Ok(lives)
     }

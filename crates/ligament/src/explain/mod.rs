@@ -18,6 +18,7 @@ use ligament_output::results::stored::StoredRun;
 use thiserror::Error;
 
 use self::life::{Lives, bonds_of, pair_of};
+use crate::case::Units;
 
 /// What to explain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,16 +84,16 @@ fn nearest_words(nearest: &[i64]) -> String {
 /// If the folder has no results that tell, there is no such point, or a file cannot be written.
 pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
-    let follows_path = follows_exact_path(&request.folder)?;
+    let loading = loading(&request.folder)?;
     let (text, lives) = match request.subject {
         Subject::Point(tag) => {
             let point = point_of(&run, tag)?;
-            let lives = Lives::of(&run, bonds_of(&run, point), follows_path)?;
+            let lives = Lives::of(&run, bonds_of(&run, point), loading)?;
             (report::family(&run, point, None, &lives), lives)
         }
         Subject::At(position) => {
             let point = nearest_point(&run, position);
-            let lives = Lives::of(&run, bonds_of(&run, point), follows_path)?;
+            let lives = Lives::of(&run, bonds_of(&run, point), loading)?;
             (report::family(&run, point, Some(position), &lives), lives)
         }
         Subject::Bond(tags) => {
@@ -103,7 +104,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             }
             let ends = [a.min(b), a.max(b)];
             let pair = pair_of(&run, ends);
-            let lives = Lives::of(&run, pair.into_iter().collect(), follows_path)?;
+            let lives = Lives::of(&run, pair.into_iter().collect(), loading)?;
             (report::bond(&run, ends, &lives), lives)
         }
     };
@@ -148,8 +149,17 @@ fn nearest_point(run: &StoredRun, [x, y]: [f64; 2]) -> u32 {
     nearest.map_or(0, |(point, _)| point as u32)
 }
 
-/// Whether the rows of the history are events, each just before its bonds break.
-fn follows_exact_path(folder: &Path) -> anyhow::Result<bool> {
+/// What the loading of the run was like.
+#[derive(Debug, Clone, Copy)]
+struct Loading {
+    /// Whether the rows of the history are events, each just before its bonds break.
+    follows_path: bool,
+    /// Units of the first load.
+    units: Units,
+}
+
+/// The loading, from the resolved case beside the results.
+fn loading(folder: &Path) -> anyhow::Result<Loading> {
     let path = folder.join(RESOLVED_CASE);
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;
@@ -157,5 +167,21 @@ fn follows_exact_path(folder: &Path) -> anyhow::Result<bool> {
         .parse()
         .with_context(|| format!("cannot use {}", path.display()))?;
     let control = case.get("fracture").and_then(|it| it.get("control"));
-    Ok(control.and_then(toml::Value::as_str) == Some("event"))
+    let first = case.get("load").and_then(|loads| loads.get(0));
+    let given = |key: &str| first.and_then(|load| load.get(key));
+    let moves = |motion: &toml::Value| motion.get("x").or(motion.get("y")).is_some();
+    let turns = given("displacement").is_some_and(|motion| !moves(motion));
+    let units = if first.is_none() {
+        Units::TEMPERATURE
+    } else if given("pressure").is_some() {
+        Units::PRESSURE
+    } else if turns || given("moment").or(given("body_couple")).is_some() {
+        Units::COUPLE
+    } else {
+        Units::FORCE
+    };
+    Ok(Loading {
+        follows_path: control.and_then(toml::Value::as_str) == Some("event"),
+        units,
+    })
 }

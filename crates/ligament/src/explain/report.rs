@@ -8,6 +8,7 @@ use ligament_output::results::stored::{StoredRun, StoredStep};
 use super::life::{Life, Lives};
 use super::table::Columns;
 use super::words::{self, label, number, place};
+use crate::case::Units;
 
 /// An explanation.
 pub(super) struct Text {
@@ -178,7 +179,14 @@ fn path_title(lives: &Lives) -> String {
     format!("path ({when})")
 }
 
-const LOAD: [&str; 4] = ["step", "load factor", "displacement m", "reaction N"];
+fn load_header(units: Units) -> Vec<String> {
+    vec![
+        "step".to_owned(),
+        "load factor".to_owned(),
+        format!("displacement {}", units.displacement),
+        format!("reaction {}", units.force),
+    ]
+}
 
 fn load(moment: &StoredStep) -> Vec<String> {
     vec![
@@ -191,7 +199,7 @@ fn load(moment: &StoredStep) -> Vec<String> {
 
 /// Deformation and utilisations of a bond over the moments.
 fn bond_path(lives: &Lives, life: &Life) -> Columns {
-    let mut header: Vec<String> = LOAD.map(str::to_owned).to_vec();
+    let mut header = load_header(lives.units);
     header.extend(["stretch", "sliding"].map(str::to_owned));
     for limit in &life.limits {
         header.push(limit.name.clone());
@@ -283,7 +291,7 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
 /// Intact bonds, damage and the bond nearest to breakage over the moments.
 fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     let tagged = run.model.tagged;
-    let mut header: Vec<String> = LOAD.map(str::to_owned).to_vec();
+    let mut header = load_header(lives.units);
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
     header.extend([format!("to {tagged}"), "by".to_owned()]);
     let mut table = Columns::new(header);

@@ -91,10 +91,12 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
         }
         lines.push(format!("Then {}.", deformed(&deformation)));
         lines.push(format!(
-            "Load factor {:.6}, displacement {} m, reaction {} N.",
+            "Load factor {:.6}, displacement {} {}, reaction {} {}.",
             broke.at.load_factor,
             number(broke.at.displacement),
-            number(broke.at.reaction)
+            lives.units.displacement,
+            number(broke.at.reaction),
+            lives.units.force
         ));
         return lines;
     }

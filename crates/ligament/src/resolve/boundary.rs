@@ -106,8 +106,8 @@ pub(super) fn place_name(place: &Place, index: usize) -> String {
 struct Given {
     /// What its points take.
     at_points: Vec<(u32, [f64; COMPONENTS])>,
-    /// Sum over the points before the profile.
-    total: [f64; COMPONENTS],
+    /// Size before the profile: of the sum over the points, or the pressure, Pa.
+    size: f64,
 }
 
 impl Places<'_> {
@@ -165,32 +165,33 @@ impl Places<'_> {
         let points = self.points(key, load.place.as_ref())?;
         let factors = self.factors(key, load.profile.as_ref(), &points)?;
         let given = self.forces(key, load, &points)?;
-        let (kind, vector) = match &load.action {
+        let motion = match load.action {
             Action::Displacement(Displacement { x, y, rotation }) => {
                 let [x, y, rotation] = [x, y, rotation].map(|value| value.unwrap_or(0.0));
                 let rotation = if x == 0.0 && y == 0.0 { rotation } else { 0.0 };
-                (ControlKind::Displacement, [x, y, rotation])
+                Some([x, y, rotation])
             }
-            _ => (ControlKind::Force, given.total),
+            _ => None,
         };
-        let magnitude = vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let magnitude = motion.map_or(given.size, norm);
         if magnitude == 0.0 {
             let reason = "the first load must be other than zero: it is the axis of the force-displacement curve";
             return Err(self.case.error(key, reason));
         }
-        let (points, shape) = match kind {
-            ControlKind::Displacement => {
-                let direction = vector.map(|value| value / magnitude);
+        let (kind, (points, shape)) = match motion {
+            Some(motion) => {
+                let direction = motion.map(|value| value / magnitude);
                 let shape = factors
                     .iter()
                     .map(|factor| direction.map(|cosine| factor * cosine));
-                (points, shape.collect())
+                (ControlKind::Displacement, (points, shape.collect()))
             }
-            ControlKind::Force | ControlKind::Temperature => {
+            None => {
                 let at_points = given.at_points.into_iter();
-                at_points
+                let shape = at_points
                     .map(|(point, force)| (point, force.map(|value| value / magnitude)))
-                    .unzip()
+                    .unzip();
+                (ControlKind::Force, shape)
             }
         };
         Ok(Control {
@@ -236,6 +237,7 @@ impl Places<'_> {
         let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
         let (weights, density) = match &load.action {
             Action::Displacement(_) => return Ok(Given::default()),
+            Action::Pressure(pressure) => return self.pressures(key, load, *pressure),
             Action::BodyForce(force) => (volumes, [force.x, force.y, 0.0]),
             Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
             Action::ForcePerLength(_) if curve.is_empty() => {
@@ -263,7 +265,39 @@ impl Places<'_> {
         };
         Ok(Given {
             at_points: at_points.map(share).collect(),
-            total: density.map(|value| value * total),
+            size: norm(density.map(|value| value * total)),
         })
     }
+
+    /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward
+    /// normal n, or at the cell of a lattice whose face it is; n and L are those of the body at rest (a dead load). Each point's
+    /// share is then multiplied by the profile.
+    fn pressures(&self, key: &str, load: &Load, pressure: f64) -> Result<Given, CaseError> {
+        let group_key = format!("{key}.group");
+        let normals = match &load.place {
+            Some(Place::Group(group)) => self.body.outline_of(group),
+            _ => Ok(Vec::new()),
+        };
+        let normals = normals.map_err(|error| self.case.error(&group_key, error.to_string()))?;
+        if normals.is_empty() {
+            let reason = "a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: \
+                          this group has no part of the outline";
+            return Err(self.case.error(&group_key, reason));
+        }
+        let loaded: Vec<u32> = normals.iter().map(|(point, _)| *point).collect();
+        let factors = self.factors(key, load.profile.as_ref(), &loaded)?;
+        let per_length = -pressure * self.cloud.thickness;
+        let force = |((point, [x, y]), factor): ((u32, [f64; 2]), f64)| {
+            let share = factor * per_length;
+            (point, [share * x, share * y, 0.0])
+        };
+        Ok(Given {
+            at_points: normals.into_iter().zip(factors).map(force).collect(),
+            size: pressure.abs(),
+        })
+    }
+}
+
+fn norm(vector: [f64; COMPONENTS]) -> f64 {
+    vector.iter().map(|value| value * value).sum::<f64>().sqrt()
 }

@@ -15,7 +15,7 @@ use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::probe::{PointField, Probe, Reading, StressComponent};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
-use ligament_model::bonds::precrack::PreCrack;
+use ligament_model::bonds::precrack::{Ends, PreCrack};
 use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::failure::Weakened;
 use ligament_model::{BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud};
@@ -107,6 +107,10 @@ pub fn precracks(case: &CaseFile) -> Vec<PreCrack> {
         .iter()
         .map(|crack| PreCrack {
             points: crack.points.clone(),
+            ends: match crack.ends {
+                case::Ends::Excluded => Ends::Excluded,
+                case::Ends::Included => Ends::Included,
+            },
         })
         .collect()
 }
