@@ -22,7 +22,10 @@ use crate::unknowns::{COMPONENTS, Unknowns};
 /// The pattern of the matrix (upper triangle) for some unknowns.
 pub fn pattern(system: &BondSystem, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
     match system.element {
-        ElementKind::Imaginary => imaginary::pattern(system, unknowns),
+        // The stiffness of small strains, and that of the energy, with which others iterate or begin.
+        ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => {
+            imaginary::pattern(system, unknowns)
+        }
         ElementKind::Beam | ElementKind::Spring => pattern_of(system, unknowns, |point| {
             let neighbours = lower_neighbours(system, point);
             neighbours.map(|(_, neighbour)| neighbour).collect()
@@ -70,7 +73,9 @@ pub fn assemble(
     match system.element {
         ElementKind::Beam => assemble_pairs::<BeamBond>(system, unknowns, pattern, bonds, held),
         ElementKind::Spring => assemble_pairs::<SpringBond>(system, unknowns, pattern, bonds, held),
-        ElementKind::Imaginary => imaginary::assemble(system, unknowns, pattern, bonds, held),
+        ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => {
+            imaginary::assemble(system, unknowns, pattern, bonds, held)
+        }
     }
 }
 

@@ -133,9 +133,10 @@ pub(crate) fn rigid_motions<'a>(system: &'a BondSystem, points: &[u32]) -> Rigid
         system.shear_rigidity[bond] != 0.0 || system.rotational_rigidity[bond] != 0.0
     };
     let turn = match (bonds.any(resists), system.element) {
-        (false, _) | (true, ElementKind::Imaginary) => Turn::OfPositions,
+        (false, _) => Turn::OfPositions,
+        (true, kind) if kind.has_strains() => Turn::OfPositions,
         (true, ElementKind::Beam) => Turn::OfPointsAlong,
-        (true, ElementKind::Spring) => Turn::Costly,
+        (true, _) => Turn::Costly,
     };
     RigidMotions::of(&system.cloud.positions, points, turn)
 }

@@ -10,7 +10,7 @@ use ligament_linalg::{
     Elimination, FactorError, Factorisation, Pattern, Symbolic, SymmetricMatrix, VANISHING_PIVOT,
 };
 use ligament_model::BondSystem;
-use ligament_model::element::Remaining;
+use ligament_model::element::{ElementKind, Remaining};
 
 use crate::assembly;
 use crate::dissection;
@@ -57,6 +57,8 @@ pub enum Update {
 pub struct SolverChoice {
     /// Factorisation.
     pub factorisation: FactorKind,
+    /// Whether the stiffness has no symmetry, and is factorised as L U instead.
+    pub unsymmetric: bool,
     /// Order of elimination.
     pub ordering: Ordering,
     /// What happens to the factor when bonds break.
@@ -159,6 +161,7 @@ impl<'a> Stiffness<'a> {
             pattern,
             choice: SolverChoice {
                 factorisation: settings.factorisation.unwrap_or(suitable),
+                unsymmetric: system.element == ElementKind::Pairwise,
                 ordering,
                 update: settings.update.unwrap_or(Update::Incremental),
                 rebuild_every: settings.rebuild_every.max(1),

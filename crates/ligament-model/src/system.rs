@@ -60,7 +60,7 @@ impl BondSystem {
                 *shear = factor * *shear * l;
                 *rotational *= factor;
             });
-        let imaginary = (element == ElementKind::Imaginary).then(|| {
+        let imaginary = element.has_strains().then(|| {
             let of_bond = |(bond, density): (usize, StrainStiffness)| {
                 let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
                 let factor = weight[bond] * a * b * bonds.length[bond];
@@ -84,8 +84,12 @@ impl BondSystem {
         }
     }
 
-    /// Whether some bond has a negative axial or shear stiffness, so that the stiffness of the body may be indefinite.
+    /// Whether some bond has a negative axial or shear stiffness, or an indefinite one of its strains, so that the stiffness of the
+    /// body may be indefinite.
     pub fn has_negative_stiffness(&self) -> bool {
+        if let Some(elements) = &self.imaginary {
+            return elements.some_indefinite();
+        }
         let mut rigidities = self.axial_rigidity.iter().chain(&self.shear_rigidity);
         rigidities.any(|&rigidity| rigidity < 0.0)
     }

@@ -48,7 +48,7 @@ pub use lattice_section::{CellSet, Circle, Hole, HoleShape, LatticeSection, MOST
 pub use load::{Action, Load, Profile, Units};
 pub use material::{Anisotropic, Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
-pub use model::{Calibration, Law, ModelSection, RotationalStiffness};
+pub use model::{Calibration, Form, Law, ModelSection, RotationalStiffness, Strains};
 pub use probe::{Component, Field, Probe, Reading};
 pub use region::{Ends, Place, Precrack, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
@@ -172,9 +172,10 @@ impl Case {
             number += 1;
             load.check(key, number)
         })?;
+        let law = raw.model.law();
         let fracture = raw
             .fracture
-            .map(|it| it.check(&section("fracture")))
+            .map(|it| it.check(&section("fracture"), law))
             .transpose()?;
         let model = raw.model.check(&section("model"))?;
         let case = Self {

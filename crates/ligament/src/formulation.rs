@@ -6,15 +6,19 @@ use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::{BondStiffness, Elasticity, ElementKind, Horizons, Isotropic, PointCloud};
 
-use crate::case::{self, Alpha, Calibration, CaseFile, Law, Surface};
+use crate::case::{self, Alpha, Calibration, CaseFile, Form, Law, ModelSection, Strains, Surface};
 use crate::resolve;
 
-/// Kinematics of the bonds of a law.
-pub fn element(law: Law) -> ElementKind {
-    match law {
+/// Kinematics of the bonds of a model.
+pub fn element(model: &ModelSection) -> ElementKind {
+    match model.law {
         Law::Nhpd | Law::Mppd | Law::MppdBeam | Law::Orthotropic => ElementKind::Beam,
         Law::Bbpd | Law::BbpdConical | Law::Pds => ElementKind::Spring,
-        Law::MbbPd => ElementKind::Imaginary,
+        Law::MbbPd => match (model.form, model.strains) {
+            (Some(Form::Pairwise), _) => ElementKind::Pairwise,
+            (_, Some(Strains::True)) => ElementKind::TrueStrain,
+            _ => ElementKind::Imaginary,
+        },
     }
 }
 
@@ -51,7 +55,10 @@ pub fn stiffness(
         Law::Pds => pds::stiffness(bonds, cloud, &isotropic, plane),
         Law::Mppd => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational),
         Law::Orthotropic => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational),
-        Law::MbbPd => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
+        Law::MbbPd => match case.case.model.form {
+            Some(Form::Rows) => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, plane),
+            _ => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
+        },
     };
     match case.case.model.calibration {
         Some(Calibration::Discrete) => {

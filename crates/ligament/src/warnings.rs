@@ -5,7 +5,7 @@ use ligament_model::{ElementKind, Isotropic, Plane};
 use ligament_output::results::FixedFields;
 
 use crate::body::Body;
-use crate::case::{CaseFile, CriterionKind, Law};
+use crate::case::{CaseFile, CriterionKind, ModelSection};
 use crate::formulation;
 use crate::resolve;
 
@@ -44,7 +44,7 @@ pub fn of_model(
     let plane = resolve::plane(case);
     let materials = resolve::materials(case);
     let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
-    warnings.extend(constants.filter_map(|it| poisson_warning(case.case.model.law, &it, plane)));
+    warnings.extend(constants.filter_map(|it| poisson_warning(&case.case.model, &it, plane)));
     warnings.extend(sliding_warning(case));
     let constants = materials.iter().filter_map(|it| it.elasticity.isotropic());
     warnings.extend(constants.filter_map(|it| energy_warning(case, &it, plane)));
@@ -101,7 +101,7 @@ fn correction_warning(
 /// The shear of a bond between points without rotations is that of the body and its rotation together.
 fn sliding_warning(case: &CaseFile) -> Option<String> {
     let law = case.case.model.law;
-    if formulation::element(law) != ElementKind::Spring {
+    if formulation::element(&case.case.model) != ElementKind::Spring {
         return None;
     }
     let sees_rotations = |kind: &CriterionKind| match kind {
@@ -137,18 +137,18 @@ fn energy_warning(case: &CaseFile, material: &Isotropic, plane: Plane) -> Option
     })
 }
 
-fn poisson_warning(law: Law, material: &Isotropic, plane: Plane) -> Option<String> {
+fn poisson_warning(model: &ModelSection, material: &Isotropic, plane: Plane) -> Option<String> {
     let (poisson, limit) = (material.poisson, Isotropic::central_force_poisson(plane));
-    if law.fixes_poisson() {
+    if model.law.fixes_poisson() {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
         return differs.then(|| {
             format!("Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}")
         });
     }
-    let negative = match formulation::element(law) {
+    let negative = match formulation::element(model) {
         ElementKind::Beam => "shear and rotational stiffness of the bonds are negative",
         ElementKind::Spring => "the shear stiffness of the bonds is negative",
-        ElementKind::Imaginary => return None,
+        ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => return None,
     };
     (poisson > limit).then(|| {
         format!(

@@ -20,6 +20,7 @@
 //! end itself. A corner of the rectangle of an S bond counts while one of its two edges is unbroken. A bond without any support for one of its
 //! derivatives drops out: it has no stiffness and no strain.
 
+mod quotients;
 mod surroundings;
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
@@ -27,6 +28,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
 use crate::bonds::{BondSet, Incidence};
 use crate::system::BondSystem;
+pub(super) use quotients::{Axis, Quotient, Quotients};
 pub use surroundings::Surroundings;
 
 /// Most points that an element couples.
@@ -55,6 +57,9 @@ pub struct ImaginaryElements {
     pub surroundings: Surroundings,
     /// The bonds whose elements couple each point, ascending.
     pub couplings: Incidence,
+    /// Factors of the rows (xx, yy, xy) of D in the printed forces of each bond, shape (n_bonds); empty where forces come from the
+    /// energy.
+    pub row_factors: Vec<[f64; 3]>,
 }
 
 impl ImaginaryElements {
@@ -73,7 +78,16 @@ impl ImaginaryElements {
             stiffness,
             surroundings,
             positions,
+            row_factors: Vec::new(),
         }
+    }
+
+    /// Whether some D is indefinite, so that the stiffness of the body may be, too.
+    pub fn some_indefinite(&self) -> bool {
+        self.stiffness.iter().any(|it| {
+            let [d11, d12, d16, d22, d26, d66] = it.entries;
+            d11 * d22 < d12 * d12 || d11 * d66 < d16 * d16 || d22 * d66 < d26 * d26
+        })
     }
 }
 
@@ -128,13 +142,6 @@ struct Gradient {
     by_y: [f64; POINTS],
 }
 
-/// One of the two derivatives.
-#[derive(Clone, Copy)]
-enum Axis {
-    X,
-    Y,
-}
-
 impl Gradient {
     const NONE: Self = Self {
         count: 0,
@@ -153,53 +160,22 @@ impl Gradient {
         intact: &[bool],
         bond: usize,
     ) -> Self {
-        let ends = bonds.ends[bond];
-        let is_linked = |bond: u32| intact[bond as usize];
-        let across =
-            |axis: Axis| ends.map(|end| surroundings.across(end, axis as usize, is_linked));
         let mut gradient = Self::NONE;
-        let is_supported = match BondClass::of(bonds.direction[bond]) {
-            BondClass::Horizontal => {
-                gradient.add(Axis::X, ends, 1.0, positions);
-                gradient.add_mean(Axis::Y, across(Axis::Y), positions)
-            }
-            BondClass::Vertical => {
-                gradient.add(Axis::Y, ends, 1.0, positions);
-                gradient.add_mean(Axis::X, across(Axis::X), positions)
-            }
-            BondClass::Shear => {
-                let [first, second] = ends;
-                // a lies above or below the first end, b beside it.
-                let [a, b] = surroundings.corners(bond, is_linked);
-                let along_x = [b.map(|b| [first, b]), a.map(|a| [a, second])];
-                let along_y = [a.map(|a| [first, a]), b.map(|b| [b, second])];
-                gradient.add_mean(Axis::X, along_x, positions)
-                    && gradient.add_mean(Axis::Y, along_y, positions)
-            }
-        };
-        if is_supported { gradient } else { Self::NONE }
-    }
-
-    /// Adds the mean of the difference quotients that there are; tells whether there are any.
-    #[inline]
-    fn add_mean(
-        &mut self,
-        axis: Axis,
-        quotients: [Option<[u32; 2]>; 2],
-        positions: &[[f64; 2]],
-    ) -> bool {
-        let count = quotients.iter().flatten().count();
-        for &ends in quotients.iter().flatten() {
-            self.add(axis, ends, 1.0 / count as f64, positions);
+        for quotient in Quotients::of(bonds, surroundings, intact, bond).iter() {
+            gradient.add(quotient, positions);
         }
-        count > 0
+        gradient
     }
 
-    /// Adds `weight` times the difference quotient from one point to another along an axis.
+    /// Adds a difference quotient.
     #[inline]
-    fn add(&mut self, axis: Axis, [from, to]: [u32; 2], weight: f64, positions: &[[f64; 2]]) {
-        let distance =
-            positions[to as usize][axis as usize] - positions[from as usize][axis as usize];
+    fn add(&mut self, quotient: &Quotient, positions: &[[f64; 2]]) {
+        let &Quotient {
+            axis,
+            ends: [from, to],
+            weight,
+        } = quotient;
+        let distance = quotient.distance(positions);
         for (point, value) in [(from, -weight / distance), (to, weight / distance)] {
             let place = self.place_of(point);
             match axis {
@@ -229,6 +205,12 @@ impl Gradient {
 }
 
 impl ImaginaryElement {
+    /// Strains (S_xx, S_yy, S_xy) for displacements of size one along x and y of each point that it couples, with the point.
+    pub(super) fn strains_of_points(&self) -> impl Iterator<Item = (u32, [[f64; 3]; 2])> + '_ {
+        let weights = self.gradient.weights();
+        weights.map(|(point, x, y)| (point, [[x, 0.0, y], [0.0, y, x]]))
+    }
+
     /// The points that it couples.
     pub fn points(&self) -> &[u32] {
         &self.gradient.points[..self.gradient.count]
@@ -259,7 +241,7 @@ impl ImaginaryElement {
 
     /// D S for the strains (S_xx, S_yy, S_xy) of a deformation, J.
     #[inline]
-    fn stress(&self, deformation: &BondDeformation) -> [f64; 3] {
+    pub(super) fn stress(&self, deformation: &BondDeformation) -> [f64; 3] {
         let [d11, d12, d16, d22, d26, d66] = self.stiffness;
         let [xx, yy, xy] = deformation.strain();
         [

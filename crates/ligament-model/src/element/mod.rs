@@ -5,6 +5,8 @@
 //! | [`beam`] | two displacements and a rotation | its two ends | stretch, shear less the mean rotation, relative rotation | micropolar ones |
 //! | [`spring`] | two displacements | its two ends | stretch, shear | `bbpd`, `pds` |
 //! | [`imaginary`] | two displacements | up to six points of a lattice | the strains of a small rectangle around it | `mbb-pd` |
+//! | [`true_strain`] | the same | the same | the same, over distances after the deformation | `mbb-pd` |
+//! | [`pairwise`] | the same | the same, with forces on two ends | the same as the first | `mbb-pd` as printed |
 //!
 //! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Arrays over degrees of freedom have
 //! three components a point for all elements; the rotations of a body without them are zero and no unknowns.
@@ -12,13 +14,17 @@
 pub mod beam;
 pub mod imaginary;
 pub mod pair;
+pub mod pairwise;
 pub mod spring;
+pub mod true_strain;
 
 use crate::system::BondSystem;
 use beam::BeamBond;
 use imaginary::ImaginaryElement;
 use pair::{Pair, PairKinematics};
+use pairwise::PairwiseElement;
 use spring::SpringBond;
+use true_strain::TrueStrainElement;
 
 /// Components of a point: displacement along x, along y, rotation.
 pub const UNKNOWNS: usize = 3;
@@ -32,14 +38,28 @@ pub enum ElementKind {
     Spring,
     /// Without, and with points beside its ends: [`ImaginaryElement`].
     Imaginary,
+    /// The same with true strains: [`TrueStrainElement`].
+    TrueStrain,
+    /// The same with forces on its ends alone: [`PairwiseElement`].
+    Pairwise,
 }
 
 impl ElementKind {
+    /// Whether it has strains of its own, of a rectangle around the bond.
+    pub fn has_strains(self) -> bool {
+        match self {
+            Self::Beam | Self::Spring => false,
+            Self::Imaginary | Self::TrueStrain | Self::Pairwise => true,
+        }
+    }
+
     /// Names of the components of a deformation in results, in the order of the fields of [`BondDeformation`].
     pub fn deformation_names(self) -> [&'static str; 3] {
         match self {
             Self::Beam | Self::Spring => ["stretch", "shear", "rotation"],
-            Self::Imaginary => ["strain_xx", "strain_xy", "strain_yy"],
+            Self::Imaginary | Self::TrueStrain | Self::Pairwise => {
+                ["strain_xx", "strain_xy", "strain_yy"]
+            }
         }
     }
 }
@@ -178,6 +198,10 @@ pub enum BondElement {
     Spring(Pair<SpringBond>),
     /// With points beside its ends.
     Imaginary(ImaginaryElement),
+    /// With true strains.
+    TrueStrain(TrueStrainElement),
+    /// With forces on its ends alone.
+    Pairwise(PairwiseElement),
 }
 
 /// Does the same with whatever element it is.
@@ -187,6 +211,8 @@ macro_rules! of_any {
             BondElement::Beam($element) => $value,
             BondElement::Spring($element) => $value,
             BondElement::Imaginary($element) => $value,
+            BondElement::TrueStrain($element) => $value,
+            BondElement::Pairwise($element) => $value,
         }
     };
 }
@@ -197,7 +223,9 @@ impl BondElement {
         match system.element {
             ElementKind::Beam => Self::Beam(Pair::of(system, intact, bond)),
             ElementKind::Spring => Self::Spring(Pair::of(system, intact, bond)),
-            ElementKind::Imaginary => Self::Imaginary(ImaginaryElement::of(system, intact, bond)),
+            ElementKind::Imaginary => Self::Imaginary(Element::of(system, intact, bond)),
+            ElementKind::TrueStrain => Self::TrueStrain(Element::of(system, intact, bond)),
+            ElementKind::Pairwise => Self::Pairwise(Element::of(system, intact, bond)),
         }
     }
 
@@ -207,6 +235,8 @@ impl BondElement {
             Self::Beam(bond) => Self::Beam(bond.weakened(remaining)),
             Self::Spring(bond) => Self::Spring(bond.weakened(remaining)),
             Self::Imaginary(bond) => Self::Imaginary(bond.weakened(remaining)),
+            Self::TrueStrain(bond) => Self::TrueStrain(bond.weakened(remaining)),
+            Self::Pairwise(bond) => Self::Pairwise(bond.weakened(remaining)),
         }
     }
 
@@ -250,7 +280,7 @@ impl BondElement {
         match self {
             Self::Beam(pair) => Some(pair.bond.end_forces(deformation)),
             Self::Spring(pair) => Some(pair.bond.end_forces(deformation)),
-            Self::Imaginary(_) => None,
+            Self::Imaginary(_) | Self::TrueStrain(_) | Self::Pairwise(_) => None,
         }
     }
 }

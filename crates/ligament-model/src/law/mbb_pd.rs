@@ -10,6 +10,9 @@
 //! of its ends, so that the energy of a uniform strain is that of the continuum at every point, whatever c and whatever is missing of its family; the
 //! forces follow from the energy, and K is symmetric.
 
+pub mod pairwise;
+pub mod rows;
+
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
@@ -39,15 +42,7 @@ pub fn stiffness(
     elasticity: &[Elasticity],
     plane: Plane,
 ) -> BondStiffness {
-    let of_materials: Vec<Matrix3<f64>> = (elasticity.iter())
-        .map(|material| material.plane_stiffness(plane))
-        .collect();
-    let at_points: Vec<Matrix3<f64>> = (0..cloud.len())
-        .map(|point| {
-            let shares = cloud.shares(point).iter().zip(&of_materials);
-            shares.fold(Matrix3::zeros(), |sum, (share, c)| sum + *share * c)
-        })
-        .collect();
+    let at_points = plane_stiffnesses(cloud, elasticity, plane);
     let psi = factors(bonds, cloud);
     let matrices: Vec<Matrix3<f64>> = (bonds.ends.par_iter())
         .map(|ends| {
@@ -74,4 +69,20 @@ pub fn stiffness(
             })
             .collect(),
     }
+}
+
+/// The stiffness of the plane at each point, the mean over its materials, shape (n_points), Pa.
+fn plane_stiffnesses(
+    cloud: &PointCloud,
+    elasticity: &[Elasticity],
+    plane: Plane,
+) -> Vec<Matrix3<f64>> {
+    let of_materials: Vec<Matrix3<f64>> = (elasticity.iter())
+        .map(|material| material.plane_stiffness(plane))
+        .collect();
+    let at_point = |point: usize| {
+        let shares = cloud.shares(point).iter().zip(&of_materials);
+        shares.fold(Matrix3::zeros(), |sum, (share, c)| sum + *share * c)
+    };
+    (0..cloud.len()).map(at_point).collect()
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::{Fault, KeyFault};
 use super::fracture::Control;
 use super::key_path::KeyPath;
+use super::model::Law;
 use super::values::{require, require_positive};
 
 /// A failure criterion.
@@ -106,11 +107,17 @@ pub enum After {
 }
 
 impl Criterion {
-    /// That of a case that names none: the strength of NHPD.
-    pub const DEFAULT: Self = Self {
-        kind: CriterionKind::Strength,
-        after: After::Brittle,
-    };
+    /// That of a case that names none: the strength of NHPD, or the one criterion that the law takes.
+    pub fn default_of(law: Law) -> Self {
+        let kind = match law {
+            Law::MbbPd => CriterionKind::MixedMode { limits: None },
+            _ => CriterionKind::Strength,
+        };
+        Self {
+            kind,
+            after: After::Brittle,
+        }
+    }
 
     /// What it takes from each material: the key, and the key of the criterion that would spare it.
     pub(super) fn needs(&self) -> Vec<(&'static str, Option<&'static str>)> {

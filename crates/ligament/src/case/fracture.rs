@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::criterion::{Criterion, RawCriterion};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::model::Law;
 use super::values::{require, require_at_least_one, require_positive};
 
 /// How bonds break while the load rises.
@@ -212,7 +213,7 @@ pub(super) struct RawFracture {
 }
 
 impl RawFracture {
-    pub(super) fn check(self, key: &KeyPath) -> Result<Fracture, KeyFault> {
+    pub(super) fn check(self, key: &KeyPath, law: Law) -> Result<Fracture, KeyFault> {
         let control = match self.control {
             ControlName::Stepped => Control::Stepped(self.stepping(key)?),
             ControlName::Event => {
@@ -221,7 +222,7 @@ impl RawFracture {
             }
         };
         let fracture = Fracture {
-            criteria: criteria(self.criterion, &key.child("criterion"), &control)?,
+            criteria: criteria(self.criterion, &key.child("criterion"), &control, law)?,
             control,
             tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
             energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
@@ -283,12 +284,15 @@ fn criteria(
     given: Option<Vec<RawCriterion>>,
     list: &KeyPath,
     control: &Control,
+    law: Law,
 ) -> Result<Vec<Criterion>, KeyFault> {
+    let default = Criterion::default_of(law);
     let Some(given) = given else {
-        return Ok(vec![Criterion::DEFAULT]);
+        return Ok(vec![default]);
     };
-    let expected = "one criterion or more (without the key it is kind = \"strength\")";
-    require(!given.is_empty(), || list.clone(), expected, [(); 0])?;
+    let kind = default.kind.word();
+    let expected = format!("one criterion or more (without the key it is kind = \"{kind}\")");
+    require(!given.is_empty(), || list.clone(), &expected, [(); 0])?;
     let checked = given.into_iter().enumerate();
     let checked = checked.map(|(place, it)| it.check(&list.child(place), control));
     checked.collect()

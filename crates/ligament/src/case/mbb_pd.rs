@@ -2,19 +2,78 @@
 
 use super::analysis::Analysis;
 use super::correction::{Alpha, Surface};
+use super::criterion::CriterionKind;
 use super::fault::KeyFault;
 use super::fracture::StressField;
 use super::key_path::KeyPath;
-use super::model::Law;
+use super::model::{Form, Law, Strains};
 use super::probe::Reading;
 use super::{BodySection, Case};
+
+/// The fault of a criterion that looks at what bonds of the law do not have.
+fn check_criteria(case: &Case) -> Result<(), KeyFault> {
+    let Some(fracture) = &case.fracture else {
+        return Ok(());
+    };
+    let is_law = case.model.law == Law::MbbPd;
+    for (place, criterion) in fracture.criteria.iter().enumerate() {
+        let is_mixed = matches!(criterion.kind, CriterionKind::MixedMode { .. });
+        if is_mixed == is_law {
+            continue;
+        }
+        let list = KeyPath::default().child("fracture").child("criterion");
+        let (key, kind) = (list.child(place).child("kind"), criterion.kind.word());
+        let reason = if is_law {
+            format!(
+                "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of model.law = \"mbb-pd\" have \
+                 strains of their own: take \"mixed-mode\""
+            )
+        } else {
+            format!(
+                "\"mixed-mode\" looks at strains of the bond's own, which only model.law = \"mbb-pd\" has: for \"{}\" take \
+                 \"critical-stretch\" or \"bond-energy\"",
+                case.model.law.word()
+            )
+        };
+        return Err(KeyFault::new(key, reason));
+    }
+    Ok(())
+}
+
+/// The fault of a variant of the law in an analysis that it is not made for.
+fn check_variants(case: &Case) -> Result<(), KeyFault> {
+    let model = KeyPath::default().child("model");
+    let is_static = case.analysis == Analysis::Static;
+    let is_true = case.model.strains == Some(Strains::True);
+    if case.model.form == Some(Form::Pairwise) {
+        let reason = if !is_static {
+            "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be followed: it \
+             is for elastic analyses; take \"full\""
+        } else if !case.precracks.is_empty() {
+            "the printed factors are those of whole families: it takes no pre-cracks; take \"full\""
+        } else if is_true {
+            "it takes strains = \"small\" alone"
+        } else {
+            return Ok(());
+        };
+        return Err(KeyFault::new(model.child("form"), reason));
+    }
+    if is_true && !is_static {
+        let reason = "true strains are not proportional to the load, as the paths of fracture and modes are: they are for elastic \
+                      analyses; take \"small\"";
+        return Err(KeyFault::new(model.child("strains"), reason));
+    }
+    Ok(())
+}
 
 /// The fault of a case that has the law but not what its elements need: the rows and columns of a square lattice, no correction beside
 /// their own factors, and nothing that looks at forces between two points.
 pub(super) fn check(case: &Case) -> Result<(), KeyFault> {
+    check_criteria(case)?;
     if case.model.law != Law::MbbPd {
         return Ok(());
     }
+    check_variants(case)?;
     let section = |name: &str| KeyPath::default().child(name);
     let fault = |key: KeyPath, reason: &str| Err(KeyFault::new(key, reason.to_owned()));
     let BodySection::Lattice(lattice) = &case.body else {

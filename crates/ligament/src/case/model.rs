@@ -23,6 +23,12 @@ pub struct ModelSection {
     /// The rotational stiffness, for laws that leave it open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotational_stiffness: Option<RotationalStiffness>,
+    /// The form of MBB-PD.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<Form>,
+    /// The strains of MBB-PD.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strains: Option<Strains>,
 }
 
 /// A bond law.
@@ -69,6 +75,28 @@ pub enum RotationalStiffness {
     Beam,
     /// None.
     None,
+}
+
+/// How the bonds of MBB-PD resist their strains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Form {
+    /// All bonds all three strains.
+    Full,
+    /// Bonds along x and y only their own.
+    Rows,
+    /// As printed, with forces on the two ends alone.
+    Pairwise,
+}
+
+/// What the strains of MBB-PD are taken over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Strains {
+    /// The distances before the deformation.
+    Small,
+    /// Those after it.
+    True,
 }
 
 impl Law {
@@ -143,9 +171,16 @@ pub(super) struct RawModel {
     horizon: Option<f64>,
     calibration: Option<Calibration>,
     rotational_stiffness: Option<RotationalStiffness>,
+    form: Option<Form>,
+    strains: Option<Strains>,
 }
 
 impl RawModel {
+    /// The law, which other sections ask for before this one is checked.
+    pub(super) fn law(&self) -> Law {
+        self.law
+    }
+
     pub(super) fn check(self, key: &KeyPath) -> Result<ModelSection, KeyFault> {
         let (factor, horizon) = (self.horizon_factor, self.horizon);
         if factor.is_some() == horizon.is_some() {
@@ -186,6 +221,22 @@ impl RawModel {
                 self.rotational_stiffness,
                 law.rotational_stiffness(),
                 "the law says what it is",
+            )?,
+            form: open(
+                key,
+                "form",
+                law,
+                self.form,
+                (law == Law::MbbPd).then_some(Form::Full),
+                "only \"mbb-pd\" has several",
+            )?,
+            strains: open(
+                key,
+                "strains",
+                law,
+                self.strains,
+                (law == Law::MbbPd).then_some(Strains::Small),
+                "only \"mbb-pd\" has true strains",
             )?,
         })
     }

@@ -64,6 +64,12 @@ pub(super) fn write(
 }
 
 fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> io::Result<()> {
+    if choice.unsymmetric {
+        return writeln!(
+            out,
+            "  factorisation         L U: the printed forces are not those of an energy; entries and order are those of its energy form"
+        );
+    }
     let is_named = case.case.solver.factorisation != Factorisation::Auto;
     let why = match (is_named, choice.factorisation) {
         (true, _) => "as the case says",

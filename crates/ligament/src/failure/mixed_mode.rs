@@ -1,15 +1,13 @@
 //! The criterion of bonds with strains of their own: opening along x and along y, each mixed with shear.
 
 use ligament_model::Material;
+use ligament_model::element::imaginary::BondClass;
 use ligament_model::failure::mixed_mode::{Components, Lattice, Limits as OfModes, Toughness};
 use ligament_model::failure::{Criterion, Measure, weakest_materials};
 
 use super::Limits;
-use crate::case::MixedModeLimits;
+use crate::case::{Form, MixedModeLimits};
 use crate::resolve;
-
-/// Direction cosines below this are those of a bond along the other axis.
-const ALONG_AXIS: f64 = 1e-6;
 
 /// Limits and coefficients of the bonds of a material.
 struct OfMaterial {
@@ -55,8 +53,9 @@ impl Limits<'_> {
         let bonds = &self.system.bonds;
         let stretches: Vec<f64> = of_materials.iter().map(|it| it.stretch[axis]).collect();
         let materials = weakest_materials(self.system, &stretches);
+        let other_axis = [BondClass::Vertical, BondClass::Horizontal][axis];
         let never = |bond: usize| {
-            bonds.direction[bond][axis].abs() < ALONG_AXIS
+            BondClass::of(bonds.direction[bond]) == other_axis
                 || bonds.ends[bond]
                     .iter()
                     .any(|end| self.no_fail[*end as usize])
@@ -112,7 +111,10 @@ impl Limits<'_> {
             spacing,
             horizon: resolve::horizon(self.case, spacing),
             thickness: self.system.cloud.thickness,
-            components: Components::All,
+            components: match self.case.case.model.form {
+                Some(Form::Rows) => Components::OwnRows,
+                _ => Components::All,
+            },
         }
     }
 }

@@ -4,7 +4,7 @@ use ligament_model::ElementKind;
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
-use crate::case::{Alpha, Calibration, CaseFile, RotationalStiffness, Surface};
+use crate::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
 use crate::formulation;
 use crate::model::Model;
 
@@ -147,11 +147,17 @@ impl CorrectionSummary {
 /// The law of the bonds, in a line.
 pub fn formulation_line(case: &CaseFile) -> String {
     let model = &case.case.model;
-    let unknowns = match formulation::element(model.law) {
+    let unknowns = match formulation::element(model) {
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
         ElementKind::Imaginary => {
             "two displacements a point, the strains of a rectangle around each bond"
+        }
+        ElementKind::TrueStrain => {
+            "two displacements a point, the true strains of a rectangle around each bond"
+        }
+        ElementKind::Pairwise => {
+            "two displacements a point, the strains of a rectangle around each bond, the printed forces on its ends"
         }
     };
     let constants = match model.calibration {
@@ -167,7 +173,11 @@ pub fn formulation_line(case: &CaseFile) -> String {
     };
     format!(
         "law {}: {unknowns}{constants}{rotational}",
-        model.law.word()
+        match model.form {
+            Some(Form::Rows) => "mbb-pd (rows)",
+            Some(Form::Pairwise) => "mbb-pd (pairwise)",
+            Some(Form::Full) | None => model.law.word(),
+        }
     )
 }
 

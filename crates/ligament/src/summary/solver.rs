@@ -6,7 +6,7 @@ use serde::Serialize;
 /// The solver and its work.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SolverSummary {
-    /// Factorisation: `llt` or `ldlt`.
+    /// Factorisation: `llt`, `ldlt` or, of forces without an energy, `lu`.
     pub factorisation: &'static str,
     /// Order of elimination: `nested-dissection` or `minimum-degree`.
     pub ordering: &'static str,
@@ -43,6 +43,7 @@ impl SolverSummary {
     pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
         Self {
             factorisation: match choice.factorisation {
+                _ if choice.unsymmetric => "lu",
                 FactorKind::Llt => "llt",
                 FactorKind::Ldlt => "ldlt",
             },

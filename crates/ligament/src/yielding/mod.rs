@@ -118,6 +118,12 @@ pub enum YieldError {
          with a strength of the material), or take limits that are the same for all bonds with --criterion"
     )]
     NoCriteria,
+    /// Bonds that do not see the strain by their direction.
+    #[error(
+        "the bonds of model.law = \"mbb-pd\" have all strains of the body whatever their direction, so that directions weaken nothing: \
+         families yield at the limits that `ligament check` lists"
+    )]
+    NoDirections,
     /// A case without a Poisson's ratio for all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {

@@ -14,7 +14,7 @@ use ligament_output::vtu::Field;
 use super::diagrams::{self, Comparison};
 use super::subject::{Strain, Subject};
 use super::{Place, Request, SUMMARY, YieldError, console};
-use crate::case::CaseFile;
+use crate::case::{CaseFile, Law};
 use crate::model::{Model, build_model};
 use crate::plots::{Colour, Mark, Plot, Series};
 use crate::progress::{Progress, ProgressMode};
@@ -340,6 +340,9 @@ fn write_fields(
 }
 
 fn model(case: &CaseFile) -> anyhow::Result<Model> {
+    if case.case.model.law == Law::MbbPd {
+        return Err(YieldError::NoDirections.into());
+    }
     let progress = Progress::new(ProgressMode::Quiet);
     build_model(case, &mut Stages::default(), &progress)
 }

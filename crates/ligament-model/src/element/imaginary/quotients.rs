@@ -1,0 +1,102 @@
+//! The difference quotients that the strains of an element are made of.
+
+use super::{BondClass, Surroundings};
+use crate::bonds::BondSet;
+
+/// Most quotients of an element.
+const MOST: usize = 4;
+
+/// One of the two derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::element) enum Axis {
+    X,
+    Y,
+}
+
+/// A difference quotient along an axis, with its share in the mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::element) struct Quotient {
+    pub(in crate::element) axis: Axis,
+    /// From the first to the second point.
+    pub(in crate::element) ends: [u32; 2],
+    pub(in crate::element) weight: f64,
+}
+
+impl Quotient {
+    /// The distance along the axis between points at these positions (n_points), m.
+    #[inline]
+    pub(in crate::element) fn distance(&self, positions: &[[f64; 2]]) -> f64 {
+        let [from, to] = self
+            .ends
+            .map(|end| positions[end as usize][self.axis as usize]);
+        to - from
+    }
+}
+
+/// The quotients of an element; none where one of the derivatives has no support.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::element) struct Quotients {
+    count: usize,
+    list: [Quotient; MOST],
+}
+
+impl Quotients {
+    const NONE: Self = Self {
+        count: 0,
+        list: [Quotient {
+            axis: Axis::X,
+            ends: [0; 2],
+            weight: 0.0,
+        }; MOST],
+    };
+
+    /// Those of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
+    #[inline]
+    pub(in crate::element) fn of(
+        bonds: &BondSet,
+        surroundings: &Surroundings,
+        intact: &[bool],
+        bond: usize,
+    ) -> Self {
+        let ends = bonds.ends[bond];
+        let is_linked = |bond: u32| intact[bond as usize];
+        let across =
+            |axis: Axis| ends.map(|end| surroundings.across(end, axis as usize, is_linked));
+        let own = [Some(ends), None];
+        let mut quotients = Self::NONE;
+        let is_supported = match BondClass::of(bonds.direction[bond]) {
+            BondClass::Horizontal => {
+                quotients.add_mean(Axis::X, own) && quotients.add_mean(Axis::Y, across(Axis::Y))
+            }
+            BondClass::Vertical => {
+                quotients.add_mean(Axis::Y, own) && quotients.add_mean(Axis::X, across(Axis::X))
+            }
+            BondClass::Shear => {
+                let [first, second] = ends;
+                // a lies above or below the first end, b beside it.
+                let [a, b] = surroundings.corners(bond, is_linked);
+                let along_x = [b.map(|b| [first, b]), a.map(|a| [a, second])];
+                let along_y = [a.map(|a| [first, a]), b.map(|b| [b, second])];
+                quotients.add_mean(Axis::X, along_x) && quotients.add_mean(Axis::Y, along_y)
+            }
+        };
+        if is_supported { quotients } else { Self::NONE }
+    }
+
+    /// Adds the mean of the quotients that there are; tells whether there are any.
+    #[inline]
+    fn add_mean(&mut self, axis: Axis, quotients: [Option<[u32; 2]>; 2]) -> bool {
+        let count = quotients.iter().flatten().count();
+        for &ends in quotients.iter().flatten() {
+            let weight = 1.0 / count as f64;
+            self.list[self.count] = Quotient { axis, ends, weight };
+            self.count += 1;
+        }
+        count > 0
+    }
+
+    #[inline]
+    pub(in crate::element) fn iter(&self) -> impl Iterator<Item = &Quotient> {
+        self.list[..self.count].iter()
+    }
+}

@@ -1,0 +1,100 @@
+//! The element of MBB-PD with true strains: differences of displacements over differences of the positions that the points have
+//! moved to (eqs 12 to 15 with Y; eq. 6).
+//!
+//! The true strain of a quotient is eps/(1 + eps) of the small one eps. Forces are those of the small strains' element for the
+//! stresses of the true strains, so that they do work on differences over the distances before the deformation, as the printed force
+//! densities do with the volumes before it. A row under the stress sigma then has eps/(1 + eps) = sigma/E: it is longer by 1/(1 -
+//! sigma/E) than with small strains.
+//!
+//! The forces are not linear in the displacements. The stiffness of small strains serves all iterations: each takes the error to about
+//! a strain's share of itself.
+
+use super::imaginary::{Axis, ImaginaryElement, Quotients};
+use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
+use crate::system::BondSystem;
+
+/// One bond with its surroundings as they are left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrueStrainElement {
+    small: ImaginaryElement,
+    quotients: Quotients,
+    /// Distance of each quotient before the deformation, m.
+    distances: [f64; 4],
+}
+
+impl Element for TrueStrainElement {
+    /// # Panics
+    ///
+    /// Panics if the system is not one of imaginary elements.
+    #[inline]
+    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
+        let small = ImaginaryElement::of(system, intact, bond);
+        let elements = system
+            .imaginary
+            .as_ref()
+            .expect("a system of imaginary elements");
+        let quotients = Quotients::of(&system.bonds, &elements.surroundings, intact, bond);
+        let mut distances = [0.0; 4];
+        for (distance, quotient) in distances.iter_mut().zip(quotients.iter()) {
+            *distance = quotient.distance(&elements.positions);
+        }
+        Self {
+            small,
+            quotients,
+            distances,
+        }
+    }
+
+    #[inline]
+    fn weakened(self, remaining: &Remaining) -> Self {
+        Self {
+            small: self.small.weakened(remaining),
+            ..self
+        }
+    }
+
+    #[inline]
+    fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
+        let mut strain = [0.0; 3];
+        for (quotient, distance) in self.quotients.iter().zip(self.distances) {
+            let [from, to] = quotient.ends.map(|end| UNKNOWNS * end as usize);
+            let [u, v] =
+                [0, 1].map(|component| unknowns[to + component] - unknowns[from + component]);
+            match quotient.axis {
+                Axis::X => {
+                    strain[0] += quotient.weight * u / (distance + u);
+                    strain[2] += quotient.weight * v / (distance + u);
+                }
+                Axis::Y => {
+                    strain[1] += quotient.weight * v / (distance + v);
+                    strain[2] += quotient.weight * u / (distance + v);
+                }
+            }
+        }
+        BondDeformation::of_strain(strain)
+    }
+
+    #[inline]
+    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
+        self.small.deformation_in(strain)
+    }
+
+    #[inline]
+    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+        self.small.mutual_energy(one, other)
+    }
+
+    #[inline]
+    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS])) {
+        self.small.forces(deformation, add);
+    }
+
+    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
+        self.small.dyad(deformation)
+    }
+
+    /// Those of small strains.
+    fn terms(&self) -> [Term; 3] {
+        self.small.terms()
+    }
+}
