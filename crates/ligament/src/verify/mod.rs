@@ -17,6 +17,8 @@ use ligament_output::folder::ResultFolder;
 use crate::suggestion::hint;
 
 mod anisotropy;
+mod cracks;
+mod cylinder;
 mod disk;
 pub mod entry;
 mod frequencies;
@@ -24,6 +26,7 @@ mod griffith;
 mod lamina;
 mod moduli;
 mod named_modes;
+mod plates;
 mod poisson;
 pub mod printed;
 pub mod published;
@@ -45,7 +48,7 @@ use table::{Extent, Table};
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 11] = [
+pub static EXPERIMENTS: [Experiment; 14] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -57,6 +60,9 @@ pub static EXPERIMENTS: [Experiment; 11] = [
     disk::EXPERIMENT,
     griffith::EXPERIMENT,
     softening::EXPERIMENT,
+    plates::EXPERIMENT,
+    cylinder::EXPERIMENT,
+    cracks::EXPERIMENT,
 ];
 
 /// A published case, or several that belong together.
