@@ -2,11 +2,10 @@
 //! breakages against the same bodies under displacements.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::stress::virial;
 use ligament_analysis::{ControlKind, internal};
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
-use verification::numbers::{component, deviation, largest, relative_error};
+use verification::numbers::{component, largest, relative_error};
 
 const YOUNG: f64 = 65.8e9; // Pa
 const ALPHA: f64 = 23e-6; // 1/K
@@ -32,7 +31,7 @@ const LAMINA: &str = "material={ young_1 = 15e9, young_2 = 5e9, poisson_12 = 0.2
                       thermal_expansion_2 = 30e-6, thermal_expansion_3 = 10e-6 }";
 
 /// Every law on its body, in both states of the plane; Poisson's ratio above and below that of central forces.
-const LAWS: [(&str, &[&str]); 9] = [
+const LAWS: [(&str, &[&str]); 12] = [
     ("bbpd", &["model.law=bbpd"]),
     ("bbpd-conical", &["model.law=bbpd-conical"]),
     ("pds", &["model.law=pds"]),
@@ -45,6 +44,12 @@ const LAWS: [(&str, &[&str]); 9] = [
         "nhpd, anisotropic spacing",
         &["model.law=nhpd", "lattice.spacing=[0.005, 0.006]"],
     ),
+    ("mbb-pd", &["model.law=mbb-pd"]),
+    (
+        "mbb-pd, negative nu",
+        &["model.law=mbb-pd", "material.poisson=-0.4"],
+    ),
+    ("mbb-pd, orthotropic", &["model.law=mbb-pd", LAMINA]),
 ];
 
 fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
@@ -94,7 +99,7 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     let left = deformations(bench, run);
     let left = left
         .iter()
-        .flat_map(|it| [it.stretch.abs(), it.shear.abs()]);
+        .flat_map(|it| [it.stretch, it.shear, it.rotation].map(f64::abs));
     let left = largest(left) / size;
     let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
     let energy = run.last().stored_energy / (0.5 * YOUNG * size * size * volume);
@@ -187,31 +192,49 @@ fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
 }
 
 /// A bar that is held at both ends and may widen: sigma = -E alpha dT, and E/(1 - nu^2) (1 + nu) alpha dT in plane strain. The
-/// points of the ends lie half a cell inside, and the families at the sides have other stiffness than the bar: within 2 %.
+/// families at the sides and at the held rows have another stiffness than those inside, so that the force is off by some of
+/// the cells across the bar: measured on 16 and 32 of them, it falls with their size.
 #[test]
 fn a_bar_between_walls_has_the_stress_of_its_expansion() {
     let text = "support = [{ group = \"left\", displacement = { x = 0 } }, { group = \"right\", displacement = { x = 0 } }, \
                 { at = [0, 0], displacement = { y = 0 } }]\n\
                 temperature = [{ change = 50.0 }]\n";
     let section = 8.0 * 0.005 * 0.001;
-    for (plane, modulus) in [("stress", 1.0), ("strain", 1.0 / (1.0 - 0.3))] {
-        let (_, run) = solved(
-            &format!("{LATTICE}{text}"),
-            &[&format!("lattice.plane={plane}")],
+    for (law, plane, modulus, bound) in [
+        ("mppd", "stress", 1.0, 0.015),
+        ("mppd", "strain", 1.0 / 0.7, 0.015),
+        ("nhpd", "stress", 1.0, 0.03),
+        ("nhpd", "strain", 1.0 / 0.7, 0.08),
+        ("mbb-pd", "stress", 1.0, 0.02),
+        ("mbb-pd", "strain", 1.0 / 0.7, 0.02),
+    ] {
+        let settings = [format!("lattice.plane={plane}"), format!("model.law={law}")];
+        let errors = [2, 4].map(|fine: u32| {
+            let cells = [
+                format!("lattice.cells=[{}, {}]", 12 * fine, 8 * fine),
+                format!("lattice.spacing={:?}", 0.005 / f64::from(fine)),
+            ];
+            let settings: Vec<&str> = settings.iter().chain(&cells).map(String::as_str).collect();
+            let (_, run) = solved(&format!("{LATTICE}{text}"), &settings);
+            let expected = YOUNG * modulus * ALPHA * CHANGE * section;
+            let [left, right] = [0, 1].map(|group| run.last().group_forces[group][0]);
+            assert!(relative_error(-right, left) < 1e-9);
+            relative_error(left, expected)
+        });
+        println!("{law}, {plane}: off by {errors:.4?}");
+        assert!(
+            errors[1] < bound && errors[1] < 0.8 * errors[0],
+            "{law}, {plane}"
         );
-        let expected = YOUNG * modulus * ALPHA * CHANGE * section;
-        let [left, right] = [0, 1].map(|group| run.last().group_forces[group][0]);
-        println!("{plane}: {:.4} {:.4}", left / expected, right / expected);
-        assert!(relative_error(left, expected) < 0.02 && relative_error(-right, expected) < 0.02);
     }
 }
 
 /// The same body under displacements: with u' = u - alpha dT (x - x_0) a body that is clamped at its ends and cooled is one whose
 /// ends move apart, bond for bond. Both tear in the same order at the same loads, by load steps and along the exact path; the
-/// order is decided by differences far above the rounding between the two, 1e-9 of the load factors.
+/// order is decided by differences far above the rounding between the two, 1e-9 of the load factors. Bonds that
+/// soften are compared before the first of them breaks: those beyond their end keep what the iterates happened to leave them.
 #[test]
 fn cooling_between_clamps_tears_a_body_as_pulling_does() {
-    let common = "material.tensile_strength=4e7";
     let clamps = "support = [{ group = \"left\", displacement = { x = 0, y = 0 } }, \
                   { group = \"right\", displacement = { x = 0, y = 0 } }]\n";
     let cooled = format!("{LATTICE}{clamps}temperature = [{{ change = -50.0 }}]\n");
@@ -232,28 +255,51 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
         load("right-y", "right", "y"),
     );
     let crack = "precrack=[{ points = [[0.0301, -0.01], [0.0301, 0.0151]] }]";
-    for control in ["{ control = \"event\" }", "{ steps = 20 }"] {
+    let strength: [&str; 2] = ["material.tensile_strength=4e7", "model.law=mppd"];
+    let energy = ["material.fracture_energy=100.0", "model.law=mbb-pd"];
+    for (law, control, least) in [
+        (strength, "{ control = \"event\" }", 50),
+        (strength, "{ steps = 20 }", 50),
+        (
+            strength,
+            "{ steps = [0.2, 0.4, 0.5, 0.6, 0.7, 0.71], energy_tolerance = 1e-12, criterion = [{ kind = \"strength\", after = \"bilinear\", end = 3.0 }] }",
+            0,
+        ),
+        (
+            energy,
+            "{ control = \"event\", criterion = [{ kind = \"mixed-mode\" }] }",
+            50,
+        ),
+        (
+            energy,
+            "{ steps = 20, criterion = [{ kind = \"mixed-mode\" }] }",
+            50,
+        ),
+    ] {
         let fracture = format!("fracture={control}");
-        let settings = [common, crack, &fracture];
+        let settings = [law[0], law[1], crack, &fracture];
         let benches = [&cooled, &pulled].map(|text| Bench::new(text, &settings));
         let runs = benches.each_ref().map(Bench::break_up);
         let [cooled, pulled] = runs.each_ref().map(|run| &run.outcome.history);
         println!(
-            "{control}: {} bonds, {} rows",
+            "{} {control}: {} bonds, {} rows",
+            law[1],
             runs[0].breaks.len(),
             cooled.len()
         );
-        assert!(runs[0].breaks.len() > 50, "{}", runs[0].breaks.len());
-        assert_eq!(runs[0].breaks.len(), runs[1].breaks.len());
+        // Nothing loads the halves that a pulled body falls into; a cooled one may go on breaking at its clamps.
+        let [cooled_ones, pulled_ones] = runs.each_ref().map(|run| run.breaks.len());
+        assert!(pulled_ones >= least && cooled_ones >= pulled_ones);
         for (one, other) in runs[0].breaks.iter().zip(&runs[1].breaks) {
             assert_eq!(one.bond, other.bond);
             assert!((one.load_factor - other.load_factor).abs() < 1e-9);
             assert!((one.ratio - other.ratio).abs() < 1e-9 * one.ratio);
         }
-        assert_eq!(cooled.len(), pulled.len());
+        assert!(cooled.len() >= pulled.len());
         let peak = largest(cooled.iter().map(|row| row.stored_energy));
         let work = largest(cooled.iter().map(|row| row.external_work.abs()));
-        for (one, other) in cooled.iter().zip(pulled) {
+        // The last row of the pulled body is that of its loose halves.
+        for (one, other) in cooled.iter().zip(&pulled[..pulled.len() - 1]) {
             assert!((one.stored_energy - other.stored_energy).abs() < 1e-9 * peak);
             assert!((one.released_energy - other.released_energy).abs() < 1e-9 * peak);
             assert!((one.external_work - other.external_work).abs() < 1e-9 * work);
@@ -267,146 +313,79 @@ fn cooling_between_clamps_tears_a_body_as_pulling_does() {
     }
 }
 
-/// Disk of radius b = 50 mm on 1834 irregular points, with a core of radius a = 20 mm, that nothing holds.
-const DISK: &str = r#"
-mesh = { file = "../meshes/heated-disk.msh", thickness = 0.01 }
-material = { young = 70e9, poisson = 0.25, thermal_expansion = 23e-6 }
-model = { law = "nhpd", horizon_factor = 3.0 }
-"#;
-
-/// Timoshenko and Goodier, "Theory of Elasticity", on the disk with a radial temperature T(r): with I(r) the integral of T r from
-/// 0 to r, u = alpha ((1 + nu) I(r)/r + (1 - nu) r I(b)/b^2), sigma_r = E alpha (I(b)/b^2 - I(r)/r^2).
-struct HotDisk {
-    integral: fn(f64) -> f64,
-}
-
-impl HotDisk {
-    const YOUNG: f64 = 70e9;
-    const POISSON: f64 = 0.25;
-    const RADIUS: f64 = 0.05;
-
-    fn displacement(&self, r: f64) -> f64 {
-        let (whole, b) = ((self.integral)(Self::RADIUS), Self::RADIUS);
-        ALPHA
-            * ((1.0 + Self::POISSON) * (self.integral)(r) / r
-                + (1.0 - Self::POISSON) * r * whole / (b * b))
-    }
-
-    fn radial_stress(&self, r: f64) -> f64 {
-        let whole = (self.integral)(Self::RADIUS) / Self::RADIUS.powi(2);
-        Self::YOUNG * ALPHA * (whole - (self.integral)(r) / (r * r))
-    }
-}
-
-/// A parabola from a field of the mesh file, and a core that is hot by group: mean radial displacement of the rim, displacements
-/// of all points (root mean square), and the radial stress of the points inside the core, all against the closed form.
-#[test]
-fn hot_disks_are_those_of_thermoelasticity() {
-    let parabola = HotDisk {
-        integral: |r| 100.0 * (0.5 * r * r - 0.25 * r.powi(4) / HotDisk::RADIUS.powi(2)),
-    };
-    let core = HotDisk {
-        integral: |r| 50.0 * r.min(0.02).powi(2),
-    };
-    for (name, heat, exact) in [
-        ("parabola", "mesh_field = \"heat\"", parabola),
-        ("core", "group = \"core\", change = 100.0", core),
-    ] {
-        let text = format!("{DISK}temperature = [{{ {heat} }}]\n");
-        let (bench, run) = solved(&text, &[]);
-        let positions = bench.positions();
-        let motion = run.displacement();
-        // The gauges leave a rigid motion, which the points as a whole show.
-        let count = positions.len() as f64;
-        let mean = |axis: usize| component(motion, axis).iter().sum::<f64>() / count;
-        let (u, v) = (mean(0), mean(1));
-        let spin: f64 = (positions.iter().zip(motion.chunks(3)))
-            .map(|(p, m)| p[0] * (m[1] - v) - p[1] * (m[0] - u))
-            .sum::<f64>()
-            / positions
-                .iter()
-                .map(|p| p[0] * p[0] + p[1] * p[1])
-                .sum::<f64>();
-        let radial = |point: usize| {
-            let (p, m) = (positions[point], &motion[3 * point..3 * point + 2]);
-            let motion = [m[0] - u + spin * p[1], m[1] - v - spin * p[0]];
-            let r = p[0].hypot(p[1]);
-            ((motion[0] * p[0] + motion[1] * p[1]) / r, r)
-        };
-        let rim = bench.group("rim");
-        let widening: f64 = rim
-            .iter()
-            .map(|&point| radial(point as usize).0)
-            .sum::<f64>()
-            / rim.len() as f64;
-        let expected = exact.displacement(HotDisk::RADIUS);
-        let [mut off, mut size] = [0.0; 2];
-        for point in 0..positions.len() {
-            let (found, r) = radial(point);
-            let wanted = exact.displacement(r);
-            off += (found - wanted).powi(2);
-            size += wanted * wanted;
-        }
-        let off = (off / size).sqrt();
-        let deformations = deformations(&bench, &run);
-        let stress = virial::stress(&bench.model.system, run.state().bonds(), &deformations);
-        let mut ratios = Vec::new();
-        for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
-            let r = p[0].hypot(p[1]);
-            if r > 0.001 && r < 0.012 {
-                let [c, s] = [p[0] / r, p[1] / r];
-                let radial = xx * c * c + yy * s * s + 2.0 * xy * s * c;
-                ratios.push(radial / exact.radial_stress(r));
-            }
-        }
-        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        println!(
-            "{name}: rim {:.5}, displacements off by {off:.2e}, radial stress {mean:.4} ({:.4} to {:.4})",
-            widening / expected,
-            ratios.iter().copied().fold(f64::INFINITY, f64::min),
-            largest(ratios.iter().copied())
-        );
-    }
-}
-
 /// The change of temperature rises linearly along x from zero to 50 K: a continuum that is free bends without any stress, by the
-/// curvature alpha dT/L. Peridynamic bonds come near: what is left of them, relative to alpha dT.
+/// curvature alpha dT/L. Displacements are quadratic then, so that central forces, which have the mean strain of their ends, are
+/// free exactly; and so are bonds with shear and rotations but for their rotational stiffness, which resists the curvature. What
+/// that leaves falls with the horizon: strains in proportion to it, energies (relative to that of the body held everywhere) to its
+/// square, as the error of the one-sided differences of MBB-PD at the edges does. In `pds` bonds take the turns of a
+/// body that bends for shear, on any lattice.
 #[test]
 fn a_linear_temperature_bends_free_bodies() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, settings) in LAWS {
-        let (plain, _) = solved(
-            &format!("{LATTICE}temperature = [{{ change = 1.0 }}]\n"),
-            settings,
-        );
-        let rows = plain.positions().iter();
-        let rows: String = rows
-            .map(|p| format!("{:?},{:?},{:?}\n", p[0], p[1], CHANGE * p[0] / 0.06))
-            .collect();
-        let path = folder.path().join("linear.csv");
-        std::fs::write(&path, format!("x,y,change\n{rows}")).unwrap();
-        let text = format!(
-            "{LATTICE}temperature = [{{ file = \"{}\" }}]\n",
-            path.display()
-        );
-        let (bench, run) = solved(&text, settings);
-        let size = largest(
-            bench
-                .boundary
-                .thermal_strain
-                .as_flattened()
-                .iter()
-                .map(|it| it.abs()),
-        );
-        let left = deformations(&bench, &run);
-        let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
-        let shear = largest(left.iter().map(|it| it.shear.abs())) / size;
-        println!("{name}: stretch {stretch:.2e}, shear {shear:.2e}");
+    let none = [(
+        "mppd, no k_theta",
+        &["model.rotational_stiffness=none"] as &[&str],
+    )];
+    for (name, settings) in LAWS.into_iter().chain(none) {
+        let mut found = Vec::new();
+        for fine in [1_u32, 2] {
+            let cells = format!("lattice.cells=[{}, {}]", 12 * fine, 8 * fine);
+            let spacing = format!("lattice.spacing={:?}", 0.005 / f64::from(fine));
+            let mut settings = settings.to_vec();
+            settings.extend([cells.as_str(), spacing.as_str()]);
+            let plain = format!("{LATTICE}temperature = [{{ change = 1.0 }}]\n");
+            let plain = Bench::new(&plain, &settings);
+            let rows = plain.positions().iter();
+            let rows: String = rows
+                .map(|p| format!("{:?},{:?},{:?}\n", p[0], p[1], CHANGE * p[0] / 0.06))
+                .collect();
+            let path = folder.path().join("linear.csv");
+            std::fs::write(&path, format!("x,y,change\n{rows}")).unwrap();
+            let text = format!(
+                "{LATTICE}temperature = [{{ file = \"{}\" }}]\n",
+                path.display()
+            );
+            let (bench, run) = solved(&text, &settings);
+            let strains = bench.boundary.thermal_strain.as_flattened();
+            let size = largest(strains.iter().map(|it| it.abs()));
+            let left = deformations(&bench, &run);
+            let held = internal::sweep(
+                &bench.model.system,
+                run.state().bonds(),
+                &vec![0.0; 3 * bench.points()],
+                bench.boundary.expansion(1.0),
+            );
+            let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
+            assert_eq!(run.last().load_factor, 1.0, "{name}");
+            found.push([stretch, run.last().stored_energy / held.stored_energy]);
+        }
+        println!("{name}: stretch and energy {found:?}");
+        let [[strain, energy], [fine_strain, fine_energy]] = found[..] else {
+            panic!("two lattices");
+        };
+        match name {
+            "bbpd" | "bbpd-conical" | "mppd, no k_theta" => {
+                assert!(
+                    strain < 1e-10 && fine_strain < 1e-10 && energy < 1e-20,
+                    "{name}"
+                );
+            }
+            "pds" => assert!(energy > 5e-3 && fine_energy > 5e-3 && fine_energy < 7e-3),
+            _ => {
+                assert!(
+                    energy.abs() < 0.01 && fine_energy.abs() < 0.3 * energy.abs(),
+                    "{name}"
+                );
+                assert!(fine_strain < 0.53 * strain, "{name}");
+            }
+        }
     }
 }
 
 /// Two layers of one thickness h/2 and stiffness, of which one expands more: the strip bends with the curvature 1.5 (alpha_2 -
-/// alpha_1) dT/h (Timoshenko, "Analysis of bi-metal thermostats", 1925).
+/// alpha_1) dT/h (Timoshenko, "Analysis of bi-metal thermostats", 1925). The bonds that cross the interface have the mean
+/// expansion of the layers, over a horizon that is a fifth of the thickness: 3 %. A strip of `pds` hardly bends, because its bonds
+/// take turns for shear.
 #[test]
 fn a_strip_of_two_metals_bends() {
     let text = r#"
@@ -426,7 +405,7 @@ young = 65.8e9
 poisson = 0.3
 thermal_expansion = 30e-6
 "#;
-    for law in ["nhpd", "mppd", "pds", "bbpd"] {
+    for law in ["nhpd", "mppd", "bbpd", "mbb-pd", "pds"] {
         let (bench, run) = solved(text, &[&format!("model.law={law}")]);
         let [near, middle, far] = run.last().probes[..] else {
             panic!("three probes");
@@ -435,5 +414,10 @@ thermal_expansion = 30e-6
         let expected = -1.5 * 20e-6 * CHANGE / 0.016;
         println!("{law}: {:.4}", curvature / expected);
         assert_eq!(bench.boundary.control.magnitude, CHANGE);
+        if law == "pds" {
+            assert!((curvature / expected).abs() < 0.1);
+        } else {
+            assert!(relative_error(curvature, expected) < 0.03, "{law}");
+        }
     }
 }

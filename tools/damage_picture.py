@@ -39,12 +39,19 @@ def choose_steps(outputs, arguments):
 
 
 def read_displacements(folder):
-    """The applied displacement of each step, empty without a history."""
+    """The applied displacement of each step, or change of temperature where nothing else loads the body; empty without a history."""
     path = folder / "history.csv"
     if not path.is_file():
         return {}
     with open(path, newline="", encoding="utf-8") as file:
         return {int(row["step"]): float(row["displacement"]) for row in csv.DictReader(file) if row.get("displacement")}
+
+
+def is_heated_alone(folder):
+    """Whether the case has a change of temperature and no load."""
+    path = folder / "case.resolved.toml"
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    return "[[temperature]]" in text and "[[load]]" not in text
 
 
 def triangles_of(mesh):
@@ -104,6 +111,7 @@ def main():
     outputs = find_outputs(arguments.folder)
     steps = choose_steps(outputs, arguments)
     displacements = read_displacements(arguments.folder)
+    scale, unit = (1.0, "K") if is_heated_alone(arguments.folder) else (1e3, "mm")
     meshes = [meshio.read(outputs[step]) for step in steps]
     fields = [values_of(mesh, arguments.field) for mesh in meshes]
     lowest, highest = min(np.nanmin(values) for values in fields), max(np.nanmax(values) for values in fields)
@@ -111,7 +119,7 @@ def main():
     figure, all_axes = plt.subplots(1, len(steps), figsize=(1 + 5 * len(steps), 5), layout="constrained", squeeze=False)
     for axes, step, mesh, values in zip(all_axes[0], steps, meshes, fields):
         picture = draw(axes, mesh, values, arguments.scale, limits)
-        applied = f"at {1e3 * displacements[step]:.4g} mm" if step in displacements else f"in step {step}"
+        applied = f"at {scale * displacements[step]:.4g} {unit}" if step in displacements else f"in step {step}"
         axes.set_title(f"{arguments.field} {applied}")
     figure.colorbar(picture, ax=all_axes[0].tolist(), shrink=0.8)
     out = arguments.out or arguments.folder / f"{arguments.field}.png"

@@ -32,6 +32,20 @@ pub struct BondSweep {
     pub internal: InternalForces,
     /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
     pub stored_energy: f64,
+    /// What they would store if what the temperature gives them at load factor 1 were their deformation, J.
+    pub expansion_energy: f64,
+}
+
+impl BondSweep {
+    /// Energy 1/2 u^T K u that the motions of the points alone would store at a load factor lambda, J: with the deformations
+    /// beyond the expansion, B u - lambda e, the stored energy is 1/2 (B u - lambda e) C (B u - lambda e).
+    ///
+    /// A stable body has a positive one. Its stored energy need not be: where bonds have negative stiffnesses, expansions that
+    /// do not fit together may store less than nothing.
+    pub fn energy_of_motion(&self, load_factor: f64) -> f64 {
+        self.stored_energy
+            + load_factor * (load_factor * self.expansion_energy - self.internal.thermal)
+    }
 }
 
 /// Internal forces and the sizes that their residual is compared with.
@@ -153,6 +167,7 @@ fn forces_of<E: Element>(
             thermal: parts.iter().map(|part| part.thermal).sum(),
         },
         stored_energy: parts.iter().map(|part| part.energy).sum(),
+        expansion_energy: parts.iter().map(|part| part.expansion_energy).sum(),
         deformations,
     }
 }
@@ -162,6 +177,7 @@ struct Part {
     forces: Vec<PointForces>,
     energy: f64,
     thermal: f64,
+    expansion_energy: f64,
 }
 
 /// The end forces that meet at a point.
@@ -200,6 +216,7 @@ impl Part {
             forces: vec![PointForces::default(); system.cloud.len()],
             energy: 0.0,
             thermal: 0.0,
+            expansion_energy: 0.0,
         };
         let at_full_load = expansion.at_full_load();
         for bond in of_part {
@@ -214,6 +231,7 @@ impl Part {
             if !expansion.is_none() {
                 let thermal = element.deformation_in(at_full_load.of_bond(system.bonds.ends[bond]));
                 part.thermal -= 2.0 * element.mutual_energy(deformation, &thermal);
+                part.expansion_energy += element.mutual_energy(&thermal, &thermal);
             }
         }
         part

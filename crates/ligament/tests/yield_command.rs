@@ -236,6 +236,15 @@ fn what_makes_no_sense_is_told() {
         error.contains("--criterion") && error.contains("[fracture]"),
         "{error}"
     );
+    let law = [
+        "model.law=mbb-pd",
+        "correction.alpha=none",
+        "correction.surface=none",
+    ];
+    let mut arguments = vec!["--case", lattice, "--criterion", "stretch"];
+    arguments.extend(law.iter().flat_map(|setting| ["--set", setting]));
+    let error = refused(&arguments);
+    assert!(error.contains("directions weaken nothing"), "{error}");
     let error = refused(&["--case", lattice, "--criterion", "stretch", "--at", "5,5"]);
     assert!(error.contains("the nearest is cell 1369"), "{error}");
     let error = refused(&[

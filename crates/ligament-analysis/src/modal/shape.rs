@@ -108,6 +108,7 @@ pub(super) fn mode(
         deformations,
         internal,
         stored_energy,
+        ..
     } = internal::sweep(system, BondsLeft::whole(&intact), &shape, Expansion::NONE);
     let eigenvalue = 2.0 * stored_energy;
     Mode {

@@ -290,3 +290,38 @@ output = { fields_every = 1 }
         }
     }
 }
+
+/// Points that are all held keep the stretch -alpha dT of their cooling, the mean of the two ends; what the bonds are deformed
+/// by is told without the expansion, along the path and at the breakage.
+#[test]
+fn deformations_are_told_beyond_the_expansion() {
+    let (case, _) = BAR.split_once("[[precrack]]").unwrap();
+    let case = case
+        .replace(
+            "tensile_strength",
+            "thermal_expansion = 2e-5\ntensile_strength",
+        )
+        .replace("all = {", "left = { left = 4 }\nall = {");
+    let heat = "[[support]]\ngroup = \"all\"\ndisplacement = { x = 0, y = 0 }\n\
+                [[temperature]]\nchange = -10.0\n[[temperature]]\ngroup = \"left\"\nchange = -30.0\n\
+                [fracture]\nsteps = 10\n[output]\nfields_every = 1\n";
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), &format!("{case}{heat}"), &[]);
+    for (from, across, change) in [(1, 2, 30.0), (2, 2, 20.0), (6, 1, 10.0)] {
+        let found = bond(&results, cell(from, 2), cell(from + across, 2));
+        let path = found["path"].as_array().unwrap();
+        assert_eq!(path.len(), 11);
+        for (step, moment) in path.iter().enumerate() {
+            let expected = 2e-5 * change * step as f64 / 10.0;
+            assert!((number(&moment["stretch"]) - expected).abs() < 1e-15);
+            assert!(number(&moment["shear"]).abs() < 1e-15);
+        }
+        let limit = number(&found["limits"][0]["limit"]);
+        let largest = number(&found["largest"]["utilisation"]);
+        // Seven digits, unless it broke.
+        assert!(
+            (largest * limit / (2e-5 * change) - 1.0).abs() < 1e-6,
+            "{largest}"
+        );
+    }
+}

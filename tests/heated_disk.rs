@@ -1,0 +1,120 @@
+//! Disks that are hot inside, on an irregular mesh, against the closed form of thermoelasticity.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ligament_analysis::internal;
+use ligament_analysis::stress::virial;
+use verification::bench::Bench;
+use verification::numbers::{component, largest, relative_error};
+
+const ALPHA: f64 = 23e-6; // 1/K
+
+/// Disk of radius b = 50 mm on 1834 irregular points, with a core of radius a = 20 mm, that nothing holds.
+const DISK: &str = r#"
+mesh = { file = "../meshes/heated-disk.msh", thickness = 0.01 }
+material = { young = 70e9, poisson = 0.25, thermal_expansion = 23e-6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+"#;
+
+/// Timoshenko and Goodier, "Theory of Elasticity", on the disk with a radial temperature T(r): with I(r) the integral of T r from
+/// 0 to r, u = alpha ((1 + nu) I(r)/r + (1 - nu) r I(b)/b^2), sigma_r = E alpha (I(b)/b^2 - I(r)/r^2).
+struct HotDisk {
+    integral: fn(f64) -> f64,
+}
+
+impl HotDisk {
+    const YOUNG: f64 = 70e9;
+    const POISSON: f64 = 0.25;
+    const RADIUS: f64 = 0.05;
+
+    fn displacement(&self, r: f64) -> f64 {
+        let (whole, b) = ((self.integral)(Self::RADIUS), Self::RADIUS);
+        ALPHA
+            * ((1.0 + Self::POISSON) * (self.integral)(r) / r
+                + (1.0 - Self::POISSON) * r * whole / (b * b))
+    }
+
+    fn radial_stress(&self, r: f64) -> f64 {
+        let whole = (self.integral)(Self::RADIUS) / Self::RADIUS.powi(2);
+        Self::YOUNG * ALPHA * (whole - (self.integral)(r) / (r * r))
+    }
+}
+
+/// A parabola from a field of the mesh file, and a core that is hot by group: mean radial displacement of the rim, displacements
+/// of all points (root mean square), and the mean radial stress of the points well inside the core, against the closed form.
+/// The points are 4 % of the radius apart and the horizons 12 %: 1 % of the displacements, more where the temperature jumps within
+/// a horizon, and the stress at single points within 10 %.
+#[test]
+fn hot_disks_are_those_of_thermoelasticity() {
+    let parabola = HotDisk {
+        integral: |r| 100.0 * (0.5 * r * r - 0.25 * r.powi(4) / HotDisk::RADIUS.powi(2)),
+    };
+    let core = HotDisk {
+        integral: |r| 50.0 * r.min(0.02).powi(2),
+    };
+    for (name, heat, exact, bound) in [
+        ("parabola", "mesh_field = \"heat\"", parabola, 0.01),
+        ("core", "group = \"core\", change = 100.0", core, 0.025),
+    ] {
+        let text = format!("{DISK}temperature = [{{ {heat} }}]\n");
+        let bench = Bench::new(&text, &[]);
+        let run = bench.solve();
+        let positions = bench.positions();
+        let motion = run.displacement();
+        // The gauges leave a rigid motion, which the points as a whole show.
+        let count = positions.len() as f64;
+        let mean = |axis: usize| component(motion, axis).iter().sum::<f64>() / count;
+        let (u, v) = (mean(0), mean(1));
+        let spin: f64 = (positions.iter().zip(motion.chunks(3)))
+            .map(|(p, m)| p[0] * (m[1] - v) - p[1] * (m[0] - u))
+            .sum::<f64>()
+            / positions
+                .iter()
+                .map(|p| p[0] * p[0] + p[1] * p[1])
+                .sum::<f64>();
+        let radial = |point: usize| {
+            let (p, m) = (positions[point], &motion[3 * point..3 * point + 2]);
+            let motion = [m[0] - u + spin * p[1], m[1] - v - spin * p[0]];
+            let r = p[0].hypot(p[1]);
+            ((motion[0] * p[0] + motion[1] * p[1]) / r, r)
+        };
+        let rim = bench.group("rim");
+        let widening: f64 = rim
+            .iter()
+            .map(|&point| radial(point as usize).0)
+            .sum::<f64>()
+            / rim.len() as f64;
+        let expected = exact.displacement(HotDisk::RADIUS);
+        let [mut off, mut size] = [0.0; 2];
+        for point in 0..positions.len() {
+            let (found, r) = radial(point);
+            let wanted = exact.displacement(r);
+            off += (found - wanted).powi(2);
+            size += wanted * wanted;
+        }
+        let off = (off / size).sqrt();
+        let state = run.state();
+        let expansion = bench.boundary.expansion(state.load_factor);
+        let system = &bench.model.system;
+        let deformations = internal::deformations(system, &state.intact, motion, expansion);
+        let stress = virial::stress(system, state.bonds(), &deformations);
+        let mut ratios = Vec::new();
+        for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
+            let r = p[0].hypot(p[1]);
+            if r > 0.001 && r < 0.012 {
+                let [c, s] = [p[0] / r, p[1] / r];
+                let radial = xx * c * c + yy * s * s + 2.0 * xy * s * c;
+                ratios.push(radial / exact.radial_stress(r));
+            }
+        }
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        println!(
+            "{name}: rim {:.5}, displacements off by {off:.2e}, radial stress {mean:.4} ({:.4} to {:.4})",
+            widening / expected,
+            ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            largest(ratios.iter().copied())
+        );
+        assert!(relative_error(widening, expected) < 0.015, "{name}");
+        assert!(off < bound, "{name}");
+        assert!((mean - 1.0).abs() < 0.015, "{name}");
+    }
+}
