@@ -292,6 +292,7 @@ impl BondElement {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
     use nalgebra::{Matrix6, Vector6};
