@@ -6,6 +6,7 @@ use std::path::Path;
 
 use ligament::case::{
     After, CaseError, CaseFile, Criterion, CriterionKind as Kind, FrictionCalibration,
+    MixedModeLimits,
 };
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -175,7 +176,7 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
     assert_eq!(
         error_with("kind = \"tension\"\nlimits = 1e-3"),
         "61:1: fracture.criterion.0.limits: unknown key `limits` in [[fracture.criterion]]; did you mean `limit`? valid keys: \
-         `kind`, `limit`, `calibration`, `after`, `end`, `scale`"
+         `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `after`, `end`, `scale`"
     );
     assert_eq!(
         error_with("kind = \"tension\"\nafter = \"bilinaer\""),
@@ -393,4 +394,72 @@ fn materials_with_axes_take_criteria_with_limits_of_their_own() {
     );
     let softening = "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"";
     assert!(error_of(with_axes(softening)).ends_with("takes them from it: give it its own `end`"));
+}
+
+/// A small lattice of the law that has the criterion, with these lines of material and criteria.
+fn lattice(material: &str, criteria: &str) -> String {
+    format!(
+        "[lattice]\ncells = [8, 8]\nspacing = 0.001\nthickness = 0.001\nset = {{ base = {{ bottom = 1 }}, end = {{ top = 1 }} }}\n\
+         [material]\n{material}\n[model]\nlaw = \"mbb-pd\"\nhorizon_factor = 3.0\n\
+         [[support]]\ngroup = \"base\"\ndisplacement = {{ x = 0.0, y = 0.0 }}\n\
+         [[load]]\ngroup = \"end\"\ndisplacement = {{ y = 1e-4 }}\n[fracture]\ncontrol = \"event\"\n{criteria}"
+    )
+}
+
+const ISOTROPIC: &str = "young = 65.8e9\npoisson = 0.3\nfracture_energy = 6137.0";
+const SIX: &str = "c11 = 9e10\nc12 = 2e10\nc16 = 1e10\nc22 = 4e10\nc26 = -1e10\nc66 = 3e10\nfracture_energy = 6137.0";
+
+#[test]
+fn mixed_modes_are_the_criterion_of_their_law() {
+    let mixed = |limits| Criterion {
+        kind: Kind::MixedMode { limits },
+        after: After::Brittle,
+    };
+    for material in [ISOTROPIC, SIX] {
+        assert_eq!(criteria_of(lattice(material, ""), &[]), [mixed(None)]);
+    }
+    let own = "[[fracture.criterion]]\nkind = \"mixed-mode\"\n";
+    let given = format!("{own}critical_stretch = 0.01\ncritical_angle = 0.02\n");
+    let limits = MixedModeLimits {
+        critical_stretch: 0.01,
+        critical_angle: 0.02,
+    };
+    let without = ISOTROPIC.replace("fracture_energy = 6137.0", "");
+    assert_eq!(
+        criteria_of(lattice(&without, &given), &[]),
+        [mixed(Some(limits))]
+    );
+    let ends_with = |text: String, end: &str| {
+        let found = error_of(text);
+        assert!(found.ends_with(end), "{found}");
+    };
+    ends_with(
+        lattice(ISOTROPIC, &format!("{own}critical_stretch = 0.01\n")),
+        "critical_angle: missing key `critical_angle`: it is required beside `critical_stretch`: the limits of opening and of shear \
+         are given together, or both come from the fracture energies",
+    );
+    ends_with(
+        lattice(
+            ISOTROPIC,
+            "[[fracture.criterion]]\nkind = \"tension\"\nlimit = 1e-3\n",
+        ),
+        "have strains of their own: take \"mixed-mode\"",
+    );
+    ends_with(
+        with("[[fracture.criterion]]\nkind = \"mixed-mode\"\n"),
+        "only model.law = \"mbb-pd\" has: for \"nhpd\" take \"critical-stretch\" or \"bond-energy\"",
+    );
+    ends_with(
+        lattice(&format!("{ISOTROPIC}\nfracture_energy_sliding = 9e3"), ""),
+        "because fracture_energy_sliding is not fracture_energy: G_c = G_Ic + (G_IIc - G_Ic) (G_II/G)^exponent",
+    );
+    ends_with(
+        lattice(&SIX.replace("c16 = 1e10", "c16 = 6e10"), ""),
+        "material.c16: must be so small that every strain costs energy (c16^2 < c11 c66), found 60000000000.0",
+    );
+    ends_with(
+        lattice(&SIX.replace("1e10", "3e10"), ""),
+        "c12, c16 and c26 are too large together",
+    );
+    assert!(error_of(lattice(&SIX.replace("c22 = 4e10\n", ""), "")).contains("missing key `c22`"));
 }

@@ -82,6 +82,21 @@ impl ImaginaryElements {
         }
     }
 
+    /// The element of one of the bonds while those marked in `intact` (n_bonds) are unbroken.
+    #[inline]
+    pub fn element(&self, bonds: &BondSet, intact: &[bool], bond: usize) -> ImaginaryElement {
+        let gradient = Gradient::of(bonds, &self.surroundings, &self.positions, intact, bond);
+        let is_supported = gradient.count > 0;
+        ImaginaryElement {
+            gradient,
+            stiffness: if is_supported {
+                self.stiffness[bond].entries
+            } else {
+                [0.0; 6]
+            },
+        }
+    }
+
     /// Whether some D is indefinite, so that the stiffness of the body may be, too.
     pub fn some_indefinite(&self) -> bool {
         self.stiffness.iter().any(|it| {
@@ -262,17 +277,7 @@ impl Element for ImaginaryElement {
             .imaginary
             .as_ref()
             .expect("a system of imaginary elements");
-        let (around, positions) = (&elements.surroundings, &elements.positions);
-        let gradient = Gradient::of(&system.bonds, around, positions, intact, bond);
-        let is_supported = gradient.count > 0;
-        Self {
-            gradient,
-            stiffness: if is_supported {
-                elements.stiffness[bond].entries
-            } else {
-                [0.0; 6]
-            },
-        }
+        elements.element(&system.bonds, intact, bond)
     }
 
     #[inline]

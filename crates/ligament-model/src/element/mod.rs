@@ -54,7 +54,7 @@ impl ElementKind {
     }
 
     /// Names of the components of a deformation in results, in the order of the fields of [`BondDeformation`].
-    pub fn deformation_names(self) -> [&'static str; 3] {
+    pub const fn deformation_names(self) -> [&'static str; 3] {
         match self {
             Self::Beam | Self::Spring => ["stretch", "shear", "rotation"],
             Self::Imaginary | Self::TrueStrain | Self::Pairwise => {
@@ -92,6 +92,12 @@ impl BondDeformation {
     #[inline]
     pub fn strain(&self) -> [f64; 3] {
         [self.stretch, self.rotation, self.shear]
+    }
+
+    /// Its components in the order of [`ElementKind::deformation_names`].
+    #[inline]
+    pub fn components(&self) -> [f64; 3] {
+        [self.stretch, self.shear, self.rotation]
     }
 
     /// A multiple of it.
@@ -286,6 +292,7 @@ impl BondElement {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
     use nalgebra::{Matrix6, Vector6};

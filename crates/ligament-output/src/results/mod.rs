@@ -33,7 +33,7 @@ use largest::Largest;
 pub use model_file::{Absence, AbsentBond};
 pub use modes::write_modes;
 pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
-use tables::Tables;
+use tables::{Tables, deformation_names};
 
 /// What to write, and how often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,15 +120,12 @@ impl<'a> ResultWriter<'a> {
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let (system, balanced) = (view.system, view.balanced);
-        let stretch: Vec<f64> = balanced
-            .deformations
-            .iter()
-            .map(|deformation| deformation.stretch)
-            .collect();
-        let shear: Vec<f64> = balanced
-            .deformations
-            .iter()
-            .map(|deformation| deformation.shear)
+        let names = deformation_names(system.element);
+        let deformations: Vec<Vec<f64>> = (0..names.len())
+            .map(|place| {
+                let deformations = balanced.deformations.iter();
+                deformations.map(|it| it.components()[place]).collect()
+            })
             .collect();
         let utilisation: Vec<f64> = (0..system.bonds.len())
             .map(|bond| (view.criteria).utilisation(bond, &balanced.deformations[bond]))
@@ -146,18 +143,19 @@ impl<'a> ResultWriter<'a> {
             .iter()
             .map(|&ends| vtu::Cell::Line(ends))
             .collect();
+        let mut cell_fields = vec![
+            Field::integer("intact", &state),
+            Field::scalar("utilisation", &utilisation),
+            Field::scalar("domain_factor", &self.fixed.domain_factor),
+            Field::integer("step_of_breaking", &self.step_of_breaking),
+        ];
+        let named = names.iter().zip(&deformations);
+        cell_fields.extend(named.map(|(name, values)| Field::scalar(name, values)));
         let grid = UnstructuredGrid {
             points: &self.grid.positions,
             cells: &lines,
             point_fields: &[Field::vector("displacement", &displacement)],
-            cell_fields: &[
-                Field::integer("intact", &state),
-                Field::scalar("stretch", &stretch),
-                Field::scalar("utilisation", &utilisation),
-                Field::scalar("shear", &shear),
-                Field::scalar("domain_factor", &self.fixed.domain_factor),
-                Field::integer("step_of_breaking", &self.step_of_breaking),
-            ],
+            cell_fields: &cell_fields,
         };
         let name = format!("bonds_{:04}.vtu", record.step);
         vtu::write_vtu(self.folder.file(&name), &grid)?;

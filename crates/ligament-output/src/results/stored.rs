@@ -4,8 +4,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ligament_analysis::{BondDeformation, ElementKind};
+
 use super::model_file::{Absence, COEFFICIENTS, MODEL};
 use super::point_fields::THERMAL_STRAIN;
+use super::tables::deformation_names;
 use crate::csv::read::Sheet;
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
@@ -22,6 +25,8 @@ pub struct StoredRun {
     pub history: Vec<StoredStep>,
     /// Broken bonds, in the order of breaking.
     pub breaks: Vec<StoredBreak>,
+    /// Names of the components of a deformation that are stored: two, or three of bonds with strains of their own.
+    pub deformation_names: &'static [&'static str],
     /// Steps of which there are fields, with their files.
     fields: BTreeMap<usize, PathBuf>,
 }
@@ -120,10 +125,8 @@ pub struct StoredBreak {
     pub criterion: String,
     /// Its measure over the limit of breakage.
     pub utilisation: f64,
-    /// Stretch then.
-    pub stretch: f64,
-    /// Shear deformation then, rad.
-    pub shear: f64,
+    /// Its deformation then; the relative rotation of its ends decides nothing and is not stored.
+    pub deformation: BondDeformation,
 }
 
 /// Where the points are in a step.
@@ -145,9 +148,19 @@ impl StoredRun {
     pub fn open(folder: &Path) -> Result<Self, Error> {
         require_run(folder)?;
         let model = StoredModel::read(folder)?;
+        let broken = Sheet::read(folder.join("breaks.csv"))?;
+        let strains = deformation_names(ElementKind::Imaginary);
+        let has_strains = broken.columns().iter().any(|it| it == strains[0]);
+        let kind = if has_strains {
+            ElementKind::Imaginary
+        } else {
+            ElementKind::Beam
+        };
+        let deformation_names = deformation_names(kind);
         Ok(Self {
+            deformation_names,
             history: steps(&Sheet::read(folder.join("history.csv"))?)?,
-            breaks: breaks(&Sheet::read(folder.join("breaks.csv"))?, model.tagged)?,
+            breaks: breaks(&broken, model.tagged, deformation_names)?,
             fields: field_files(folder)?,
             folder: folder.to_path_buf(),
             model,
@@ -390,14 +403,16 @@ fn steps(sheet: &Sheet) -> Result<Vec<StoredStep>, Error> {
         .collect())
 }
 
-fn breaks(sheet: &Sheet, tagged: &str) -> Result<Vec<StoredBreak>, Error> {
+fn breaks(sheet: &Sheet, tagged: &str, names: &[&str]) -> Result<Vec<StoredBreak>, Error> {
     let tags = |end| sheet.values::<i64>(&format!("{tagged}_{end}"));
     let count = |name| sheet.values::<usize>(name);
     let number = |name| sheet.values::<f64>(name);
     let (a, b, at) = (tags("a")?, tags("b")?, steps(sheet)?);
     let (order, round) = (count("order")?, count("round")?);
-    let (utilisation, stretch, shear) =
-        (number("utilisation")?, number("stretch")?, number("shear")?);
+    let utilisation = number("utilisation")?;
+    let components = names.iter().map(|name| number(name));
+    let components = components.collect::<Result<Vec<_>, _>>()?;
+    let component = |place: usize, row: usize| components.get(place).map_or(0.0, |of| of[row]);
     let criterion: Vec<String> = sheet.values("criterion")?;
     let of_row = |(row, criterion)| StoredBreak {
         order: order[row],
@@ -406,8 +421,11 @@ fn breaks(sheet: &Sheet, tagged: &str) -> Result<Vec<StoredBreak>, Error> {
         tags: [a[row], b[row]],
         criterion,
         utilisation: utilisation[row],
-        stretch: stretch[row],
-        shear: shear[row],
+        deformation: BondDeformation {
+            stretch: component(0, row),
+            shear: component(1, row),
+            rotation: component(2, row),
+        },
     };
     Ok(criterion.into_iter().enumerate().map(of_row).collect())
 }

@@ -1,5 +1,6 @@
 //! The CSV tables of a run.
 
+use ligament_analysis::ElementKind;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
 use ligament_analysis::stiffness::Costs;
@@ -100,6 +101,19 @@ pub(super) struct Tables {
     load_factor: f64,
     broken: usize,
     costs_before: Costs,
+    /// Components of the deformation of a bond that a row has.
+    n_components: usize,
+}
+
+/// Names of the components of a deformation that results have: the relative rotation of two ends decides nothing.
+pub(super) fn deformation_names(element: ElementKind) -> &'static [&'static str] {
+    const PAIRS: [&str; 3] = ElementKind::Beam.deformation_names();
+    const STRAINS: [&str; 3] = ElementKind::Imaginary.deformation_names();
+    if element.has_strains() {
+        &STRAINS
+    } else {
+        &PAIRS[..2]
+    }
 }
 
 impl Tables {
@@ -125,7 +139,8 @@ impl Tables {
         let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
         let breaks_columns: Vec<&str> = (BREAKS.into_iter())
             .chain(ends.iter().map(String::as_str))
-            .chain(["utilisation", "criterion", "stretch", "shear"])
+            .chain(["utilisation", "criterion"])
+            .chain(deformation_names(problem.system.element).iter().copied())
             .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
@@ -133,6 +148,7 @@ impl Tables {
             breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
             timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
             criteria,
+            n_components: deformation_names(problem.system.element).len(),
             step: 0,
             round: 0,
             load_factor: 0.0,
@@ -176,7 +192,7 @@ impl Tables {
     ) -> Result<(), Error> {
         for record in records {
             let [a, b] = ends[record.bond as usize].map(|end| tags[end as usize]);
-            self.breaks.append(&[
+            let mut row: Vec<Value<'_>> = vec![
                 record.order.into(),
                 record.step.into(),
                 record.round.into(),
@@ -187,9 +203,10 @@ impl Tables {
                 b.into(),
                 record.ratio.into(),
                 self.criteria[record.criterion].as_str().into(),
-                record.deformation.stretch.into(),
-                record.deformation.shear.into(),
-            ])?;
+            ];
+            let components = record.deformation.components().into_iter();
+            row.extend(components.take(self.n_components).map(Value::from));
+            self.breaks.append(&row)?;
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::Context;
+use ligament_model::element::BondDeformation;
 use ligament_output::csv::{Table, Value};
 use ligament_output::results::Absence;
 use ligament_output::results::stored::StoredRun;
@@ -17,7 +18,7 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
     let mut columns: Vec<String> = ["a", "b"].map(|end| format!("{tagged}_{end}")).to_vec();
     let loads = ["step", "load_factor", "displacement", "reaction", "intact"];
     columns.extend(loads.map(str::to_owned));
-    columns.extend(["stretch", "shear"].map(str::to_owned));
+    columns.extend(lives.components.iter().map(|it| (*it).to_owned()));
     for criterion in &run.model.criteria {
         let of = |what: &str| format!("{what}.{}", criterion.name);
         columns.extend(["limit", "measure", "utilisation"].map(of));
@@ -41,9 +42,9 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
                 moment.displacement.into(),
                 moment.reaction.into(),
                 usize::from(is_intact).into(),
-                deformation.stretch.into(),
-                deformation.shear.into(),
             ];
+            let values = deformation.components().into_iter();
+            row.extend(values.take(lives.components.len()).map(Value::from));
             for (criterion, limit) in life.limits.iter().enumerate() {
                 let utilisation = if is_intact {
                     limit.utilisation(deformation)
@@ -99,7 +100,7 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         })
     });
     let breakage = life.breakage.as_ref().map(|(broke, _)| {
-        json!({
+        let breakage = json!({
             "order": broke.order,
             "step": broke.at.step,
             "round": broke.round,
@@ -108,9 +109,8 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
             "reaction": broke.at.reaction,
             "criterion": broke.criterion,
             "utilisation": broke.utilisation,
-            "stretch": broke.stretch,
-            "shear": broke.shear,
-        })
+        });
+        with_components(breakage, lives, &broke.deformation)
     });
     let nearest = life.nearest.map(|it| {
         json!({
@@ -122,16 +122,15 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
     let path = lives.moments.iter().zip(&life.deformation).enumerate();
     let path = path.map(|(place, (moment, deformation))| {
         let utilisation = life.limits.iter().map(|it| it.utilisation(deformation));
-        json!({
+        let moment = json!({
             "step": moment.step,
             "load_factor": moment.load_factor,
             "displacement": moment.displacement,
             "reaction": moment.reaction,
             "intact": place < life.n_intact,
-            "stretch": deformation.stretch,
-            "shear": deformation.shear,
             "utilisation": utilisation.collect::<Vec<f64>>(),
-        })
+        });
+        with_components(moment, lives, deformation)
     });
     json!({
         "ends": life.ends.map(|end| run.model.tags[end as usize]),
@@ -145,4 +144,16 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         "largest": nearest,
         "path": path.collect::<Vec<_>>(),
     })
+}
+
+/// An object with the components of a deformation under their names.
+fn with_components(
+    mut object: serde_json::Value,
+    lives: &Lives,
+    deformation: &BondDeformation,
+) -> serde_json::Value {
+    for (name, value) in lives.components.iter().zip(deformation.components()) {
+        object[*name] = json!(value);
+    }
+    object
 }

@@ -11,6 +11,7 @@ use ligament_output::results::stored::{
 };
 
 use super::Loading;
+use super::strains::Strains;
 use crate::case::Units;
 
 /// The lives of some bonds, over the same moments.
@@ -24,6 +25,8 @@ pub(super) struct Lives {
     pub(super) absent: Vec<usize>,
     /// Whether a moment is just before the breakages of its step.
     pub(super) before_breakages: bool,
+    /// Names of the components of a deformation.
+    pub(super) components: &'static [&'static str],
     /// Units of the displacement and the reaction of the moments.
     pub(super) units: Units,
 }
@@ -91,19 +94,27 @@ impl Lives {
             of_bonds: Vec::new(),
             absent,
             before_breakages: loading.follows_path,
+            components: run.deformation_names,
             units: loading.units,
         };
         for pair in bonds {
             lives.of_bonds.push(Life::begin(run, pair)?);
         }
+        let mut strains = Strains::of(run, loading.follows_path);
         for step in run.field_steps() {
             // A run that is under way may have fields of a step before its row.
             let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
                 continue;
             };
             lives.moments.push(*row);
+            if let Some(strains) = &mut strains {
+                strains.go_to(step);
+            }
             for life in &mut lives.of_bonds {
-                life.deformation.push(life.deformed(&motions));
+                life.deformation.push(match &strains {
+                    Some(strains) => strains.deformation(life.pair, &motions),
+                    None => life.deformed(&motions),
+                });
             }
         }
         for life in &mut lives.of_bonds {
@@ -216,7 +227,7 @@ impl Life {
         let (broke, criterion) = self.breakage.as_ref()?;
         let criterion = (*criterion)?;
         Some(Nearest {
-            utilisation: self.limits[criterion].utilisation(&deformation_of(broke)),
+            utilisation: self.limits[criterion].utilisation(&broke.deformation),
             step: broke.at.step,
             criterion,
         })
@@ -268,15 +279,6 @@ impl Life {
         limit
             .after
             .at(0, nearest.map_or(kappa, |it| kappa.max(it.utilisation)))
-    }
-}
-
-/// The deformation at a breakage; the relative rotation decides nothing and is not stored.
-pub(super) fn deformation_of(broke: &StoredBreak) -> BondDeformation {
-    BondDeformation {
-        stretch: broke.stretch,
-        shear: broke.shear,
-        rotation: 0.0,
     }
 }
 

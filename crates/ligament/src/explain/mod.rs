@@ -6,6 +6,7 @@
 mod files;
 mod life;
 mod report;
+mod strains;
 mod table;
 mod words;
 

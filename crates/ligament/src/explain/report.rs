@@ -200,7 +200,11 @@ fn load(moment: &StoredStep) -> Vec<String> {
 /// Deformation and utilisations of a bond over the moments.
 fn bond_path(lives: &Lives, life: &Life) -> Columns {
     let mut header = load_header(lives.units);
-    header.extend(["stretch", "sliding"].map(str::to_owned));
+    let names: &[&str] = match lives.components {
+        strains @ [_, _, _] => strains,
+        _ => &["stretch", "sliding"],
+    };
+    header.extend(names.iter().map(|it| (*it).to_owned()));
     for limit in &life.limits {
         header.push(limit.name.clone());
         if !limit.after.is_brittle() {
@@ -210,7 +214,8 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
     let mut table = Columns::new(header);
     for (place, (moment, deformation)) in lives.moments.iter().zip(&life.deformation).enumerate() {
         let mut row = load(moment);
-        row.extend([deformation.stretch, deformation.shear].map(number));
+        let values = deformation.components().into_iter();
+        row.extend(values.take(names.len()).map(number));
         for (criterion, limit) in life.limits.iter().enumerate() {
             let is_intact = place < life.n_intact;
             row.push(if is_intact {

@@ -5,7 +5,7 @@ use ligament_model::failure::{Measure, Softened};
 use ligament_output::results::Absence;
 use ligament_output::results::stored::StoredRun;
 
-use super::life::{Life, Limit, Lives, Nearest, deformation_of};
+use super::life::{Life, Limit, Lives, Nearest};
 
 /// A number as all reports have it.
 pub(super) fn number(value: f64) -> String {
@@ -37,8 +37,22 @@ pub(super) fn place(run: &StoredRun, point: u32) -> String {
     format!("{} at ({x:.6}, {y:.6}) m", label(run, point))
 }
 
-fn deformed(BondDeformation { stretch, shear, .. }: &BondDeformation) -> String {
-    format!("s = {}, gamma = {}", number(*stretch), number(*shear))
+fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
+    let symbols: &[&str] = match lives.components.len() {
+        3 => &["S_xx", "S_xy", "S_yy"],
+        _ => &["s", "gamma"],
+    };
+    let values = symbols.iter().zip(deformation.components());
+    let words: Vec<String> = values
+        .map(|(symbol, value)| format!("{symbol} = {}", number(value)))
+        .collect();
+    words.join(", ")
+}
+
+/// Whether a bond is shortened, or some strain of its own is.
+fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
+    let has_strains = lives.components.len() == 3;
+    deformation.stretch < 0.0 || (has_strains && deformation.rotation < 0.0)
 }
 
 /// The limits of a bond, a line each; its name and what it says.
@@ -78,7 +92,7 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
             run.breaks.len(),
             broke.criterion
         )];
-        let deformation = deformation_of(broke);
+        let deformation = broke.deformation;
         if let Some(limit) = criterion.map(|criterion| &life.limits[criterion]) {
             lines.push(format!(
                 "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",
@@ -89,7 +103,7 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
                 number(limit.limit * limit.after.end(0)),
             ));
         }
-        lines.push(format!("Then {}.", deformed(&deformation)));
+        lines.push(format!("Then {}.", deformed(lives, &deformation)));
         lines.push(format!(
             "Load factor {:.6}, displacement {} {}, reaction {} {}.",
             broke.at.load_factor,
@@ -134,7 +148,7 @@ fn nearest_words(lives: &Lives, life: &Life, nearest: Nearest) -> String {
     let moment = lives.moments.iter().position(|it| it.step == nearest.step);
     let seen = moment.map(|moment| {
         let deformation = &life.deformation[moment];
-        format!(" ({})", deformed(deformation))
+        format!(" ({})", deformed(lives, deformation))
     });
     format!(
         "It is intact: its largest utilisation was {:.4}, in step {}, by `{}`{}.",
@@ -154,12 +168,12 @@ fn end_words(lives: &Lives, life: &Life) -> Option<String> {
     }
     let largest = life.limits.iter().map(|it| it.utilisation(deformation));
     let largest = largest.fold(0.0, f64::max);
-    let why = if largest == 0.0 && deformation.stretch < 0.0 {
+    let why = if largest == 0.0 && is_pressed(lives, deformation) {
         ": it is compressed, which none of its criteria counts"
     } else {
         ""
     };
-    let (step, deformed) = (moment.step, deformed(deformation));
+    let (step, deformed) = (moment.step, deformed(lives, deformation));
     Some(format!(
         "At the end (step {step}) its utilisation is {largest:.4}{why} ({deformed})."
     ))
@@ -195,7 +209,7 @@ pub(super) fn short_fate(run: &StoredRun, lives: &Lives, life: &Life) -> String 
     let is_free = life.limits.iter().all(|limit| limit.limit.is_infinite());
     let is_held = life.ends.iter().any(|end| run.model.no_fail[*end as usize]);
     let was_seen = life.nearest.is_some_and(|it| it.utilisation > 0.0);
-    let is_pressed = life.deformation.last().is_some_and(|it| it.stretch < 0.0);
+    let is_pressed = (life.deformation.last()).is_some_and(|it| is_pressed(lives, it));
     match &life.breakage {
         Some((broke, _)) => format!("broke, number {}", broke.order),
         None if life.limits.is_empty() => "intact".to_owned(),

@@ -250,6 +250,47 @@ fn the_largest_utilisation_is_of_all_events() {
     assert!(before_the_end > 3, "{before_the_end}");
 }
 
+/// Bonds with strains of their own, whose rectangles lose corners as bonds break: the strains of the fields in the event in which a
+/// bond breaks are those that the run recorded, and are at its limit.
+#[test]
+fn strains_of_fields_are_those_of_the_breakages() {
+    const CRACKED: &str = r#"
+lattice = { cells = [16, 16], spacing = 0.002, thickness = 0.001, set = { base = { bottom = 1 }, end = { top = 1 } } }
+material = { young = 65.8e9, poisson = 0.3, fracture_energy = 6137.0 }
+model = { law = "mbb-pd", horizon_factor = 3.0 }
+precrack = [{ points = [[-0.001, 0.016], [0.0103, 0.016]] }]
+support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "end", displacement = { x = 1e-4, y = 4e-4 } }]
+no_fail = [{ group = "base" }, { group = "end" }]
+fracture = { control = "event", stop = { bonds = 40 } }
+output = { fields_every = 1 }
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), CRACKED, &[]);
+    let table = fs::read_to_string(results.join("breaks.csv")).unwrap();
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    assert_eq!(header[10..], ["strain_xx", "strain_xy", "strain_yy"]);
+    assert!(table.lines().count() > 30);
+    for row in table.lines().skip(1).step_by(5) {
+        let row: Vec<&str> = row.split(',').collect();
+        let step: usize = row[1].parse().unwrap();
+        let found = bonds(&results, &["--bond", row[6], row[7]]);
+        let (path, broke) = (&found[0]["path"], &found[0]["breakage"]);
+        let largest = (0..2)
+            .map(|it| number(&path[step]["utilisation"][it]))
+            .fold(0.0, f64::max);
+        assert!((largest - 1.0).abs() < 1e-9, "{row:?}");
+        for name in &header[10..] {
+            let (then, of_fields) = (number(&broke[*name]), number(&path[step][*name]));
+            // Rounding of differences of displacements over a bond, against a limit of 7e-3.
+            assert!(
+                (then - of_fields).abs() < 1e-11,
+                "{name}: {then} {of_fields}"
+            );
+        }
+    }
+}
+
 /// Points that are all held keep the stretch -alpha dT of their cooling, the mean of the two ends; what the bonds are deformed
 /// by is told without the expansion, along the path and at the breakage.
 #[test]
