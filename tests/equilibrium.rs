@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::Termination;
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::equilibrium::Stability;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, InternalForces};
@@ -31,14 +31,15 @@ fn rigid_motions_cost_no_energy() {
         let energy = |[u_x, u_y, angle]: [f64; 3], own_rotation: f64| {
             let motion = |p: &[f64; 2]| [u_x - angle * p[1], u_y + angle * p[0], own_rotation];
             let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
-            internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE).stored_energy
+            internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
+                .stored_energy
         };
         // A stretch of the same size, for a measure: u_x = angle times x.
         let u: Vec<f64> = (system.cloud.positions.iter())
             .flat_map(|p| [1e-3 * p[0], 0.0, 0.0])
             .collect();
-        let measure =
-            internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE).stored_energy;
+        let measure = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
+            .stored_energy;
         assert!(measure > 1.0);
         for motion in [[1e-3, 0.0, 0.0], [0.0, -2e-3, 0.0], [3e-4, 1e-4, 1e-3]] {
             let error = energy(motion, motion[2]) / measure;
@@ -68,7 +69,7 @@ fn internal_forces_are_in_balance_with_themselves() {
         .map(|_| random.uniform() < 0.8)
         .collect();
     assert!(intact.contains(&false));
-    let forces = internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE)
+    let forces = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
         .internal
         .values;
     let (mut sum, mut size) = ([0.0; 3], [0.0; 3]);
@@ -111,7 +112,7 @@ fn reactions_balance() {
         system,
         run.state().bonds(),
         run.displacement(),
-        Expansion::NONE,
+        ThermalStrain::NONE,
     );
     let reactions = bench.boundary.reactions(1.0, &internal);
     let total = |value: &dyn Fn(usize) -> f64| (0..bench.points()).map(value).sum::<f64>();

@@ -4,7 +4,7 @@
 
 use ligament::progress::ProgressMode;
 use ligament::run;
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
@@ -263,7 +263,7 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
             let motion = |p: &[f64; 2]| [xx * p[0] + xy * p[1], xy * p[0] + yy * p[1], 0.0];
             let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
             let deformations =
-                internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE)
+                internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;
             let virial = virial::stress(system, BondsLeft::whole(&intact), &deformations);
             let traction = traction::stress(system, BondsLeft::whole(&intact), &deformations);

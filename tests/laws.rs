@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament::case::Law;
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_model::ElementKind;
@@ -131,7 +131,7 @@ fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
         system,
         BondsLeft::whole(&vec![true; system.bonds.len()]),
         &u,
-        Expansion::NONE,
+        ThermalStrain::NONE,
     )
     .stored_energy
 }
@@ -174,7 +174,7 @@ fn internal_forces_are_in_balance() {
             system,
             BondsLeft::whole(&vec![true; system.bonds.len()]),
             &u,
-            Expansion::NONE,
+            ThermalStrain::NONE,
         )
         .internal;
         let mut sum = [0.0; 3];

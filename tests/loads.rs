@@ -3,7 +3,7 @@
 
 use ligament::check::{Extent, check};
 use ligament::progress::ProgressMode;
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
@@ -49,7 +49,7 @@ fn sweep(bench: &Bench, run: &Run) -> BondSweep {
         &bench.model.system,
         run.state().bonds(),
         run.displacement(),
-        Expansion::NONE,
+        ThermalStrain::NONE,
     )
 }
 

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use ligament_analysis::assembly;
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::unknowns::Unknowns;
@@ -47,7 +47,12 @@ fn sweep(bench: &Bench, intact: &[bool], displacement: impl Fn([f64; 2]) -> [f64
     };
     let displacement: Vec<f64> = bench.positions().iter().flat_map(of_point).collect();
     let bonds = BondsLeft::whole(intact);
-    internal::sweep(&bench.model.system, bonds, &displacement, Expansion::NONE)
+    internal::sweep(
+        &bench.model.system,
+        bonds,
+        &displacement,
+        ThermalStrain::NONE,
+    )
 }
 
 fn whole(bench: &Bench) -> Vec<bool> {

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::{COMPONENTS, Termination};
@@ -114,7 +114,7 @@ fn strains_of_bonds_beside_cracks() {
     let bench = Bench::new(PLATE, &[CRACKS, "model.horizon_factor=2.0"]);
     let run = bench.solve();
     let (system, intact) = (&bench.model.system, &run.state().intact);
-    let found = internal::deformations(system, intact, run.displacement(), Expansion::NONE);
+    let found = internal::deformations(system, intact, run.displacement(), ThermalStrain::NONE);
     let bonds = &system.bonds;
     let size = 1e-3;
     let mut worst = [0.0_f64; 3];
@@ -155,7 +155,7 @@ fn stiffness_beside_cracks() {
     for moved in moved {
         let mut u = vec![0.0; COMPONENTS * bench.points()];
         u[moved] = 1.0;
-        let sweep = internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE);
+        let sweep = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE);
         let mut row_of_stiffness = vec![0.0; u.len()];
         for row in (0..expected.len()).filter(|&row| unknown(row, "a", "i") == moved) {
             row_of_stiffness[unknown(row, "b", "j")] = expected.number(row, "stiffness");

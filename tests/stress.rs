@@ -1,7 +1,7 @@
 //! Stresses at the points against the continuum, and against the forces that the bodies bear.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
@@ -32,7 +32,7 @@ const POISSON: f64 = 0.21;
 fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
     let system = &bench.model.system;
     let deformations =
-        internal::sweep(system, BondsLeft::whole(intact), u, Expansion::NONE).deformations;
+        internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
     let of_bonds = virial::stress(system, BondsLeft::whole(intact), &deformations);
     (
         of_bonds,
@@ -78,7 +78,7 @@ fn stresses_have_the_mean_of_the_forces() {
             .map(|_| random.uniform() < 0.6)
             .collect();
         assert!(intact.contains(&false));
-        let forces = internal::sweep(system, BondsLeft::whole(&intact), &u, Expansion::NONE)
+        let forces = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
             .internal
             .values;
         let (of_bonds, of_planes) = stresses(&bench, &intact, &u);

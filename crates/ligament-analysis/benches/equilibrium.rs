@@ -9,7 +9,7 @@ use criterion::measurement::WallTime;
 use criterion::{
     BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use ligament_analysis::boundary::Expansion;
+use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule, next_to_break};
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
@@ -60,9 +60,11 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
         bencher.iter(|| assembly::assemble(black_box(system), &unknowns, &pattern, left, held));
     });
     group.bench_function("sweep over the bonds", |bencher| {
-        bencher.iter(|| internal::sweep(system, left, black_box(displacement), Expansion::NONE));
+        bencher
+            .iter(|| internal::sweep(system, left, black_box(displacement), ThermalStrain::NONE));
     });
-    let deformations = internal::sweep(system, left, displacement, Expansion::NONE).deformations;
+    let deformations =
+        internal::sweep(system, left, displacement, ThermalStrain::NONE).deformations;
     let next = |count: usize| {
         let limits = &bench.model.criteria;
         next_to_break(&rule(count), black_box(&deformations), limits, intact)

@@ -92,14 +92,14 @@ pub enum BoundaryError {
 
 /// Strains that the temperature would give the points without stress, at some load factor.
 #[derive(Debug, Clone, Copy)]
-pub struct Expansion<'a> {
+pub struct ThermalStrain<'a> {
     strain: &'a [[f64; 3]],
     load_factor: f64,
 }
 
-impl Expansion<'_> {
+impl ThermalStrain<'_> {
     /// None anywhere.
-    pub const NONE: Self = Expansion {
+    pub const NONE: Self = ThermalStrain {
         strain: &[],
         load_factor: 0.0,
     };
@@ -219,8 +219,8 @@ impl Boundary {
     }
 
     /// What the temperature does to the bonds at a load factor.
-    pub fn expansion(&self, load_factor: f64) -> Expansion<'_> {
-        Expansion {
+    pub fn thermal_strain_at(&self, load_factor: f64) -> ThermalStrain<'_> {
+        ThermalStrain {
             strain: &self.thermal_strain,
             load_factor,
         }

@@ -3,7 +3,7 @@
 use ligament_model::BondSystem;
 use ligament_model::element::{BondDeformation, BondElement};
 
-use crate::boundary::Expansion;
+use crate::boundary::ThermalStrain;
 use crate::state::BondsLeft;
 
 /// An element that a breakage changed.
@@ -21,7 +21,7 @@ pub struct ChangedElement {
 /// those of the bonds, in their order, and then those of bonds that they support, ascending.
 pub fn changed_elements(
     system: &BondSystem,
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
     left: BondsLeft<'_>,
     displacement: &[f64],
     bonds: &[u32],
@@ -86,7 +86,7 @@ fn deformation(
     element: &BondElement,
     ends: [u32; 2],
     displacement: &[f64],
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
 ) -> BondDeformation {
     let total = element.deformation(displacement);
     if expansion.is_none() {
@@ -98,7 +98,7 @@ fn deformation(
 
 impl ChangedElement {
     /// Energy that the change released at a fixed load, with the displacements after it (3 n_points), J: 1/2 u^T (K_before - K_after) u'.
-    pub fn released(&self, displacement: &[f64], expansion: Expansion<'_>) -> f64 {
+    pub fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
         let mutual = |(element, before): &(BondElement, BondDeformation)| {
             let now = deformation(element, self.ends, displacement, expansion);
             element.mutual_energy(before, &now)

@@ -75,13 +75,11 @@ impl Dissection<'_> {
         self.order.extend_from_slice(&separator);
     }
 
-    /// The points of one half that bonds connect with the other.
+    /// The points of one half that elements couple with the other.
     fn rim(&self, half: &[u32], other_half: u32) -> Vec<u32> {
         let touches = |point: u32| {
-            let mut bonds = self.system.bonds.incidence.of(point).iter();
-            bonds.any(|&bond| {
-                self.half[self.system.bonds.neighbour(bond, point) as usize] == other_half
-            })
+            let mut coupled = self.system.coupled_points(point);
+            coupled.any(|other| self.half[other as usize] == other_half)
         };
         half.iter()
             .copied()

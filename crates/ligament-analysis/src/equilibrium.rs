@@ -301,7 +301,7 @@ impl<'a> Equilibrium<'a> {
             self.system,
             &state.intact,
             &state.displacement,
-            self.boundary.expansion(state.load_factor),
+            self.boundary.thermal_strain_at(state.load_factor),
         )
     }
 
@@ -312,7 +312,7 @@ impl<'a> Equilibrium<'a> {
             self.system,
             state.bonds(),
             deformations,
-            self.boundary.expansion(state.load_factor),
+            self.boundary.thermal_strain_at(state.load_factor),
         );
         let energy_of_motion = swept.energy_of_motion(state.load_factor);
         let BondSweep {

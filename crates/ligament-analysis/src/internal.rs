@@ -12,7 +12,7 @@ use ligament_model::element::true_strain::TrueStrainElement;
 use ligament_model::element::{BondDeformation, Element, ElementKind};
 use rayon::prelude::*;
 
-use crate::boundary::Expansion;
+use crate::boundary::ThermalStrain;
 use crate::state::BondsLeft;
 use crate::unknowns::COMPONENTS;
 
@@ -69,7 +69,7 @@ pub fn sweep(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
     displacement: &[f64],
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
 ) -> BondSweep {
     let deformations = deformations(system, bonds.intact, displacement, expansion);
     forces(system, bonds, deformations, expansion)
@@ -80,7 +80,7 @@ pub fn deformations(
     system: &BondSystem,
     intact: &[bool],
     displacement: &[f64],
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
 ) -> Vec<BondDeformation> {
     let of = match system.element {
         ElementKind::Beam => deformations_of::<Pair<BeamBond>>,
@@ -97,7 +97,7 @@ pub fn forces(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
     deformations: Vec<BondDeformation>,
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
 ) -> BondSweep {
     let of = match system.element {
         ElementKind::Beam => forces_of::<Pair<BeamBond>>,
@@ -113,7 +113,7 @@ fn deformations_of<E: Element>(
     system: &BondSystem,
     intact: &[bool],
     displacement: &[f64],
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
 ) -> Vec<BondDeformation> {
     let mut deformations = vec![BondDeformation::default(); system.bonds.len()];
     deformations
@@ -136,7 +136,7 @@ fn forces_of<E: Element>(
     system: &BondSystem,
     bonds: BondsLeft<'_>,
     deformations: Vec<BondDeformation>,
-    expansion: Expansion<'_>,
+    expansion: ThermalStrain<'_>,
 ) -> BondSweep {
     let n_bonds = system.bonds.len();
     let parts: Vec<Part> = (0..PARTS)
@@ -209,7 +209,7 @@ impl Part {
         system: &BondSystem,
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
-        expansion: Expansion<'_>,
+        expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Self {
         let mut part = Self {

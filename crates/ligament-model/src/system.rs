@@ -110,6 +110,22 @@ impl BondSystem {
         }
     }
 
+    /// The other points that elements couple with a point, ascending.
+    pub fn coupled_points(&self, point: u32) -> impl Iterator<Item = u32> + '_ {
+        // Of a pair a bond holds the other end, of other elements the list holds it as it is.
+        let (entries, are_bonds) = match &self.imaginary {
+            None => (self.bonds.incidence.of(point), true),
+            Some(elements) => (elements.neighbours.of(point), false),
+        };
+        entries.iter().map(move |&entry| {
+            if are_bonds {
+                self.bonds.neighbour(entry, point)
+            } else {
+                entry
+            }
+        })
+    }
+
     /// The bonds whose elements couple a point, ascending; with imaginary elements more than those that end there.
     pub fn elements_of(&self, point: u32) -> &[u32] {
         match &self.imaginary {

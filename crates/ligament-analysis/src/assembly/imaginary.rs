@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
 use ligament_model::BondSystem;
-use ligament_model::element::Element;
 use ligament_model::element::imaginary::ImaginaryElement;
 use rayon::prelude::*;
 
@@ -14,10 +13,7 @@ use crate::unknowns::{COMPONENTS, Unknowns};
 
 /// The pattern with all bonds: breakages only take points from the elements.
 pub(super) fn pattern(system: &BondSystem, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
-    let intact = vec![true; system.bonds.len()];
-    pattern_of(system, unknowns, |point| {
-        lower_points(system, &intact, point)
-    })
+    pattern_of(system, unknowns, |point| lower_points(system, point))
 }
 
 /// Assembles the intact bonds over that pattern.
@@ -28,13 +24,12 @@ pub(super) fn assemble(
     bonds: BondsLeft<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
-    let whole = vec![true; system.bonds.len()];
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
     columns_of_points(&mut matrix.values, pattern, unknowns, system.cloud.len())
         .into_par_iter()
         .enumerate()
         .for_each(|(point, values)| {
-            let lower = lower_points(system, &whole, point);
+            let lower = lower_points(system, point);
             let blocks = blocks(system, bonds, &lower, point);
             fill(unknowns, held, point, &lower, &blocks, values);
         });
@@ -42,19 +37,11 @@ pub(super) fn assemble(
 }
 
 /// Points of smaller number that some element couples with a point, ascending.
-fn lower_points(system: &BondSystem, intact: &[bool], point: usize) -> Vec<usize> {
-    let elements = system.elements_of(point as u32).iter();
-    let mut points: Vec<usize> = elements
-        .flat_map(|&bond| {
-            let element = ImaginaryElement::of(system, intact, bond as usize);
-            element.points().to_vec()
-        })
-        .map(|other| other as usize)
-        .filter(|&other| other < point)
-        .collect();
-    points.sort_unstable();
-    points.dedup();
-    points
+fn lower_points(system: &BondSystem, point: usize) -> Vec<usize> {
+    let coupled = system
+        .coupled_points(point as u32)
+        .map(|other| other as usize);
+    coupled.take_while(|&other| other < point).collect()
 }
 
 /// Blocks of the columns of a point: rows of its `lower` points and of itself, summed over its elements in their order.

@@ -194,7 +194,7 @@ impl<'a> Path<'a> {
         }
         let just_broken = breakage::changed_elements(
             self.problem.system,
-            self.problem.boundary.expansion(load_factor),
+            self.problem.boundary.thermal_strain_at(load_factor),
             self.state.bonds(),
             &self.state.displacement,
             bonds,

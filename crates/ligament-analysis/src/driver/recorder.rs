@@ -85,7 +85,7 @@ impl Energies {
         broken: &[ChangedElement],
         balanced: &Balanced,
     ) {
-        let expansion = problem.boundary.expansion(state.load_factor);
+        let expansion = problem.boundary.thermal_strain_at(state.load_factor);
         let remaining = &state.softening.remaining;
         self.released += broken
             .iter()

@@ -3,7 +3,7 @@
 use ligament_model::{BondSystem, LumpedMass};
 
 use super::{Mode, ModeKind, Moving, Rotations};
-use crate::boundary::Expansion;
+use crate::boundary::ThermalStrain;
 use crate::equilibrium::{ROUNDING, largest_point_stiffness};
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
@@ -89,7 +89,7 @@ pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
         system,
         BondsLeft::whole(&vec![true; system.bonds.len()]),
         shape,
-        Expansion::NONE,
+        ThermalStrain::NONE,
     )
     .stored_energy
 }
@@ -109,7 +109,12 @@ pub(super) fn mode(
         internal,
         stored_energy,
         ..
-    } = internal::sweep(system, BondsLeft::whole(&intact), &shape, Expansion::NONE);
+    } = internal::sweep(
+        system,
+        BondsLeft::whole(&intact),
+        &shape,
+        ThermalStrain::NONE,
+    );
     let eigenvalue = 2.0 * stored_energy;
     Mode {
         kind: if eigenvalue.abs() <= rigid_below {

@@ -150,7 +150,7 @@ impl Stiffness<'_> {
         };
         breakage::changed_elements(
             self.system,
-            boundary.expansion(state.load_factor),
+            boundary.thermal_strain_at(state.load_factor),
             before,
             &state.displacement,
             broken,

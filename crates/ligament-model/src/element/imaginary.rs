@@ -57,6 +57,8 @@ pub struct ImaginaryElements {
     pub surroundings: Surroundings,
     /// The bonds whose elements couple each point, ascending.
     pub couplings: Incidence,
+    /// The other points that some element couples with each point, ascending.
+    pub neighbours: Incidence,
     /// Factors of the rows (xx, yy, xy) of D in the printed forces of each bond, shape (n_bonds); empty where forces come from the
     /// energy.
     pub row_factors: Vec<[f64; 3]>,
@@ -67,14 +69,26 @@ impl ImaginaryElements {
     pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>, stiffness: Vec<StrainStiffness>) -> Self {
         let surroundings = Surroundings::of(bonds);
         let whole = vec![true; bonds.len()];
-        let couplings = (0..bonds.len()).flat_map(|bond| {
-            let gradient = Gradient::of(bonds, &surroundings, &positions, &whole, bond);
-            let count = gradient.count;
-            let points = gradient.points.into_iter().take(count);
+        let gradient = |bond: usize| Gradient::of(bonds, &surroundings, &positions, &whole, bond);
+        let of_bonds = (0..bonds.len()).flat_map(|bond| {
+            let gradient = gradient(bond);
+            let points = gradient.points.into_iter().take(gradient.count);
             points.map(move |point| (point, bond as u32))
         });
+        let couplings = Incidence::of_pairs(of_bonds, positions.len());
+        let of_points = (0..positions.len() as u32).flat_map(|point| {
+            let bonds = couplings.of(point).iter();
+            let mut others: Vec<u32> = bonds
+                .flat_map(|&bond| gradient(bond as usize).points().to_vec())
+                .filter(|&other| other != point)
+                .collect();
+            others.sort_unstable();
+            others.dedup();
+            others.into_iter().map(move |other| (point, other))
+        });
         Self {
-            couplings: Incidence::of_pairs(couplings, positions.len()),
+            neighbours: Incidence::of_pairs(of_points, positions.len()),
+            couplings,
             stiffness,
             surroundings,
             positions,
@@ -99,10 +113,8 @@ impl ImaginaryElements {
 
     /// Whether some D is indefinite, so that the stiffness of the body may be, too.
     pub fn some_indefinite(&self) -> bool {
-        self.stiffness.iter().any(|it| {
-            let [d11, d12, d16, d22, d26, d66] = it.entries;
-            d11 * d22 < d12 * d12 || d11 * d66 < d16 * d16 || d22 * d66 < d26 * d26
-        })
+        let mut matrices = self.stiffness.iter().map(|it| matrix(it.entries));
+        matrices.any(|matrix| matrix.cholesky().is_none())
     }
 }
 
@@ -210,6 +222,11 @@ impl Gradient {
         })
     }
 
+    /// Its points.
+    fn points(&self) -> &[u32] {
+        &self.points[..self.count]
+    }
+
     /// The points with their weights.
     #[inline]
     fn weights(&self) -> impl Iterator<Item = (u32, f64, f64)> + '_ {
@@ -228,7 +245,7 @@ impl ImaginaryElement {
 
     /// The points that it couples.
     pub fn points(&self) -> &[u32] {
-        &self.gradient.points[..self.gradient.count]
+        self.gradient.points()
     }
 
     /// Block of the stiffness between two of its points, given by their places in [`ImaginaryElement::points`]: rows of the
