@@ -86,14 +86,90 @@ fn assemble_pairs<B: PairKinematics>(
     bonds: BondsLeft<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
+    let of_point = |point: usize, columns: Columns<'_>| {
+        let own = diagonal_block::<B>(system, bonds, point);
+        let (lower, couplings): (Vec<usize>, Vec<Matrix6<f64>>) = lower_neighbours(system, point)
+            .map(|(bond, neighbour)| (neighbour, stiffness::<B>(system, bonds, bond)))
+            .unzip();
+        let coupling = |place: usize, r: usize, c: usize| couplings[place][(r, COMPONENTS + c)];
+        columns.fill(&lower, coupling, |r, c| own[(r, c)]);
+    };
+    assemble_columns(system, unknowns, pattern, held, of_point)
+}
+
+/// Assembles a matrix over its pattern; `of_point` fills the columns of each point.
+fn assemble_columns(
+    system: &BondSystem,
+    unknowns: &Unknowns,
+    pattern: &Arc<Pattern>,
+    held: &[bool],
+    of_point: impl Fn(usize, Columns<'_>) + Sync,
+) -> SymmetricMatrix {
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
     columns_of_points(&mut matrix.values, pattern, unknowns, system.cloud.len())
         .into_par_iter()
         .enumerate()
         .for_each(|(point, values)| {
-            fill_columns::<B>(system, unknowns, bonds, held, point, values);
+            let columns = Columns {
+                unknowns,
+                held,
+                point,
+                values,
+            };
+            of_point(point, columns);
         });
     matrix
+}
+
+/// The columns of a point: couplings to points of smaller number, then its own block down to the diagonal.
+struct Columns<'a> {
+    unknowns: &'a Unknowns,
+    held: &'a [bool],
+    point: usize,
+    values: &'a mut [f64],
+}
+
+impl Columns<'_> {
+    /// Fills them with the `coupling` of each of the points `lower` (ascending), by its place among them, row and column, and with
+    /// the `own` block.
+    fn fill(
+        self,
+        lower: &[usize],
+        coupling: impl Fn(usize, usize, usize) -> f64,
+        own: impl Fn(usize, usize) -> f64,
+    ) {
+        let Self {
+            unknowns,
+            held,
+            point,
+            values,
+        } = self;
+        let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
+        let mut slots = values.iter_mut();
+        for (column, c) in unknowns.of_point(point) {
+            let coupling = &coupling;
+            let of_lower = lower.iter().enumerate().flat_map(|(place, &other)| {
+                let rows = unknowns.of_point(other);
+                rows.map(move |(_, r)| (coupling(place, r, c), is_held(other, r)))
+            });
+            let of_own = unknowns
+                .of_point(point)
+                .filter(|&(row, _)| row < column)
+                .map(|(_, r)| (own(r, c), is_held(point, r)));
+            let column_held = is_held(point, c);
+            for ((value, row_held), slot) in of_lower.chain(of_own).zip(&mut slots) {
+                *slot = if row_held || column_held { 0.0 } else { value };
+            }
+            if let Some(diagonal) = slots.next() {
+                // Any positive pivot does for an equation that stands alone: a held point may have lost all its bonds.
+                *diagonal = match own(c, c) {
+                    0.0 if column_held => 1.0,
+                    value if column_held => value.abs(),
+                    value => value,
+                };
+            }
+        }
+    }
 }
 
 /// Bonds to points of smaller number, with that point, ascending.
@@ -132,50 +208,6 @@ fn columns_of_points<'a>(
             columns
         })
         .collect()
-}
-
-/// Fills the columns of a point: couplings to points of smaller number, then its own block down to the diagonal.
-fn fill_columns<B: PairKinematics>(
-    system: &BondSystem,
-    unknowns: &Unknowns,
-    bonds: BondsLeft<'_>,
-    held: &[bool],
-    point: usize,
-    values: &mut [f64],
-) {
-    let own_block = diagonal_block::<B>(system, bonds, point);
-    let couplings: Vec<(usize, Matrix6<f64>)> = lower_neighbours(system, point)
-        .map(|(bond, neighbour)| (neighbour, stiffness::<B>(system, bonds, bond)))
-        .collect();
-    let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
-    let mut slots = values.iter_mut();
-    for (column, c) in unknowns.of_point(point) {
-        let with_neighbours = couplings.iter().flat_map(|(neighbour, stiffness)| {
-            let components = unknowns.of_point(*neighbour).map(|(_, r)| r);
-            components.map(move |r| (stiffness[(r, COMPONENTS + c)], is_held(*neighbour, r)))
-        });
-        let own = unknowns
-            .of_point(point)
-            .filter(|&(row, _)| row < column)
-            .map(|(_, r)| (own_block[(r, c)], is_held(point, r)));
-        let column_held = is_held(point, c);
-        for ((value, row_held), slot) in with_neighbours.chain(own).zip(&mut slots) {
-            *slot = if row_held || column_held { 0.0 } else { value };
-        }
-        if let Some(diagonal) = slots.next() {
-            *diagonal = diagonal_value(own_block[(c, c)], column_held);
-        }
-    }
-}
-
-/// The diagonal entry of an unknown that may be held: any positive pivot does for an equation that stands alone, and a held
-/// point may have lost all its bonds.
-fn diagonal_value(own: f64, is_held: bool) -> f64 {
-    match own {
-        0.0 if is_held => 1.0,
-        own if is_held => own.abs(),
-        own => own,
-    }
 }
 
 /// Element stiffness of a bond, zero if it is broken.

@@ -5,11 +5,10 @@ use std::sync::Arc;
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
 use ligament_model::BondSystem;
 use ligament_model::element::imaginary::ImaginaryElement;
-use rayon::prelude::*;
 
-use super::{columns_of_points, diagonal_value, pattern_of};
+use super::{Columns, assemble_columns, pattern_of};
 use crate::state::BondsLeft;
-use crate::unknowns::{COMPONENTS, Unknowns};
+use crate::unknowns::Unknowns;
 
 /// The pattern with all bonds: breakages only take points from the elements.
 pub(super) fn pattern(system: &BondSystem, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
@@ -24,16 +23,13 @@ pub(super) fn assemble(
     bonds: BondsLeft<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
-    let mut matrix = SymmetricMatrix::zero(pattern.clone());
-    columns_of_points(&mut matrix.values, pattern, unknowns, system.cloud.len())
-        .into_par_iter()
-        .enumerate()
-        .for_each(|(point, values)| {
-            let lower = lower_points(system, point);
-            let blocks = blocks(system, bonds, &lower, point);
-            fill(unknowns, held, point, &lower, &blocks, values);
-        });
-    matrix
+    let of_point = |point: usize, columns: Columns<'_>| {
+        let lower = lower_points(system, point);
+        let blocks = blocks(system, bonds, &lower, point);
+        let coupling = |place: usize, r: usize, c: usize| blocks[place][r][c];
+        columns.fill(&lower, coupling, |r, c| blocks[lower.len()][r][c]);
+    };
+    assemble_columns(system, unknowns, pattern, held, of_point)
 }
 
 /// Points of smaller number that some element couples with a point, ascending.
@@ -78,34 +74,4 @@ fn blocks(
         }
     }
     blocks
-}
-
-fn fill(
-    unknowns: &Unknowns,
-    held: &[bool],
-    point: usize,
-    lower: &[usize],
-    blocks: &[[[f64; 2]; 2]],
-    values: &mut [f64],
-) {
-    let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
-    let own = &blocks[lower.len()];
-    let mut slots = values.iter_mut();
-    for (column, c) in unknowns.of_point(point) {
-        let of_lower = lower.iter().zip(blocks).flat_map(|(&other, block)| {
-            let rows = unknowns.of_point(other);
-            rows.map(move |(_, r)| (block[r][c], is_held(other, r)))
-        });
-        let of_own = unknowns
-            .of_point(point)
-            .filter(|&(row, _)| row < column)
-            .map(|(_, r)| (own[r][c], is_held(point, r)));
-        let column_held = is_held(point, c);
-        for ((value, row_held), slot) in of_lower.chain(of_own).zip(&mut slots) {
-            *slot = if row_held || column_held { 0.0 } else { value };
-        }
-        if let Some(diagonal) = slots.next() {
-            *diagonal = diagonal_value(own[c][c], column_held);
-        }
-    }
 }

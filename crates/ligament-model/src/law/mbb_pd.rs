@@ -13,7 +13,7 @@
 pub mod pairwise;
 pub mod rows;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 use super::BondStiffness;
@@ -44,30 +44,32 @@ pub fn stiffness(
 ) -> BondStiffness {
     let at_points = plane_stiffnesses(cloud, elasticity, plane);
     let psi = factors(bonds, cloud);
-    let matrices: Vec<Matrix3<f64>> = (bonds.ends.par_iter())
-        .map(|ends| {
-            let [a, b] = ends.map(|end| end as usize);
-            0.5 * (psi[a] + psi[b]) * (0.5 * (at_points[a] + at_points[b]))
-        })
-        .collect();
+    let of_bond = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| end as usize);
+        let matrix = 0.5 * (psi[a] + psi[b]) * (0.5 * (at_points[a] + at_points[b]));
+        (matrix, psi[a] / (psi[a] + psi[b]))
+    };
+    of_matrices(
+        bonds,
+        &bonds.ends.par_iter().map(of_bond).collect::<Vec<_>>(),
+    )
+}
+
+/// The stiffness of bonds with these micro-modulus matrices and shares of their first ends (n_bonds).
+fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffness {
+    let along = |((matrix, _), &[a, b]): (&(Matrix3<f64>, f64), &[f64; 2])| {
+        let stretch = Vector3::new(a * a, b * b, a * b);
+        stretch.dot(&(matrix * stretch))
+    };
+    let strain = |(matrix, first_share): &(Matrix3<f64>, f64)| StrainStiffness {
+        entries: entries(matrix),
+        first_share: *first_share,
+    };
     BondStiffness {
-        axial: (matrices.iter().zip(&bonds.direction))
-            .map(|(matrix, &[a, b])| {
-                let stretch = nalgebra::Vector3::new(a * a, b * b, a * b);
-                stretch.dot(&(matrix * stretch))
-            })
-            .collect(),
-        shear: matrices.iter().map(|matrix| matrix[(2, 2)]).collect(),
+        axial: matrices.iter().zip(&bonds.direction).map(along).collect(),
+        shear: matrices.iter().map(|(matrix, _)| matrix[(2, 2)]).collect(),
         rotational: vec![0.0; bonds.len()],
-        strain: (matrices.iter().zip(&bonds.ends))
-            .map(|(matrix, ends)| {
-                let [a, b] = ends.map(|end| psi[end as usize]);
-                StrainStiffness {
-                    entries: entries(matrix),
-                    first_share: a / (a + b),
-                }
-            })
-            .collect(),
+        strain: matrices.iter().map(strain).collect(),
     }
 }
 

@@ -3,10 +3,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::plane_stiffnesses;
+use super::{of_matrices, plane_stiffnesses};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::element::imaginary::{BondClass, StrainStiffness, entries};
+use crate::element::imaginary::BondClass;
 use crate::law::BondStiffness;
 use crate::material::{Elasticity, Plane};
 
@@ -47,24 +47,7 @@ pub fn stiffness(
         (0.5 * (rows + rows.transpose()), of_a / (of_a + of_b))
     };
     let matrices: Vec<(Matrix3<f64>, f64)> = (0..bonds.len()).map(of_bond).collect();
-    let along = |(matrix, &[a, b]): (&Matrix3<f64>, &[f64; 2])| {
-        let stretch = Vector3::new(a * a, b * b, a * b);
-        stretch.dot(&(matrix * stretch))
-    };
-    BondStiffness {
-        axial: (matrices.iter().map(|(matrix, _)| matrix))
-            .zip(&bonds.direction)
-            .map(along)
-            .collect(),
-        shear: matrices.iter().map(|(matrix, _)| matrix[(2, 2)]).collect(),
-        rotational: vec![0.0; bonds.len()],
-        strain: (matrices.iter())
-            .map(|(matrix, first_share)| StrainStiffness {
-                entries: entries(matrix),
-                first_share: *first_share,
-            })
-            .collect(),
-    }
+    of_matrices(bonds, &matrices)
 }
 
 /// psi_1, psi_2 and psi_6 of a point, 1/m^4; infinite where it has no bond that resists the strain.
