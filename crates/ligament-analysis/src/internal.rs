@@ -212,29 +212,48 @@ impl Part {
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Self {
+        let mut forces = vec![PointForces::default(); system.cloud.len()];
+        let mut energy = 0.0;
+        for bond in of_part.clone() {
+            let Some(element) = bonds.typed_element::<E>(system, bond) else {
+                continue;
+            };
+            let deformation = &deformations[bond];
+            energy += element.mutual_energy(deformation, deformation);
+            element.forces(deformation, |point, force| {
+                forces[point as usize].add(force);
+            });
+        }
         let mut part = Self {
-            forces: vec![PointForces::default(); system.cloud.len()],
-            energy: 0.0,
+            forces,
+            energy,
             thermal: 0.0,
             expansion_energy: 0.0,
         };
+        if !expansion.is_none() {
+            part.add_expansion::<E>(system, bonds, deformations, expansion, of_part);
+        }
+        part
+    }
+
+    /// Adds what the temperature does to the bonds of the part.
+    fn add_expansion<E: Element>(
+        &mut self,
+        system: &BondSystem,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        expansion: ThermalStrain<'_>,
+        of_part: Range<usize>,
+    ) {
         let at_full_load = expansion.at_full_load();
         for bond in of_part {
             let Some(element) = bonds.typed_element::<E>(system, bond) else {
                 continue;
             };
-            let deformation = &deformations[bond];
-            part.energy += element.mutual_energy(deformation, deformation);
-            element.forces(deformation, |point, force| {
-                part.forces[point as usize].add(force);
-            });
-            if !expansion.is_none() {
-                let thermal = element.deformation_in(at_full_load.of_bond(system.bonds.ends[bond]));
-                part.thermal -= 2.0 * element.mutual_energy(deformation, &thermal);
-                part.expansion_energy += element.mutual_energy(&thermal, &thermal);
-            }
+            let thermal = element.deformation_in(at_full_load.of_bond(system.bonds.ends[bond]));
+            self.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
+            self.expansion_energy += element.mutual_energy(&thermal, &thermal);
         }
-        part
     }
 }
 

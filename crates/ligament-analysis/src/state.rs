@@ -73,33 +73,29 @@ impl<'a> BondsLeft<'a> {
     }
 
     /// The element of a bond with what is left of it; None if it is broken.
-    #[inline]
+    #[inline(always)]
     pub fn typed_element<E: Element>(self, system: &BondSystem, bond: usize) -> Option<E> {
-        self.left_of(bond, || E::of(system, self.intact, bond), E::weakened)
+        if !self.intact[bond] {
+            return None;
+        }
+        let whole = E::of(system, self.intact, bond);
+        Some(self.left_of(bond, whole, E::weakened))
     }
 
     /// The same, of whatever kind it is.
     pub fn element(self, system: &BondSystem, bond: usize) -> Option<BondElement> {
-        self.left_of(
-            bond,
-            || BondElement::of(system, self.intact, bond),
-            BondElement::weakened,
-        )
-    }
-
-    #[inline]
-    fn left_of<E>(
-        self,
-        bond: usize,
-        whole: impl FnOnce() -> E,
-        weakened: impl FnOnce(E, &Remaining) -> E,
-    ) -> Option<E> {
         if !self.intact[bond] {
             return None;
         }
-        Some(match self.remaining.get(bond) {
-            None => whole(),
-            Some(remaining) => weakened(whole(), remaining),
-        })
+        let whole = BondElement::of(system, self.intact, bond);
+        Some(self.left_of(bond, whole, BondElement::weakened))
+    }
+
+    #[inline(always)]
+    fn left_of<E>(self, bond: usize, whole: E, weakened: impl FnOnce(E, &Remaining) -> E) -> E {
+        match self.remaining.get(bond) {
+            None => whole,
+            Some(remaining) => weakened(whole, remaining),
+        }
     }
 }

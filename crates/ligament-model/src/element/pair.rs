@@ -48,8 +48,9 @@ pub struct Pair<B> {
     pub bond: B,
 }
 
+// The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
 impl<B: PairKinematics> Element for Pair<B> {
-    #[inline]
+    #[inline(always)]
     fn of(system: &BondSystem, _: &[bool], bond: usize) -> Self {
         Self {
             ends: system.bonds.ends[bond],
@@ -57,7 +58,7 @@ impl<B: PairKinematics> Element for Pair<B> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
             bond: self.bond.weakened(remaining),
@@ -65,7 +66,7 @@ impl<B: PairKinematics> Element for Pair<B> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
         let [a, b] = self.ends.map(|end| UNKNOWNS * end as usize);
         self.bond
@@ -73,7 +74,7 @@ impl<B: PairKinematics> Element for Pair<B> {
     }
 
     /// s = a^2 eps_xx + b^2 eps_yy + a b gamma_xy, gamma = a b (eps_yy - eps_xx) + (a^2 - b^2) gamma_xy/2.
-    #[inline]
+    #[inline(always)]
     fn deformation_in(&self, [xx, yy, xy]: [f64; 3]) -> BondDeformation {
         let (_, [a, b]) = self.bond.geometry();
         BondDeformation {
@@ -83,12 +84,12 @@ impl<B: PairKinematics> Element for Pair<B> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         self.bond.mutual_energy(one, other)
     }
 
-    #[inline]
+    #[inline(always)]
     fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; UNKNOWNS])) {
         let [at_a, at_b] = self.bond.end_forces(deformation);
         add(self.ends[0], at_a);

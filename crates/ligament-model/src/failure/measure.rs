@@ -72,14 +72,14 @@ impl Measure {
     #[inline]
     pub fn of(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
         let BondDeformation { stretch, shear, .. } = *deformation;
-        let coefficient = coefficients.first().copied().unwrap_or(0.0);
+        let coefficient = || coefficients.first().copied().unwrap_or(0.0);
         match self {
             Self::Tension => stretch,
             Self::Compression => -stretch,
             Self::Sliding => shear.abs(),
-            Self::Friction => shear.abs() + stretch * coefficient,
+            Self::Friction => shear.abs() + stretch * coefficient(),
             Self::Energy => {
-                let square = stretch.max(0.0).powi(2) + coefficient * shear * shear;
+                let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
             }
             Self::MixedModeX => mixed_mode::measure(stretch, shear, coefficients),
