@@ -81,9 +81,9 @@ pub struct Balanced {
     pub residual: f64,
     /// Newton-Raphson iterations.
     pub iterations: usize,
-    /// Whether the motions of the points cost a negative energy, beyond rounding ([`BondSweep::energy_of_motion`]): the stored
-    /// one, unless the temperature changes.
-    pub energy_is_negative: bool,
+    /// The energy that the motions of the points cost ([`BondSweep::energy_of_motion`], the stored one unless the temperature
+    /// changes) where it is negative, beyond rounding, J.
+    pub negative_energy: Option<f64>,
     /// Degrees of freedom that turned out to be mechanisms and are held from now on.
     pub mechanisms: Vec<usize>,
 }
@@ -325,14 +325,14 @@ impl<'a> Equilibrium<'a> {
         let residual = self.relative_residual(state, &residual_forces, &internal);
         self.count_bond_work(start);
         let cancelled = CANCELLED * state.load_factor.powi(2) * expansion_energy.abs();
-        let energy_is_negative = energy_of_motion < -self.energy_of_rounding(state) - cancelled;
+        let of_rounding = self.energy_of_rounding(state) + cancelled;
         Balanced {
             deformations,
             internal,
             stored_energy,
             residual,
             iterations: 0,
-            energy_is_negative,
+            negative_energy: Some(energy_of_motion).filter(|energy| *energy < -of_rounding),
             mechanisms: Vec::new(),
         }
     }

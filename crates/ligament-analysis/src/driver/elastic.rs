@@ -25,8 +25,7 @@ pub fn run(
         observer.round(step, 0, load_factor, 0)?;
         let balanced = match equilibrium.balance(&mut state, observer)? {
             Ok(Balanced {
-                energy_is_negative: true,
-                stored_energy: energy,
+                negative_energy: Some(energy),
                 ..
             }) => {
                 let reason = Unbalanced::NegativeEnergy { energy };

@@ -125,8 +125,7 @@ impl<'a> Path<'a> {
         let balanced = self.equilibrium.balance(&mut self.state, self.observer)?;
         let balanced = match balanced {
             Ok(Balanced {
-                energy_is_negative: true,
-                stored_energy: energy,
+                negative_energy: Some(energy),
                 ..
             }) if self.stop.negative_energy => Err(Unbalanced::NegativeEnergy { energy }),
             other => other,
@@ -136,7 +135,8 @@ impl<'a> Path<'a> {
             self.state.softening = softening;
             return Ok(balanced);
         };
-        if balanced.energy_is_negative && !std::mem::replace(&mut self.energy_was_negative, true) {
+        let is_negative = balanced.negative_energy.is_some();
+        if is_negative && !std::mem::replace(&mut self.energy_was_negative, true) {
             self.observer.notice(&Notice::NegativeEnergy { step })?;
         }
         self.solves[0] = self.equilibrium.costs().solves;

@@ -39,10 +39,10 @@ pub enum Unbalanced {
         /// Component name.
         component: &'static str,
     },
-    /// The stored energy is negative.
-    #[error("the stiffness lost stability: negative stored energy {energy:.3e} J")]
+    /// The energy of the motions is negative: the stored one, unless the temperature changes.
+    #[error("the stiffness lost stability: negative strain energy {energy:.3e} J")]
     NegativeEnergy {
-        /// Stored energy, J.
+        /// That energy, J.
         energy: f64,
     },
     /// The matrix could not be factorised.
