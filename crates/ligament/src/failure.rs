@@ -5,7 +5,7 @@ mod mixed_mode;
 use ligament_model::failure::{
     AfterLimit, Criteria, Criterion, Measure, fracture_energy, frictional, sliding,
     softening::{bilinear, exponential},
-    strength, stretch, weakest,
+    strength, stretch, weakest, weakest_materials,
 };
 use ligament_model::law::bbpd;
 use ligament_model::{BondSystem, Isotropic, Material, Plane};
@@ -183,12 +183,17 @@ impl Limits<'_> {
         };
         let (cohesion, slope) = (of(|it| it.cohesion), of(|it| it.slope));
         let limit = weakest(self.system, self.no_fail, &cohesion);
-        let slope_of = |limit: &f64| {
-            let place = cohesion.iter().position(|it| it == limit);
-            place.map_or(0.0, |place| slope[place])
+        let materials = weakest_materials(self.system, &cohesion);
+        // A bond that never fails has no slope, which may be infinite: infinity times zero is no number.
+        let slope_of = |(limit, material): (&f64, usize)| {
+            if limit.is_finite() {
+                slope[material]
+            } else {
+                0.0
+            }
         };
         Ok(Criterion {
-            coefficient: limit.iter().map(slope_of).collect(),
+            coefficient: limit.iter().zip(materials).map(slope_of).collect(),
             ..Criterion::brittle(name, Measure::Friction, limit)
         })
     }

@@ -195,6 +195,24 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
     Ok(materials)
 }
 
+/// The material of a table that was read: the keys that all tables of materials have go on as they are.
+macro_rules! material_of {
+    ($raw:ident, $name:ident, $elasticity:ident, $expansion:ident) => {
+        Material {
+            name: $name,
+            group: $raw.group,
+            elasticity: $elasticity,
+            tensile_strength: $raw.tensile_strength,
+            compressive_strength: $raw.compressive_strength,
+            fracture_energy: $raw.fracture_energy,
+            fracture_energy_sliding: $raw.fracture_energy_sliding,
+            mixed_mode_exponent: $raw.mixed_mode_exponent,
+            density: $raw.density,
+            expansion: $expansion,
+        }
+    };
+}
+
 /// Reads one material; one with a name must have a group.
 fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let section = KeyPath::default().child("material");
@@ -202,77 +220,44 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let has_one_of = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
     let material = if has_one_of(&ANISOTROPIC_KEYS) {
         let raw: RawAnisotropic = decode(table, &key)?;
-        Material {
-            name,
-            group: raw.group,
-            elasticity: Elasticity::Anisotropic(Anisotropic {
-                c11: raw.c11,
-                c12: raw.c12,
-                c16: raw.c16,
-                c22: raw.c22,
-                c26: raw.c26,
-                c66: raw.c66,
-            }),
-            tensile_strength: raw.tensile_strength,
-            compressive_strength: raw.compressive_strength,
-            fracture_energy: raw.fracture_energy,
-            fracture_energy_sliding: raw.fracture_energy_sliding,
-            mixed_mode_exponent: raw.mixed_mode_exponent,
-            density: raw.density,
-            expansion: Expansion::of(
-                &key,
-                raw.thermal_expansion,
-                [raw.thermal_expansion_1, raw.thermal_expansion_2, None],
-            )?,
-        }
+        let axes = [raw.thermal_expansion_1, raw.thermal_expansion_2, None];
+        let expansion = Expansion::of(&key, raw.thermal_expansion, axes)?;
+        let elasticity = Elasticity::Anisotropic(Anisotropic {
+            c11: raw.c11,
+            c12: raw.c12,
+            c16: raw.c16,
+            c22: raw.c22,
+            c26: raw.c26,
+            c66: raw.c66,
+        });
+        material_of!(raw, name, elasticity, expansion)
     } else if has_one_of(&ORTHOTROPIC_KEYS) {
         let raw: RawOrthotropic = decode(table, &key)?;
-        Material {
-            name,
-            group: raw.group,
-            elasticity: Elasticity::Orthotropic(Orthotropic {
-                young_1: raw.young_1,
-                young_2: raw.young_2,
-                poisson_12: raw.poisson_12,
-                shear_modulus: raw.shear_modulus,
-                angle: raw.angle,
-                young_3: raw.young_3,
-                poisson_13: raw.poisson_13,
-                poisson_23: raw.poisson_23,
-            }),
-            tensile_strength: raw.tensile_strength,
-            compressive_strength: raw.compressive_strength,
-            fracture_energy: raw.fracture_energy,
-            fracture_energy_sliding: raw.fracture_energy_sliding,
-            mixed_mode_exponent: raw.mixed_mode_exponent,
-            density: raw.density,
-            expansion: Expansion::of(
-                &key,
-                raw.thermal_expansion,
-                [
-                    raw.thermal_expansion_1,
-                    raw.thermal_expansion_2,
-                    raw.thermal_expansion_3,
-                ],
-            )?,
-        }
+        let axes = [
+            raw.thermal_expansion_1,
+            raw.thermal_expansion_2,
+            raw.thermal_expansion_3,
+        ];
+        let expansion = Expansion::of(&key, raw.thermal_expansion, axes)?;
+        let elasticity = Elasticity::Orthotropic(Orthotropic {
+            young_1: raw.young_1,
+            young_2: raw.young_2,
+            poisson_12: raw.poisson_12,
+            shear_modulus: raw.shear_modulus,
+            angle: raw.angle,
+            young_3: raw.young_3,
+            poisson_13: raw.poisson_13,
+            poisson_23: raw.poisson_23,
+        });
+        material_of!(raw, name, elasticity, expansion)
     } else {
         let raw: RawIsotropic = decode(table, &key)?;
-        Material {
-            name,
-            group: raw.group,
-            elasticity: Elasticity::Isotropic {
-                young: raw.young,
-                poisson: raw.poisson,
-            },
-            tensile_strength: raw.tensile_strength,
-            compressive_strength: raw.compressive_strength,
-            fracture_energy: raw.fracture_energy,
-            fracture_energy_sliding: raw.fracture_energy_sliding,
-            mixed_mode_exponent: raw.mixed_mode_exponent,
-            density: raw.density,
-            expansion: Expansion::of(&key, raw.thermal_expansion, [None; 3])?,
-        }
+        let expansion = Expansion::of(&key, raw.thermal_expansion, [None; 3])?;
+        let elasticity = Elasticity::Isotropic {
+            young: raw.young,
+            poisson: raw.poisson,
+        };
+        material_of!(raw, name, elasticity, expansion)
     };
     if material.name.is_some() && material.group.is_none() {
         let fault = Fault::MissingKey {

@@ -31,16 +31,11 @@ impl Limits<'_> {
                 .map(|it| self.of_energies(it))
                 .collect(),
         };
-        let sides = [
-            ("mixed-mode-x", Measure::MixedModeX),
-            ("mixed-mode-y", Measure::MixedModeY),
+        let axes = [
+            ("mixed-mode-x", Measure::MixedModeX, 0),
+            ("mixed-mode-y", Measure::MixedModeY, 1),
         ];
-        let mut axis = 0;
-        sides.map(|(name, measure)| {
-            let criterion = self.opening(name, measure, axis, &of_materials);
-            axis += 1;
-            criterion
-        })
+        axes.map(|(name, measure, axis)| self.opening(name, measure, axis, &of_materials))
     }
 
     fn opening(
