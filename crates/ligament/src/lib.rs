@@ -18,6 +18,7 @@ pub mod model;
 mod modes;
 pub mod plots;
 pub mod progress;
+pub mod quantities;
 pub mod resolve;
 pub mod run;
 pub mod solve;

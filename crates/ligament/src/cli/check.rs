@@ -1,0 +1,43 @@
+//! `ligament check`.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::CaseArgs;
+use crate::check::{Extent, check};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament check cases/disk/case.toml
+  ligament check case.toml --set model.horizon_factor=4
+  ligament check case.toml --model-only    points and bonds alone, no matrix: for large meshes
+  ligament check case.toml --out check     writes check/points.vtu to look at in ParaView";
+
+/// `ligament check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The case file and changes to it.
+    #[command(flatten)]
+    pub case: CaseArgs,
+    /// Prepare points, bonds and their correction only, and leave the matrix out
+    #[arg(long)]
+    pub model_only: bool,
+    /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+impl CheckArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let case = self.case.load()?;
+        let extent = if self.model_only {
+            Extent::Model
+        } else {
+            Extent::Matrix
+        };
+        check(&case, extent, self.out.as_deref(), &mut io::stdout())
+    }
+}

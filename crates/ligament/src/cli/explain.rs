@@ -1,0 +1,75 @@
+//! `ligament explain`.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::position;
+use crate::explain::{Request, Subject, explain};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament explain results/disk --point 812         all bonds of node 812
+  ligament explain results/disk --at 0.01,-0.02     of the point nearest to x, y (m)
+  ligament explain results/disk --bond 812 815      the bond between two nodes
+  ligament explain results/disk --bond 812 815 --csv bond.csv
+
+Nodes have the tags of the mesh file, cells of a lattice count from 1 row by row: both as in the
+result files. Bonds are seen in the steps that have fields (output.fields_every); the largest
+utilisation and the breakages are those of all steps.";
+
+/// `ligament explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The folder with the results of a run
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+    /// What to explain.
+    #[command(flatten)]
+    pub subject: SubjectArgs,
+    /// Write a table with a row a bond and step, replacing what is there
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write limits, breakages and paths as JSON, replacing what is there
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+/// What `explain` explains: one of these.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub struct SubjectArgs {
+    /// All bonds of the point with this tag
+    #[arg(long, value_name = "TAG")]
+    pub point: Option<i64>,
+    /// The bond between the points with these tags
+    #[arg(long, value_names = ["A", "B"], num_args = 2)]
+    pub bond: Option<Vec<i64>>,
+    /// All bonds of the point nearest to this position, in the coordinates of the mesh, m
+    #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
+    pub at: Option<[f64; 2]>,
+}
+
+impl ExplainArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let subject = match (
+            self.subject.point,
+            self.subject.bond.as_deref(),
+            self.subject.at,
+        ) {
+            (Some(tag), ..) => Subject::Point(tag),
+            (_, Some(&[a, b]), _) => Subject::Bond([a, b]),
+            (_, _, Some(position)) => Subject::At(position),
+            _ => unreachable!("one of them is required, and a bond has two ends"),
+        };
+        let request = Request {
+            folder: self.results,
+            subject,
+            csv: self.csv,
+            json: self.json,
+        };
+        explain(&request, &mut io::stdout().lock())
+    }
+}
