@@ -1,5 +1,6 @@
 //! The command line: a file for each command, with its options, its help and what it calls.
 
+mod calibrate;
 mod check;
 mod completions;
 mod explain;
@@ -15,6 +16,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::case::{CaseError, CaseFile, MOST_THREADS};
 
+pub use calibrate::CalibrateArgs;
 pub use check::CheckArgs;
 pub use completions::CompletionsArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
@@ -60,6 +62,12 @@ pub enum Command {
     /// memory.
     #[command(after_help = check::EXAMPLES)]
     Check(CheckArgs),
+    /// Find the value of a key with which a result meets a target
+    ///
+    /// Runs the case with one value after the other, of the tensile strength say, until the peak load is that of a
+    /// test: first in proportion, then between values on both sides of the target. Keeps a record of its runs.
+    #[command(after_help = calibrate::EXAMPLES)]
+    Calibrate(CalibrateArgs),
     /// Tell why a bond broke or did not, from the results of a run
     ///
     /// Prints the life of a bond, or of all bonds of a point: horizon, factors, limits, how near it came
@@ -130,6 +138,7 @@ impl Cli {
         match self.command {
             Command::Run(args) => args.execute(),
             Command::Check(args) => args.execute(),
+            Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),
             Command::Inspect(args) => args.execute(),
             Command::Mesh(args) => args.execute(),

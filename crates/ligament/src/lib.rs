@@ -5,6 +5,7 @@
 )]
 
 pub mod body;
+pub mod calibrate;
 pub mod case;
 pub mod check;
 pub mod cli;

@@ -59,7 +59,7 @@ pub enum QuantityError {
 }
 
 impl Quantities {
-    /// Flattens a summary: parts of tables and lists are joined by dots, `modes.0.frequency_hz`. Of the warnings their number
+    /// Flattens a summary: parts of tables and lists are joined by dots, `modes.0.frequency`. Of the warnings their number
     /// is left, of the stages `seconds` and `peak_bytes`.
     pub fn of_summary(summary: &Value) -> Self {
         let mut all = Vec::new();
@@ -174,7 +174,7 @@ mod tests {
             "title": "disk",
             "first_peak": { "reaction": 6e5, "displacement": 1e-4 },
             "first_break": null,
-            "modes": [{ "frequency_hz": 10.0 }],
+            "modes": [{ "frequency": 10.0 }],
             "warnings": ["a", "b"],
             "stages": [
                 { "name": "bonds", "seconds": 0.5, "peak_bytes": 10 },
@@ -187,7 +187,7 @@ mod tests {
     fn results_have_dotted_names() {
         let quantities = sample();
         assert_eq!(quantities.number("first_peak.reaction").unwrap(), 6e5);
-        assert_eq!(quantities.number("modes.0.frequency_hz").unwrap(), 10.0);
+        assert_eq!(quantities.number("modes.0.frequency").unwrap(), 10.0);
         assert_eq!(quantities.number("warnings").unwrap(), 2.0);
         assert_eq!(quantities.number("seconds").unwrap(), 2.0);
         assert_eq!(quantities.number("peak_bytes").unwrap(), 30.0);

@@ -87,6 +87,21 @@ impl Node {
         }
     }
 
+    /// The value at a path, if there is one.
+    pub(crate) fn at(&self, path: &KeyPath) -> Option<&Node> {
+        let mut segments = path.0.iter();
+        segments.try_fold(self, |node, segment| node.step(segment))
+    }
+
+    /// The value, if it is a number.
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self.value {
+            Value::Integer(integer) => Some(integer as f64),
+            Value::Float(float) => Some(float),
+            _ => None,
+        }
+    }
+
     /// Where the value at a path was written or, failing that, the innermost table above it.
     ///
     /// `None` where not even the path's first key exists.
@@ -105,11 +120,7 @@ impl Node {
 
     /// Where the key at a path (rather than its value) was written.
     pub(crate) fn key_origin_of(&self, path: &KeyPath) -> Option<Origin> {
-        let parent = path
-            .parent()
-            .0
-            .iter()
-            .try_fold(self, |node, segment| node.step(segment))?;
+        let parent = self.at(&path.parent())?;
         parent
             .entries()
             .iter()

@@ -113,6 +113,22 @@ impl CaseFile {
         .error(KeyFault::new(key, fault))
     }
 
+    /// The number at a key path such as `material.young`: as given, or else its default; `None` where neither is a number.
+    ///
+    /// # Errors
+    ///
+    /// If the case cannot be written as TOML.
+    pub fn number(&self, key: &str) -> Result<Option<f64>, toml_edit::ser::Error> {
+        let Some(path) = KeyPath::parse(key) else {
+            return Ok(None);
+        };
+        if let Some(number) = self.document.at(&path).and_then(Node::number) {
+            return Ok(Some(number));
+        }
+        let resolved = Node::parse_document(&self.resolved_toml()?);
+        Ok(resolved.ok().and_then(|it| it.at(&path)?.number()))
+    }
+
     /// The case as TOML with every default filled in and the mesh given by its absolute path.
     ///
     /// # Errors

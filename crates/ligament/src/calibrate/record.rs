@@ -1,0 +1,266 @@
+//! The record of a calibration: `calibration.json` and `calibration.csv`, and the lines that a user sees.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use ligament_output::csv::{Table, Value};
+use ligament_output::folder::ResultFolder;
+use serde::Serialize;
+
+use super::search::{Trial, Verdict};
+use super::{CUT_SHORT, Request, setting};
+use crate::quantities::Quantities;
+
+/// The file by which the folder of a calibration is recognised.
+const RECORD: &str = "calibration.json";
+
+/// The runs so far, on disk and in memory.
+pub(super) struct Record {
+    request: Request,
+    folder: ResultFolder,
+    table: Table,
+    runs: Vec<Run>,
+}
+
+/// A run of a calibration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Run {
+    /// Its number, from 1.
+    number: usize,
+    /// Value of the key, and the result.
+    #[serde(flatten)]
+    pub(super) trial: Trial,
+    /// Why it ended.
+    termination: String,
+    /// Broken bonds.
+    broken_bonds: u64,
+    /// Wall time, s.
+    seconds: f64,
+    /// Units of displacement and force.
+    #[serde(skip)]
+    units: [String; 2],
+}
+
+/// `calibration.json`.
+#[derive(Serialize)]
+struct Whole<'a> {
+    version: &'static str,
+    case: &'a Path,
+    overrides: &'a [String],
+    key: &'a str,
+    of: &'a str,
+    target: f64,
+    within: f64,
+    from: Option<f64>,
+    to: Option<f64>,
+    most_runs: usize,
+    /// `running` until the end, then `met`, `jump`, `out-of-reach` or `out-of-runs`.
+    outcome: &'static str,
+    /// The value that meets the target.
+    value: Option<f64>,
+    runs: &'a [Run],
+}
+
+impl Run {
+    pub(super) fn new(number: usize, trial: Trial, results: &Quantities) -> Self {
+        let word = |name: &str| {
+            let value = results.get(name).and_then(serde_json::Value::as_str);
+            value.unwrap_or_default().to_owned()
+        };
+        let count = results
+            .get("broken_bonds")
+            .and_then(serde_json::Value::as_u64);
+        Self {
+            number,
+            trial,
+            termination: word("termination"),
+            broken_bonds: count.unwrap_or_default(),
+            seconds: results.number("seconds").unwrap_or(f64::NAN),
+            units: [word("units.displacement"), word("units.force")],
+        }
+    }
+}
+
+impl Record {
+    /// Begins a record in a new folder.
+    pub(super) fn create(request: &Request) -> anyhow::Result<Self> {
+        let folder = ResultFolder::create_marked(&request.out, RECORD, request.force)?;
+        write_whole(&folder, request, "running", None, &[])?;
+        let columns = [
+            "run",
+            &request.key,
+            &request.of,
+            "off",
+            "termination",
+            "broken_bonds",
+            "seconds",
+            "folder",
+        ];
+        let table = Table::create(folder.file("calibration.csv"), &columns)?;
+        Ok(Self {
+            request: request.clone(),
+            folder,
+            table,
+            runs: Vec::new(),
+        })
+    }
+
+    pub(super) fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Where a run puts its results.
+    pub(super) fn run_folder(&self, number: usize) -> PathBuf {
+        self.folder.file(&run_name(number))
+    }
+
+    /// Adds a run that is done.
+    pub(super) fn append(&mut self, run: Run) -> anyhow::Result<()> {
+        let name = run_name(run.number);
+        self.table.append(&[
+            run.number.into(),
+            run.trial.key.into(),
+            run.trial.result.into(),
+            self.off(&run.trial).into(),
+            Value::Text(&run.termination),
+            run.broken_bonds.into(),
+            run.seconds.into(),
+            Value::Text(&name),
+        ])?;
+        self.runs.push(run);
+        write_whole(&self.folder, &self.request, "running", None, &self.runs)
+    }
+
+    /// Notes how it ended.
+    pub(super) fn close(&self, verdict: &Verdict) -> anyhow::Result<()> {
+        let (outcome, value) = match verdict {
+            Verdict::Met(trial) => ("met", Some(trial.key)),
+            Verdict::Jump(_) => ("jump", None),
+            Verdict::OutOfReach => ("out-of-reach", None),
+            Verdict::OutOfTrials => ("out-of-runs", None),
+        };
+        write_whole(&self.folder, &self.request, outcome, value, &self.runs)
+    }
+
+    /// Difference from the target, relative to it.
+    fn off(&self, trial: &Trial) -> f64 {
+        (trial.result - self.request.target) / self.request.target.abs()
+    }
+
+    /// What heads the lines of the runs.
+    pub(super) fn heading(&self) -> String {
+        let Request {
+            key,
+            of,
+            target,
+            within,
+            ..
+        } = &self.request;
+        format!(
+            "calibrating {key}: {of} is to be {target:.6e} within {} %",
+            100.0 * within
+        )
+    }
+
+    /// The line of a run.
+    pub(super) fn line(&self, run: &Run) -> String {
+        let Request { key, of, .. } = &self.request;
+        let unit = match of.rsplit('.').next() {
+            Some("displacement") => format!(" {}", run.units[0]),
+            Some("reaction") => format!(" {}", run.units[1]),
+            _ => String::new(),
+        };
+        let Trial { key: value, result } = run.trial;
+        let mut line = format!(
+            "  run {}: {key} = {value:.6e} gives {result:.6e}{unit}, {:+.2} % off, {} bonds broken, {:.1} s",
+            run.number,
+            100.0 * self.off(&run.trial),
+            run.broken_bonds,
+            run.seconds,
+        );
+        if of.contains("peak") && CUT_SHORT.contains(&run.termination.as_str()) {
+            line.push_str("; it ended before the load fell: its peak may lie beyond");
+        }
+        line
+    }
+
+    /// The answer, for the user.
+    pub(super) fn write_answer(&self, trial: &Trial, out: &mut dyn Write) -> io::Result<()> {
+        let key = &self.request.key;
+        writeln!(out, "{key} = {}", self.words(trial))?;
+        writeln!(out, "  runs               {}", self.runs.len())?;
+        writeln!(
+            out,
+            "  use it by          --set {}",
+            setting(key, trial.key)
+        )?;
+        writeln!(out, "  record in          {}", self.folder.path().display())
+    }
+
+    /// Why there is no answer, for the user.
+    pub(super) fn why_not(&self, verdict: &Verdict) -> String {
+        let Request { key, of, .. } = &self.request;
+        let n_runs = self.runs.len();
+        let record = self.folder.path().display();
+        let off = |run: &&Run| self.off(&run.trial).abs();
+        let best = self.runs.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let nearest = best.map(|run| self.words(&run.trial)).unwrap_or_default();
+        match verdict {
+            Verdict::Jump([a, b]) => format!(
+                "{of} jumps over the target between {key} = {} and {} ({n_runs} runs, record in {record}); fewer bonds an \
+                 iteration or smaller load steps may make it smoother, a larger --within takes one of the two",
+                self.words(a),
+                self.words(b)
+            ),
+            Verdict::OutOfReach => format!(
+                "no value of {key} between --from and --to meets the target; nearest is {nearest} ({n_runs} runs, record in \
+                 {record})"
+            ),
+            Verdict::OutOfTrials | Verdict::Met(_) => format!(
+                "the target was not met in {n_runs} runs (--max-runs); nearest is {key} = {nearest} (record in {record})"
+            ),
+        }
+    }
+
+    fn words(&self, Trial { key, result }: &Trial) -> String {
+        let off = 100.0
+            * self.off(&Trial {
+                key: *key,
+                result: *result,
+            });
+        format!(
+            "{key:?} with {} = {result:.6e}, {off:+.2} % off",
+            self.request.of
+        )
+    }
+}
+
+fn run_name(number: usize) -> String {
+    format!("run-{number:02}")
+}
+
+fn write_whole(
+    folder: &ResultFolder,
+    request: &Request,
+    outcome: &'static str,
+    value: Option<f64>,
+    runs: &[Run],
+) -> anyhow::Result<()> {
+    let whole = Whole {
+        version: env!("CARGO_PKG_VERSION"),
+        case: &request.case,
+        overrides: &request.overrides,
+        key: &request.key,
+        of: &request.of,
+        target: request.target,
+        within: request.within,
+        from: request.limits[0],
+        to: request.limits[1],
+        most_runs: request.most_runs,
+        outcome,
+        value,
+        runs,
+    };
+    let text = serde_json::to_string_pretty(&whole)?;
+    Ok(folder.write_text(RECORD, &(text + "\n"))?)
+}

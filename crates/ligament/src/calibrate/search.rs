@@ -1,0 +1,342 @@
+//! Where a result meets its target: a search that brackets, and asks for few runs.
+//!
+//! [`Search::next`] is a function of the trials so far, so that a search can be taken up from its record. The first
+//! guess takes the result to be proportional to the key, as a peak load is to the strengths of the bonds; then a secant
+//! looks for trials on both sides of the target, and false position (Illinois rule, and a bisection where the bracket
+//! does not halve) closes in between them. Results of fracture jump: where the bracket is as narrow as the resolution and
+//! neither end meets the target, that is the answer.
+
+use serde::Serialize;
+
+/// What is sought.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// Value of the key to begin with.
+    pub start: f64,
+    /// Smallest and largest value of the key that may be tried.
+    pub limits: [f64; 2],
+    /// What the result is to be.
+    pub target: f64,
+    /// Largest difference from the target that counts as met, in units of the result.
+    pub tolerance: f64,
+    /// Width of a bracket, relative to its larger end, that is not divided any more.
+    pub resolution: f64,
+    /// Largest number of trials.
+    pub most_trials: usize,
+}
+
+/// A value of the key and the result that it led to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Trial {
+    /// Value of the key.
+    pub key: f64,
+    /// The result.
+    pub result: f64,
+}
+
+/// What to do after some trials.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Next {
+    /// Try this value of the key.
+    Try(f64),
+    /// Stop.
+    Stop(Verdict),
+}
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// The target is met by this trial.
+    Met(Trial),
+    /// The result jumps over the target between two values of the key that are as good as the same.
+    Jump([Trial; 2]),
+    /// All values of the key that may be tried lead to one side of the target.
+    OutOfReach,
+    /// No more trials are allowed.
+    OutOfTrials,
+}
+
+/// A guess without a bracket changes the key by no more than this factor, ...
+const LARGEST_STRIDE: f64 = 4.0;
+
+/// ... and goes further than the secant says by this share, so that it lands beyond the target.
+const OVERSHOOT: f64 = 0.25;
+
+/// A value inside a bracket stays away from its ends by this share of its width.
+const MARGIN: f64 = 0.02;
+
+/// Digits of the values that are tried.
+const DIGITS: usize = 7;
+
+impl Search {
+    /// What to do after these trials, in their order.
+    pub fn next(&self, trials: &[Trial]) -> Next {
+        let Some(best) = self.best(trials) else {
+            return Next::Try(self.allowed(self.start));
+        };
+        if self.miss(&best).abs() <= self.tolerance {
+            return Next::Stop(Verdict::Met(best));
+        }
+        let bracket = self.bracket(trials);
+        if let Some(ends) = bracket
+            && self.is_narrow(ends)
+        {
+            return Next::Stop(Verdict::Jump(ends));
+        }
+        if trials.len() >= self.most_trials {
+            return Next::Stop(Verdict::OutOfTrials);
+        }
+        match bracket {
+            Some(ends) => Next::Try(self.allowed(self.inside(ends, trials))),
+            None => self.outside(best, trials),
+        }
+    }
+
+    /// The trial nearest to the target.
+    pub fn best(&self, trials: &[Trial]) -> Option<Trial> {
+        let nearest = |a: &&Trial, b: &&Trial| self.miss(a).abs().total_cmp(&self.miss(b).abs());
+        trials.iter().min_by(nearest).copied()
+    }
+
+    fn miss(&self, trial: &Trial) -> f64 {
+        trial.result - self.target
+    }
+
+    /// The value within the limits that is nearest, in digits that one would write into a case file.
+    fn allowed(&self, key: f64) -> f64 {
+        let written = format!("{key:.*e}", DIGITS - 1);
+        written
+            .parse()
+            .unwrap_or(key)
+            .clamp(self.limits[0], self.limits[1])
+    }
+
+    /// Neighbours on both sides of the target, lower key first; of several such pairs the one that misses least.
+    fn bracket(&self, trials: &[Trial]) -> Option<[Trial; 2]> {
+        let mut sorted = trials.to_vec();
+        sorted.sort_by(|a, b| a.key.total_cmp(&b.key));
+        let pairs = sorted.windows(2).map(|pair| [pair[0], pair[1]]);
+        let around = pairs.filter(|[a, b]| (self.miss(a) > 0.0) != (self.miss(b) > 0.0));
+        let missed = |[a, b]: &[Trial; 2]| self.miss(a).abs().min(self.miss(b).abs());
+        around.min_by(|a, b| missed(a).total_cmp(&missed(b)))
+    }
+
+    fn is_narrow(&self, [a, b]: [Trial; 2]) -> bool {
+        b.key - a.key <= self.resolution * a.key.abs().max(b.key.abs())
+    }
+
+    /// A value between two trials around the target.
+    fn inside(&self, [a, b]: [Trial; 2], trials: &[Trial]) -> f64 {
+        // Trials in a row that came to the same side leave the other end where it is: it is made to count half for each
+        // (Illinois), and after three of them the bracket is halved.
+        let same_side = |trial: &&Trial| {
+            let last = trials.last().unwrap_or(trial);
+            (self.miss(trial) > 0.0) == (self.miss(last) > 0.0)
+        };
+        let in_a_row = trials.iter().rev().take_while(same_side).count();
+        let middle = 0.5 * (a.key + b.key);
+        if in_a_row > 3 {
+            return middle;
+        }
+        let weight = 0.5f64.powi(in_a_row.saturating_sub(1) as i32);
+        let last_is_above = trials.last().is_some_and(|last| self.miss(last) > 0.0);
+        let weighted = |trial: &Trial| {
+            let is_last_side = (self.miss(trial) > 0.0) == last_is_above;
+            self.miss(trial) * if is_last_side { 1.0 } else { weight }
+        };
+        let (miss_a, miss_b) = (weighted(&a), weighted(&b));
+        let share = (miss_a / (miss_a - miss_b)).clamp(MARGIN, 1.0 - MARGIN);
+        a.key + share * (b.key - a.key)
+    }
+
+    /// A value beyond trials that all lie on one side of the target.
+    fn outside(&self, best: Trial, trials: &[Trial]) -> Next {
+        let key = match self.nearest_other(best, trials) {
+            None => self.in_proportion(best),
+            Some(other) if other.result == best.result => self.beyond_level(best, trials),
+            Some(other) => self.along_secant(best, other),
+        };
+        let key = self.allowed(key);
+        if !trials.iter().any(|trial| trial.key == key) {
+            return Next::Try(key);
+        }
+        // At a limit already: the other limit is all that is left.
+        let untried = |limit: &f64| limit.is_finite() && !trials.iter().any(|it| it.key == *limit);
+        match self.limits.into_iter().find(untried) {
+            Some(limit) => Next::Try(limit),
+            None => Next::Stop(Verdict::OutOfReach),
+        }
+    }
+
+    /// The trial nearest to the target but for the best.
+    fn nearest_other(&self, best: Trial, trials: &[Trial]) -> Option<Trial> {
+        let others: Vec<Trial> = (trials.iter().copied())
+            .filter(|trial| trial.key != best.key)
+            .collect();
+        self.best(&others)
+    }
+
+    /// The result taken to be proportional to the key.
+    fn in_proportion(&self, trial: Trial) -> f64 {
+        if trial.key == 0.0 {
+            let [low, high] = self.limits;
+            return if high.is_finite() { high } else { low };
+        }
+        let ratio = self.target / trial.result;
+        let ratio = if ratio > 0.0 { ratio } else { LARGEST_STRIDE };
+        trial.key * ratio.clamp(1.0 / LARGEST_STRIDE, LARGEST_STRIDE)
+    }
+
+    /// The result taken to go on as between two trials, from the better one.
+    fn along_secant(&self, best: Trial, other: Trial) -> f64 {
+        let slope = (best.result - other.result) / (best.key - other.key);
+        let step = -self.miss(&best) / slope * (1.0 + OVERSHOOT);
+        let far = (LARGEST_STRIDE - 1.0) * best.key.abs().max((best.key - other.key).abs());
+        // Towards zero a stride leaves a share of the key, which so keeps its sign.
+        let inwards = (1.0 - 1.0 / LARGEST_STRIDE) * best.key.abs();
+        let [down, up] = match best.key {
+            key if key > 0.0 => [inwards, far],
+            key if key < 0.0 => [far, inwards],
+            _ => [far, far],
+        };
+        best.key + step.clamp(-down, up)
+    }
+
+    /// Where the result does not change with the key: beyond all trials, in turns on either side, first where a result
+    /// that grows with the size of the key would meet the target.
+    fn beyond_level(&self, best: Trial, trials: &[Trial]) -> f64 {
+        let sizes = trials.iter().map(|trial| trial.key.abs());
+        let grows = self.target.abs() > best.result.abs();
+        let size = if grows == trials.len().is_multiple_of(2) {
+            LARGEST_STRIDE * sizes.fold(0.0, f64::max)
+        } else {
+            sizes.fold(f64::INFINITY, f64::min) / LARGEST_STRIDE
+        };
+        size.copysign(best.key)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SEARCH: Search = Search {
+        start: 3.0,
+        limits: [f64::NEG_INFINITY, f64::INFINITY],
+        target: 10.0,
+        tolerance: 0.1,
+        resolution: 1e-4,
+        most_trials: 30,
+    };
+
+    /// Follows a search over a known function.
+    fn follow(search: &Search, of: impl Fn(f64) -> f64) -> (Vec<Trial>, Verdict) {
+        let mut trials = Vec::new();
+        loop {
+            match search.next(&trials) {
+                Next::Stop(verdict) => return (trials, verdict),
+                Next::Try(key) => {
+                    assert!(
+                        (search.limits[0]..=search.limits[1]).contains(&key),
+                        "{key}"
+                    );
+                    let result = of(key);
+                    trials.push(Trial { key, result });
+                }
+            }
+        }
+    }
+
+    fn met(search: &Search, of: impl Fn(f64) -> f64) -> (f64, usize) {
+        match follow(search, of) {
+            (trials, Verdict::Met(trial)) => (trial.key, trials.len()),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_result_in_proportion_takes_two_trials() {
+        assert_eq!(met(&SEARCH, |key| 4.0 * key), (2.5, 2));
+        assert_eq!(met(&SEARCH, |key| 10.0 * key / 3.0), (3.0, 1));
+        let negative = Search {
+            start: -1.0,
+            ..SEARCH
+        };
+        assert_eq!(met(&negative, |key| -2.0 * key), (-5.0, 4));
+    }
+
+    #[test]
+    fn smooth_results_take_few_trials() {
+        for (of, root) in [
+            (
+                &(|key: f64| key.powi(3)) as &dyn Fn(f64) -> f64,
+                10f64.cbrt(),
+            ),
+            (&|key: f64| 20.0 - key.sqrt(), 100.0),
+            (
+                &|key: f64| 40.0 * (1.0 - (-key / 7.0).exp()),
+                -7.0 * 0.75f64.ln(),
+            ),
+            (&|key: f64| 100.0 / key, 10.0),
+            (&|key: f64| key.exp(), 10f64.ln()),
+        ] {
+            let (key, trials) = met(&SEARCH, of);
+            assert!((of(key) - 10.0).abs() <= SEARCH.tolerance);
+            assert!((key / root - 1.0).abs() < 0.05, "{key} for {root}");
+            assert!(trials <= 9, "{trials} trials for {root}");
+        }
+    }
+
+    #[test]
+    fn a_result_with_noise_is_met_as_well() {
+        // Ordered breaking makes a peak uneven by some percent.
+        let noisy = |key: f64| 4.0 * key * (1.0 + 0.03 * (37.0 * key).sin());
+        let (key, trials) = met(&SEARCH, noisy);
+        assert!((noisy(key) - 10.0).abs() <= 0.1 && trials <= 12, "{trials}");
+    }
+
+    #[test]
+    fn a_jump_over_the_target_is_told_with_both_its_sides() {
+        let (trials, verdict) = follow(&SEARCH, |key| if key < 2.0 { 9.0 } else { 11.0 });
+        let Verdict::Jump([below, above]) = verdict else {
+            panic!("{verdict:?}")
+        };
+        assert!(below.key < 2.0 && above.key >= 2.0 && above.key - below.key <= 2e-4);
+        assert_eq!([below.result, above.result], [9.0, 11.0]);
+        assert!(trials.len() <= 30);
+    }
+
+    #[test]
+    fn limits_are_kept_and_may_be_too_narrow() {
+        let limited = Search {
+            limits: [1.0, 4.0],
+            ..SEARCH
+        };
+        assert_eq!(follow(&limited, |key| key).1, Verdict::OutOfReach);
+        let (key, _) = met(&limited, |key| key * key);
+        assert!((key - 10f64.sqrt()).abs() < 0.05);
+        let falling = |key: f64| 14.0 - 2.0 * key;
+        assert!((met(&limited, falling).0 - 2.0).abs() <= 0.05);
+    }
+
+    #[test]
+    fn a_result_that_does_not_depend_on_the_key_ends() {
+        let (trials, verdict) = follow(&SEARCH, |_| 5.0);
+        assert_eq!(verdict, Verdict::OutOfTrials);
+        assert_eq!(trials.len(), SEARCH.most_trials);
+        let limited = Search {
+            limits: [1.0, 4.0],
+            ..SEARCH
+        };
+        assert_eq!(follow(&limited, |_| 5.0).1, Verdict::OutOfReach);
+    }
+
+    #[test]
+    fn a_search_goes_on_from_its_record() {
+        let of = |key: f64| key.powi(3);
+        let (trials, _) = follow(&SEARCH, of);
+        for done in 0..trials.len() {
+            assert_eq!(SEARCH.next(&trials[..done]), Next::Try(trials[done].key));
+        }
+    }
+}

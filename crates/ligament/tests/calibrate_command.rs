@@ -1,0 +1,190 @@
+//! `ligament calibrate` as it is called.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn case(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../cases")
+        .join(name)
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Calibrates a case into a folder of the given parent.
+fn calibrate(parent: &Path, name: &str, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ligament"))
+        .arg("calibrate")
+        .arg(case(name))
+        .args(arguments)
+        .arg("--out")
+        .arg(parent.join("out"))
+        .output()
+        .unwrap()
+}
+
+fn record(parent: &Path) -> Value {
+    let text = fs::read_to_string(parent.join("out/calibration.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+/// The error of a calibration that cannot begin; nothing is written.
+fn refused(name: &str, arguments: &[&str]) -> String {
+    let parent = tempfile::tempdir().unwrap();
+    let output = calibrate(parent.path(), name, arguments);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    assert!(!parent.path().join("out").exists());
+    text(&output.stderr)
+}
+
+const PLATE: &str = "plate-tension/case.toml";
+
+#[test]
+fn the_stiffness_of_a_plate_is_proportional_to_youngs_modulus() {
+    let parent = tempfile::tempdir().unwrap();
+    let of = ["--key", "material.young", "--of", "elastic_stiffness"];
+    let goal = ["--target", "1e8", "--within", "1e-6"];
+    let output = calibrate(parent.path(), PLATE, &[&of[..], &goal].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let record = record(parent.path());
+    assert_eq!(record["outcome"], "met");
+    let runs = record["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), 2, "in proportion: the second run meets it");
+    let number = |run: usize, of: &str| runs[run][of].as_f64().unwrap();
+    // Stiffness and modulus have the same ratio in both runs, and the second has the target.
+    let ratio = |run| number(run, "result") / number(run, "key");
+    assert!((ratio(0) / ratio(1) - 1.0).abs() < 1e-9);
+    assert!((number(1, "result") / 1e8 - 1.0).abs() < 1e-6);
+    let stdout = text(&output.stdout);
+    let setting = format!(
+        "--set material.young={:?}",
+        record["value"].as_f64().unwrap()
+    );
+    assert!(stdout.contains(&setting), "{stdout}");
+    // The runs are there as any other run is, and the table has a row for each.
+    for run in ["run-01", "run-02"] {
+        assert!(
+            parent
+                .path()
+                .join("out")
+                .join(run)
+                .join("summary.json")
+                .is_file()
+        );
+    }
+    let table = fs::read_to_string(parent.path().join("out/calibration.csv")).unwrap();
+    assert_eq!(table.lines().count(), 3);
+    assert!(table.starts_with("run,material.young,elastic_stiffness,off,"));
+}
+
+#[test]
+fn a_frequency_goes_with_the_root_of_the_stiffness() {
+    let parent = tempfile::tempdir().unwrap();
+    let of = ["--key", "material.young", "--of", "modes.0.frequency"];
+    let goal = ["--target", "400", "--within", "1e-4"];
+    let output = calibrate(parent.path(), "modal-plate/case.toml", &[of, goal].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let record = record(parent.path());
+    let runs = record["runs"].as_array().unwrap();
+    let of_run = |run: &Value, of: &str| run[of].as_f64().unwrap();
+    let (first, last) = (&runs[0], &runs[runs.len() - 1]);
+    let ratio = of_run(last, "result") / of_run(first, "result");
+    let expected = (of_run(last, "key") / of_run(first, "key")).sqrt();
+    assert!((ratio / expected - 1.0).abs() < 1e-9);
+    assert!((of_run(last, "result") / 400.0 - 1.0).abs() <= 1e-4);
+    assert!(runs.len() <= 8, "{} runs", runs.len());
+}
+
+#[test]
+fn a_result_that_jumps_is_told_with_both_sides() {
+    let parent = tempfile::tempdir().unwrap();
+    // Broken bonds are whole numbers, so that a half is jumped over.
+    let of = ["--key", "material.tensile_strength", "--of", "broken_bonds"];
+    let goal = ["--target", "0.5", "--max-runs", "40"];
+    let case = "cracked-plate-force/case.toml";
+    let output = calibrate(parent.path(), case, &[of, goal].concat());
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("broken_bonds jumps over the target"),
+        "{error}"
+    );
+    let record = record(parent.path());
+    assert_eq!(record["outcome"], "jump");
+    assert_eq!(record["value"], Value::Null);
+}
+
+#[test]
+fn limits_out_of_reach_keep_the_record() {
+    let parent = tempfile::tempdir().unwrap();
+    let of = ["--key", "material.young", "--of", "elastic_stiffness"];
+    let goal = ["--target", "1e15", "--from", "1e10", "--to", "2e11"];
+    let output = calibrate(parent.path(), PLATE, &[&of[..], &goal].concat());
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("no value of material.young between --from and --to"),
+        "{error}"
+    );
+    let record = record(parent.path());
+    assert_eq!(record["outcome"], "out-of-reach");
+    let tried = record["runs"].as_array().unwrap();
+    let keys: Vec<f64> = tried
+        .iter()
+        .map(|run| run["key"].as_f64().unwrap())
+        .collect();
+    assert!(keys.contains(&2e11) && keys.contains(&1e10), "{keys:?}");
+    // An earlier calibration is replaced on demand alone.
+    let again = calibrate(parent.path(), PLATE, &[&of[..], &goal].concat());
+    assert!(text(&again.stderr).contains("--force"));
+}
+
+#[test]
+fn what_cannot_begin_is_told_before_anything_is_written() {
+    let of = |key, target| {
+        [
+            "--key",
+            key,
+            "--target",
+            target,
+            "--of",
+            "elastic_stiffness",
+        ]
+    };
+    let misspelt = refused(PLATE, &of("material.yuong", "1e9"));
+    assert!(misspelt.contains("did you mean `young`?"), "{misspelt}");
+    let absent = refused(PLATE, &of("material.density", "1e9"));
+    assert!(absent.contains("--from and --to"), "{absent}");
+    let zero = refused(PLATE, &of("material.young", "0"));
+    assert!(zero.contains("other than 0"), "{zero}");
+    let limits = ["--from", "2e9", "--to", "1e9"];
+    let empty = refused(PLATE, &[&of("material.young", "1e9")[..], &limits].concat());
+    assert!(empty.contains("is not below"), "{empty}");
+}
+
+#[test]
+fn a_misspelt_result_is_told_after_the_first_run() {
+    let parent = tempfile::tempdir().unwrap();
+    let of = [
+        "--key",
+        "material.young",
+        "--of",
+        "elastic_stifness",
+        "--target",
+        "1",
+    ];
+    let output = calibrate(parent.path(), PLATE, &of);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        error.contains("did you mean `elastic_stiffness`?"),
+        "{error}"
+    );
+}
