@@ -16,7 +16,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::case::{CaseError, CaseFile, MOST_THREADS};
 
-pub use calibrate::CalibrateArgs;
+pub use calibrate::{CalibrateArgs, LineArgs, RunsArgs};
 pub use check::CheckArgs;
 pub use completions::CompletionsArgs;
 pub use explain::{ExplainArgs, SubjectArgs};

@@ -14,6 +14,7 @@ pub mod failure;
 pub mod formulation;
 pub mod gauges;
 pub mod inspect;
+pub mod line_fit;
 pub mod mesh_command;
 pub mod model;
 mod modes;

@@ -188,3 +188,39 @@ fn a_misspelt_result_is_told_after_the_first_run() {
         "{error}"
     );
 }
+
+#[test]
+fn a_line_of_a_table_takes_the_place_of_runs() {
+    let parent = tempfile::tempdir().unwrap();
+    let table = parent.path().join("table.csv");
+    let rows = "run,status,model.horizon_factor,material.tensile_strength,first_peak.reaction\n\
+        a,done,2,3.81e6,62.5\nb,done,3,3.81e6,100\nc,done,4,3.81e6,137.5\n";
+    fs::write(&table, rows).unwrap();
+    let calibrate = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_ligament"))
+            .args(["calibrate", "--key", "material.tensile_strength"])
+            .args(["--target", "100"])
+            .arg(&table)
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let output = calibrate(&["--at", "2.5,3.5"]);
+    let stdout = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(stdout.contains("0.3750 x - 0.1250"), "{stdout}");
+    assert!(
+        stdout.contains("= 2.5: material.tensile_strength = 4.6892e6"),
+        "{stdout}"
+    );
+    let stray = calibrate(&["--within", "0.1"]);
+    assert!(text(&stray.stderr).contains("--within goes with a case"));
+    let stray = refused(
+        PLATE,
+        &["--key", "material.young", "--target", "1", "--at", "2"],
+    );
+    assert!(
+        stray.contains("--at goes with the folder or the table of a sweep"),
+        "{stray}"
+    );
+}

@@ -4,6 +4,7 @@
 //! the horizon factor lambda (NHPD eq. 22: by (3 lambda - 1)/8 on the mesh of the paper). What a specimen of known strength
 //! carries calibrates it for the horizon and the mesh at hand.
 
+pub mod line;
 mod record;
 pub mod search;
 
