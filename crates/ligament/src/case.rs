@@ -23,6 +23,7 @@ mod mbb_pd;
 mod mesh_section;
 mod model;
 mod overrides;
+mod precrack;
 mod probe;
 mod region;
 mod resolved;
@@ -49,8 +50,9 @@ pub use load::{Action, Load, Profile, Units};
 pub use material::{Anisotropic, Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Calibration, Form, Law, ModelSection, RotationalStiffness, Strains};
+pub use precrack::{CrackLine, Ends, Precrack};
 pub use probe::{Component, Field, Probe, Reading};
-pub use region::{Ends, Place, Precrack, Region};
+pub use region::{Place, Region};
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
 pub use temperature::{Temperature, TemperatureChange};
 pub use values::{Axis, Point};
@@ -122,7 +124,7 @@ struct RawCase {
     #[serde(default)]
     correction: correction::RawCorrection,
     #[serde(default)]
-    precrack: Vec<Precrack>,
+    precrack: Vec<precrack::RawPrecrack>,
     #[serde(default)]
     support: Vec<conditions::RawSupport>,
     #[serde(default)]
@@ -185,7 +187,7 @@ impl Case {
             materials,
             correction: raw.correction.check(&section("correction"), &model)?,
             model,
-            precracks: each("precrack", raw.precrack, Precrack::check)?,
+            precracks: each("precrack", raw.precrack, precrack::RawPrecrack::check)?,
             supports: each("support", raw.support, conditions::RawSupport::check)?,
             loads,
             temperatures: each("temperature", raw.temperature, |it, key| {
