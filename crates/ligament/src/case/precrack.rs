@@ -2,10 +2,12 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::schema::exactly_one;
 use super::units::unit_of;
 use super::values::{Point, not_exactly_one, require, require_positive};
 
@@ -44,7 +46,7 @@ pub enum CrackLine {
 }
 
 /// Whether the ends of a pre-crack belong to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Ends {
     /// It cuts bonds that pass through it.
@@ -94,13 +96,22 @@ fn direction(angle: f64) -> [f64; 2] {
     EIGHTHS[eighths.rem_euclid(8.0) as usize]
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["points", "centre"])))]
+#[schemars(extend("dependencies" = { "centre": ["length", "angle"], "length": ["centre", "angle"], "angle": ["centre", "length"] }))]
 pub(super) struct RawPrecrack {
+    /// Corners of the polyline, two or more `[x, y]`, m.
+    #[schemars(length(min = 2))]
     points: Option<Vec<Point>>,
+    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`.
     centre: Option<Point>,
+    /// From end to end of a straight crack, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     length: Option<f64>,
+    /// From the x axis to a straight crack, counter-clockwise, rad.
     angle: Option<f64>,
+    /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
     ends: Ends,
 }

@@ -1,9 +1,11 @@
 //! Where on the body something acts: groups, boxes, points.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::schema::exactly_one;
 use super::values::{Point, not_exactly_one, require};
 
 /// Where a support or a load acts.
@@ -29,10 +31,13 @@ pub enum Region {
 }
 
 /// The keys that say where something acts, as found.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["group", "box"])))]
 pub(super) struct RawRegion {
+    /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     group: Option<String>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
     r#box: Option<[Point; 2]>,
 }
 
