@@ -27,11 +27,12 @@ const ARROWS: [(&str, &[&str]); 6] = [
 ];
 
 /// Crates that only the program may use: command line, case files and errors for people.
-const OF_THE_PROGRAM: [&str; 11] = [
+const OF_THE_PROGRAM: [&str; 12] = [
     "anyhow",
     "clap",
     "clap_complete",
     "indicatif",
+    "schemars",
     "serde",
     "serde_derive",
     "serde_json",

@@ -23,9 +23,11 @@ mod mbb_pd;
 mod mesh_section;
 mod model;
 mod overrides;
+mod precrack;
 mod probe;
 mod region;
 mod resolved;
+mod schema;
 mod solver;
 mod temperature;
 mod units;
@@ -33,6 +35,7 @@ mod values;
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use analysis::{Analysis, MOST_MODES, Modal, Rotations};
@@ -49,8 +52,10 @@ pub use load::{Action, Load, Profile, Units};
 pub use material::{Anisotropic, Elasticity, Material, Orthotropic};
 pub use mesh_section::{MeshSection, Plane};
 pub use model::{Calibration, Form, Law, ModelSection, RotationalStiffness, Strains};
+pub use precrack::{CrackLine, Ends, Precrack};
 pub use probe::{Component, Field, Probe, Reading};
-pub use region::{Ends, Place, Precrack, Region};
+pub use region::{Place, Region};
+pub use schema::schema;
 pub use solver::{Factorisation, MOST_THREADS, Ordering, Solver, Update};
 pub use temperature::{Temperature, TemperatureChange};
 pub use values::{Axis, Point};
@@ -108,35 +113,54 @@ pub struct Case {
 }
 
 /// The sections as they are read; `material` is read apart because it has two forms.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = schema::exactly_one(&["mesh", "lattice"])))]
 struct RawCase {
+    /// One line on what the case is.
     #[serde(default)]
     title: String,
+    /// What is computed; without it `fracture` where there is a `[fracture]` section, else `static`.
     analysis: Option<Analysis>,
+    /// The body, meshed by Gmsh; or a `[lattice]`.
     mesh: Option<mesh_section::RawMesh>,
+    /// The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`.
     lattice: Option<lattice_section::RawLattice>,
+    /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
     #[serde(rename = "material")]
+    #[schemars(schema_with = "material::schema")]
     _material: serde::de::IgnoredAny,
+    /// The bond model.
     model: model::RawModel,
+    /// The corrections of the bonds; without it as in the paper of the law.
     #[serde(default)]
     correction: correction::RawCorrection,
+    /// Cracks and slots that are there from the start.
     #[serde(default)]
-    precrack: Vec<Precrack>,
+    precrack: Vec<precrack::RawPrecrack>,
+    /// What holds the body; nothing need.
     #[serde(default)]
     support: Vec<conditions::RawSupport>,
+    /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
     #[serde(default)]
     load: Vec<load::RawLoad>,
+    /// Changes of temperature at load factor 1; where several reach, the last holds.
     #[serde(default)]
     temperature: Vec<temperature::RawTemperature>,
+    /// Parts of the body where bonds never break.
     #[serde(default)]
     no_fail: Vec<region::RawRegion>,
+    /// Extra columns of `history.csv`.
     #[serde(default)]
     probe: Vec<probe::RawProbe>,
+    /// How bonds break; without it the case is one linear elastic solution.
     fracture: Option<fracture::RawFracture>,
+    /// Which natural modes are wanted, with `analysis = "modal"`.
     modal: Option<analysis::RawModal>,
+    /// How the equations are solved; nothing need be said.
     #[serde(default)]
     solver: solver::RawSolver,
+    /// What a run writes.
     output: Option<fracture::RawOutput>,
 }
 
@@ -185,7 +209,7 @@ impl Case {
             materials,
             correction: raw.correction.check(&section("correction"), &model)?,
             model,
-            precracks: each("precrack", raw.precrack, Precrack::check)?,
+            precracks: each("precrack", raw.precrack, precrack::RawPrecrack::check)?,
             supports: each("support", raw.support, conditions::RawSupport::check)?,
             loads,
             temperatures: each("temperature", raw.temperature, |it, key| {

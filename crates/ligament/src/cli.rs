@@ -7,6 +7,7 @@ mod explain;
 mod inspect;
 mod mesh;
 mod run;
+mod schema;
 mod verify;
 mod yielding;
 
@@ -23,6 +24,7 @@ pub use explain::{ExplainArgs, SubjectArgs};
 pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
 pub use run::RunArgs;
+pub use schema::SchemaArgs;
 pub use verify::VerifyArgs;
 pub use yielding::{YieldArgs, YieldCalibration};
 
@@ -99,6 +101,12 @@ pub enum Command {
     /// their reasons. Writes the same as Markdown, CSV and plots (SVG).
     #[command(after_help = verify::EXAMPLES)]
     Verify(VerifyArgs),
+    /// Print the JSON schema of a case file, for editors
+    ///
+    /// With it an editor completes keys and words, shows their descriptions, units and defaults, and marks
+    /// what is wrong.
+    #[command(after_help = schema::EXAMPLES)]
+    Schema(SchemaArgs),
     /// Print a completion script for a shell
     #[command(after_help = completions::EXAMPLES)]
     Completions(CompletionsArgs),
@@ -144,6 +152,7 @@ impl Cli {
             Command::Mesh(args) => args.execute(),
             Command::Yield(args) => args.execute(),
             Command::Verify(args) => args.execute(),
+            Command::Schema(args) => args.execute(),
             Command::Completions(args) => args.execute(),
         }
     }

@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use ligament::case::{
-    Action, CaseFile, Control, CorrectionRule, Displacement, Ends, Place, Plane, Precrack, Region,
-    Steps, Vector,
+    Action, CaseFile, Control, CorrectionRule, CrackLine, Displacement, Ends, Place, Plane,
+    Precrack, Region, Steps, Vector,
 };
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -61,7 +61,9 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(
         case.precracks,
         [Precrack {
-            points: vec![[-0.015, 0.0], [0.015, 0.0]],
+            line: CrackLine::Polyline {
+                points: vec![[-0.015, 0.0], [0.015, 0.0]]
+            },
             ends: Ends::Excluded,
         }]
     );
@@ -189,7 +191,7 @@ fn overrides_change_make_and_replace_settings() {
         (Some(10), Some(60.0), None)
     );
     assert!(case.output.bonds);
-    assert_eq!(case.precracks[0].points[1], [0.02, 0.001]);
+    assert_eq!(case.precracks[0].points()[1], [0.02, 0.001]);
     assert_eq!(case.title, "Disk under a small load");
     let small = with(SMALL, &["output.fields_every=3"]).unwrap();
     assert_eq!(small.case.output.fields_every, 3);

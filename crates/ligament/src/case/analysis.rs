@@ -1,5 +1,6 @@
 //! `analysis` and `[modal]`: what is computed.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
@@ -10,7 +11,7 @@ use super::values::{require, require_positive};
 pub const MOST_MODES: u32 = 1000;
 
 /// What is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Analysis {
     /// One linear elastic solution at load factor 1.
@@ -33,7 +34,7 @@ pub struct Modal {
 }
 
 /// Inertia of the rotations of the points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Rotations {
     /// `inertia` where no bond has a negative shear stiffness, `massless` otherwise.
@@ -45,11 +46,16 @@ pub enum Rotations {
     Massless,
 }
 
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawModal {
+    /// Number of modes, rigid ones included, lowest first.
+    #[schemars(range(min = 1, max = MOST_MODES), extend("default" = 10))]
     modes: Option<u32>,
+    /// Inertia of the rotations of the points.
     rotations: Rotations,
+    /// Residual of the search, relative to 1/omega^2.
+    #[schemars(extend("default" = 1e-10, "exclusiveMinimum" = 0))]
     tolerance: Option<f64>,
 }
 

@@ -1,15 +1,18 @@
 //! `[[support]]`: what holds the body; and the vectors of supports and loads.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Place, no_place, place};
+use super::schema::exactly_one;
 use super::values::Point;
 
 /// Prescribed displacements; a component that is not given is free.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1))]
 pub struct Displacement {
     /// Along x, m.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -41,13 +44,14 @@ impl Displacement {
 }
 
 /// A vector; a component that is not given is zero.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1))]
 pub struct Vector {
-    /// Along x.
+    /// Along x; N, N/m (`force_per_length`) or N/m^3 (`body_force`).
     #[serde(default)]
     pub x: f64,
-    /// Along y.
+    /// Along y; N, N/m (`force_per_length`) or N/m^3 (`body_force`).
     #[serde(default)]
     pub y: f64,
 }
@@ -74,12 +78,17 @@ pub struct Support {
     pub displacement: Displacement,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["group", "box", "at"])))]
 pub(super) struct RawSupport {
+    /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     group: Option<String>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
     r#box: Option<[Point; 2]>,
+    /// The point nearest to `[x, y]`, m.
     at: Option<Point>,
+    /// The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad.
     displacement: Displacement,
 }
 

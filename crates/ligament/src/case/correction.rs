@@ -1,5 +1,6 @@
 //! `[correction]`: the factors alpha and Omega of the bonds.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
@@ -22,7 +23,7 @@ pub struct Correction {
 }
 
 /// The factor alpha of a bond.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Alpha {
     /// 1.
@@ -34,7 +35,7 @@ pub enum Alpha {
 }
 
 /// The correction of surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Surface {
     /// None.
@@ -58,7 +59,7 @@ pub struct Iteration {
 }
 
 /// How the change of a correction sweep is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CorrectionRule {
     /// `sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.
@@ -83,7 +84,7 @@ impl CorrectionRule {
 }
 
 /// The body that the correction sees.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CorrectionDomain {
     /// Before the pre-cracks cut bonds.
@@ -93,14 +94,23 @@ pub enum CorrectionDomain {
     Cracked,
 }
 
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawCorrection {
+    /// The factor alpha of each bond; without it as in the paper of the law.
     alpha: Option<Alpha>,
+    /// The correction of surfaces; without it as in the paper of the law.
     surface: Option<Surface>,
+    /// How the change of a sweep of the domain correction is measured.
     rule: Option<CorrectionRule>,
+    /// Change of a sweep below which the domain correction has converged.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     tolerance: Option<f64>,
+    /// Sweeps of the domain correction at most.
+    #[schemars(range(min = 1), extend("default" = 500))]
     max_sweeps: Option<u32>,
+    /// The body that the correction sees.
+    #[schemars(extend("default" = "whole"))]
     domain: Option<CorrectionDomain>,
 }
 

@@ -1,5 +1,6 @@
 //! `[[fracture.criterion]]`: when a bond fails, and what it does after.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
@@ -74,7 +75,7 @@ pub struct MixedModeLimits {
 }
 
 /// How cohesion and friction come from the strengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionCalibration {
     /// As printed: exact without lateral strain alone.
@@ -198,40 +199,66 @@ impl After {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum KindName {
+    /// Stretch, from the energy at the `tensile_strength` (NHPD).
     Strength,
+    /// Stretch, from the `tensile_strength` or a `limit`.
     Tension,
+    /// Shortening, from the `compressive_strength` or a `limit`.
     Compression,
+    /// Sliding, from the `tensile_strength` or a `limit`.
     Sliding,
+    /// Sliding that compression makes harder, from both strengths.
     Frictional,
+    /// Stretch, from the `fracture_energy`.
     CriticalStretch,
+    /// Energy of stretch and sliding, from the `fracture_energy` or a `limit`.
     BondEnergy,
+    /// Opening and shear of the bonds of `mbb-pd`, from the fracture energies or limits of both.
     MixedMode,
 }
 
-#[derive(Clone, Copy, Default, Deserialize)]
+#[derive(Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum AfterName {
+    /// It breaks.
     #[default]
     Brittle,
+    /// Its force falls in a straight line to zero.
     Bilinear,
+    /// Its force falls exponentially.
     Exponential,
+    /// Its force stays; of `sliding` alone.
     Plastic,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawCriterion {
+    /// What fails, and where its limit comes from.
     kind: KindName,
+    /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     limit: Option<f64>,
+    /// Stretch at which a bond without shear fails; of `mixed-mode`, with `critical_angle`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     critical_stretch: Option<f64>,
+    /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     critical_angle: Option<f64>,
+    /// How the limit of `frictional` comes from the strengths.
+    #[schemars(extend("default" = "printed"))]
     calibration: Option<FrictionCalibration>,
+    /// What a bond does after its limit.
     #[serde(default)]
     after: AfterName,
+    /// Deformation at which the force of `bilinear` is gone, over that at the limit; without it so that the `fracture_energy` comes out.
+    #[schemars(extend("exclusiveMinimum" = 1))]
     end: Option<f64>,
+    /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     scale: Option<f64>,
 }
 

@@ -1,7 +1,9 @@
 //! `[fracture]` and `[output]`: how bonds break, when to stop, what to write.
 
+use std::borrow::Cow;
 use std::fmt;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -54,7 +56,7 @@ pub struct Stepping {
 }
 
 /// Which of the bonds beyond their critical stretch break first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum BreakOrder {
     /// Those with the largest excess of stretch over critical stretch (the paper's).
@@ -77,6 +79,24 @@ pub enum Steps {
 impl<'de> Deserialize<'de> for Steps {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(StepsVisitor)
+    }
+}
+
+impl JsonSchema for Steps {
+    fn schema_name() -> Cow<'static, str> {
+        "Steps".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [
+                { "description": "So many equal steps up to load factor 1.", "type": "integer", "minimum": 1 },
+                {
+                    "description": "These load factors; where they fall, the body is unloaded.",
+                    "type": "array", "items": { "type": "number" }, "minItems": 1,
+                },
+            ]
+        })
     }
 }
 
@@ -132,20 +152,24 @@ impl Steps {
 }
 
 /// When to stop before the end of the loading; whichever comes first.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stop {
     /// When the load has fallen to this share of its largest value.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub load_fraction: Option<f64>,
-    /// When the displacement of the first load reaches this, m.
+    /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub displacement: Option<f64>,
     /// When so many bonds are broken.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
     pub bonds: Option<u64>,
     /// After so much time, s.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub wall_time: Option<f64>,
     /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
     pub negative_energy: bool,
@@ -187,28 +211,47 @@ impl Stop {
     }
 }
 
-#[derive(Default, Deserialize)]
+#[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum ControlName {
+    /// Load steps, given by `steps`; in each, bonds break until none is beyond its limit.
     #[default]
     Stepped,
+    /// The exact path from breakage to breakage up to load factor 1, without steps and with snap-back.
     Event,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawFracture {
+    /// What drives the load.
     #[serde(default)]
     control: ControlName,
+    /// The load steps: so many equal ones up to load factor 1, or a list of load factors.
     steps: Option<Steps>,
+    /// Bonds broken at most between two solutions.
+    #[schemars(range(min = 1), extend("default" = 5))]
     bonds_per_iteration: Option<u32>,
+    /// Which of the bonds beyond their limit break first.
+    #[schemars(extend("default" = "excess"))]
     order: Option<BreakOrder>,
+    /// Bonds closer than this (relative) to the worst one break together with it.
+    #[schemars(extend("default" = 1e-8, "exclusiveMinimum" = 0))]
     tie_tolerance: Option<f64>,
+    /// Relative change of energy below which a solution is in equilibrium.
+    #[schemars(extend("default" = 1e-4, "exclusiveMinimum" = 0))]
     energy_tolerance: Option<f64>,
+    /// Rounds of breaking at most in a load step.
+    #[schemars(range(min = 1), extend("default" = 10_000))]
     max_iterations: Option<u32>,
+    /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
+    #[schemars(extend("default" = 0))]
     refine_first_break: Option<u32>,
+    /// When to stop before the end of the loading; whichever comes first.
     #[serde(default)]
     stop: Stop,
+    /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
+    #[schemars(length(min = 1))]
     criterion: Option<Vec<RawCriterion>>,
 }
 
@@ -312,7 +355,7 @@ pub struct Output {
 }
 
 /// A reading of the stress at the points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StressField {
     /// The mean of the force dyads of a point's bonds.
@@ -321,12 +364,18 @@ pub enum StressField {
     Traction,
 }
 
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawOutput {
+    /// Load steps (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone.
     fields_every: Option<u32>,
+    /// Whether the bonds are written as lines with each field file.
     bonds: bool,
+    /// Whether `model.vtu` is written, which `ligament explain` reads.
+    #[schemars(extend("default" = true))]
     model: Option<bool>,
+    /// Stresses at the points in the field files.
+    #[schemars(extend("uniqueItems" = true))]
     stress: Vec<StressField>,
 }
 

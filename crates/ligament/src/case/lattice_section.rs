@@ -1,9 +1,11 @@
 //! `[lattice]`: a body on a regular lattice.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
 use ligament_model::shape::crosses_itself;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -11,6 +13,7 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
 use super::region::ordered_box;
+use super::schema::exactly_one;
 use super::values::{
     Point, not_exactly_one, require, require_at_least_one, require_column_name, require_positive,
 };
@@ -51,12 +54,13 @@ impl LatticeSection {
 }
 
 /// A disk.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Circle {
     /// Centre, m.
     pub centre: Point,
     /// Radius, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
 }
 
@@ -105,39 +109,71 @@ pub enum CellSet {
     Polygon(Vec<Point>),
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawLattice {
+    /// Number of cells along x and y.
+    #[schemars(inner(range(min = 1)))]
     cells: [u32; 2],
+    /// Side of the cells, or their sides `[dx, dy]`, m.
     spacing: RawSpacing,
+    /// Lower left corner of the lattice, m.
+    #[schemars(extend("default" = [0.0, 0.0]))]
     corner: Option<Point>,
+    /// Thickness of the body, m.
+    #[schemars(extend("default" = 1.0, "exclusiveMinimum" = 0))]
     thickness: Option<f64>,
+    /// Plane stress or plane strain.
+    #[schemars(extend("default" = "stress"))]
     plane: Option<Plane>,
+    /// Holes: cells whose centre lies in one are removed, and bonds across it.
     #[serde(default)]
     remove: Vec<RawHole>,
+    /// Named sets of cells, which stand wherever a `group` does.
     #[serde(default)]
     set: BTreeMap<String, RawSet>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["circle", "rectangle", "polygon", "outside"])))]
 struct RawHole {
+    /// Makes the cells at its rim a `group`; several holes may share it.
+    #[schemars(length(min = 1))]
     name: Option<String>,
+    /// A disk, m.
     circle: Option<Circle>,
+    /// A rectangle by two opposite corners, m.
     rectangle: Option<[Point; 2]>,
+    /// A polygon by its corners, three or more, m.
+    #[schemars(length(min = 3))]
     polygon: Option<Vec<Point>>,
+    /// Everything outside of a disk, m.
     outside: Option<Circle>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["bottom", "top", "left", "right", "box", "circle", "polygon"])))]
 struct RawSet {
+    /// So many rows from the bottom.
+    #[schemars(range(min = 1))]
     bottom: Option<u32>,
+    /// So many rows from the top.
+    #[schemars(range(min = 1))]
     top: Option<u32>,
+    /// So many columns from the left.
+    #[schemars(range(min = 1))]
     left: Option<u32>,
+    /// So many columns from the right.
+    #[schemars(range(min = 1))]
     right: Option<u32>,
+    /// Cells whose centre lies in a rectangle, by two opposite corners, m.
     r#box: Option<[Point; 2]>,
+    /// Cells whose centre lies in a disk, m.
     circle: Option<Circle>,
+    /// Cells whose centre lies in a polygon, by its corners, three or more, m.
+    #[schemars(length(min = 3))]
     polygon: Option<Vec<Point>>,
 }
 
@@ -294,6 +330,24 @@ struct RawSpacing([f64; 2]);
 impl<'de> Deserialize<'de> for RawSpacing {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(SpacingVisitor)
+    }
+}
+
+impl JsonSchema for RawSpacing {
+    fn schema_name() -> Cow<'static, str> {
+        "Spacing".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [
+                { "description": "Side of the square cells, m.", "type": "number", "exclusiveMinimum": 0 },
+                {
+                    "description": "Sides of the cells along x and y, m.",
+                    "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 2, "maxItems": 2,
+                },
+            ]
+        })
     }
 }
 

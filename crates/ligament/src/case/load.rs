@@ -1,11 +1,13 @@
 //! `[[load]]`: what acts on the body.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::conditions::{Displacement, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Place, no_place, place};
+use super::schema::exactly_one;
 use super::values::{Axis, Point, not_exactly_one, require, require_column_name};
 
 /// A load, given as it is at load factor 1.
@@ -77,7 +79,7 @@ impl Units {
 
 /// A load that varies linearly: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
 /// point's coordinate c.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// The coordinate.
@@ -110,20 +112,34 @@ impl Profile {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["displacement", "force", "force_per_length", "body_force", "moment", "body_couple", "pressure"])))]
 pub(super) struct RawLoad {
+    /// Heads its column in `history.csv`; without it the name of the group.
+    #[schemars(length(min = 1))]
     name: Option<String>,
+    /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     group: Option<String>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
     r#box: Option<[Point; 2]>,
+    /// The point nearest to `[x, y]`, m.
     at: Option<Point>,
+    /// Prescribed displacements, m, rotation in rad.
     displacement: Option<Displacement>,
+    /// A force in total over the points, N.
     force: Option<Vector>,
+    /// A force along the edges of a group, N/m.
     force_per_length: Option<Vector>,
+    /// A force in the volume, N/m^3; on the whole body without a place.
     body_force: Option<Vector>,
+    /// A couple in total over the points, counter-clockwise, N m.
     moment: Option<f64>,
+    /// A couple in the volume, counter-clockwise, N m/m^3; on the whole body without a place.
     body_couple: Option<f64>,
+    /// A pressure on the outline of a group, Pa; positive pushes on the body.
     pressure: Option<f64>,
+    /// How the load varies along an axis: what a point takes is multiplied by (c - zero)/(one - zero).
     profile: Option<Profile>,
 }
 

@@ -1,9 +1,10 @@
 //! `[material]` or `[material.NAME]`: the materials of the body.
 
 mod elasticity;
+mod tables;
 
 use serde::ser::SerializeMap;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Serialize, Serializer};
 
 use super::criterion::{Criterion, CriterionKind};
 use super::decode::decode;
@@ -17,6 +18,8 @@ use super::units::unit_of;
 use super::values::{require, require_positive, require_unique};
 use elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
 pub use elasticity::{Anisotropic, Elasticity, Orthotropic};
+pub(super) use tables::schema;
+use tables::{RawAnisotropic, RawIsotropic, RawOrthotropic};
 
 /// A linear elastic material with its strengths.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -96,67 +99,6 @@ impl Material {
         }
         Ok(self)
     }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawIsotropic {
-    group: Option<String>,
-    young: f64,
-    poisson: f64,
-    tensile_strength: Option<f64>,
-    compressive_strength: Option<f64>,
-    fracture_energy: Option<f64>,
-    fracture_energy_sliding: Option<f64>,
-    mixed_mode_exponent: Option<f64>,
-    density: Option<f64>,
-    thermal_expansion: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawOrthotropic {
-    group: Option<String>,
-    young_1: f64,
-    young_2: f64,
-    poisson_12: f64,
-    shear_modulus: f64,
-    #[serde(default)]
-    angle: f64,
-    young_3: Option<f64>,
-    poisson_13: Option<f64>,
-    poisson_23: Option<f64>,
-    tensile_strength: Option<f64>,
-    compressive_strength: Option<f64>,
-    fracture_energy: Option<f64>,
-    fracture_energy_sliding: Option<f64>,
-    mixed_mode_exponent: Option<f64>,
-    density: Option<f64>,
-    thermal_expansion: Option<f64>,
-    thermal_expansion_1: Option<f64>,
-    thermal_expansion_2: Option<f64>,
-    thermal_expansion_3: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawAnisotropic {
-    group: Option<String>,
-    c11: f64,
-    c12: f64,
-    c16: f64,
-    c22: f64,
-    c26: f64,
-    c66: f64,
-    tensile_strength: Option<f64>,
-    compressive_strength: Option<f64>,
-    fracture_energy: Option<f64>,
-    fracture_energy_sliding: Option<f64>,
-    mixed_mode_exponent: Option<f64>,
-    density: Option<f64>,
-    thermal_expansion: Option<f64>,
-    thermal_expansion_1: Option<f64>,
-    thermal_expansion_2: Option<f64>,
 }
 
 /// Reads the section: one material, or a table for each of several.

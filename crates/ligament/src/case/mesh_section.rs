@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
@@ -20,7 +21,7 @@ pub struct MeshSection {
 }
 
 /// Which planar problem the body is an instance of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Plane {
     /// No stress out of the plane: thin bodies.
@@ -30,11 +31,17 @@ pub enum Plane {
     Strain,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawMesh {
+    /// The mesh, a Gmsh file (2.2 or 4.1), from the folder of the case file.
+    #[schemars(length(min = 1))]
     file: String,
+    /// Thickness of the body, m.
+    #[schemars(extend("default" = 1.0, "exclusiveMinimum" = 0))]
     thickness: Option<f64>,
+    /// Plane stress or plane strain.
+    #[schemars(extend("default" = "stress"))]
     plane: Option<Plane>,
 }
 

@@ -1,9 +1,11 @@
 //! `[model]`: the bond model.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::schema::exactly_one;
 use super::values::{not_exactly_one, require, require_positive};
 
 /// The bond model.
@@ -32,7 +34,7 @@ pub struct ModelSection {
 }
 
 /// A bond law.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
     /// Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.
@@ -54,7 +56,7 @@ pub enum Law {
 }
 
 /// Where the constants of a law come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Calibration {
     /// Integrals over a full circle (the papers').
@@ -64,7 +66,7 @@ pub enum Calibration {
 }
 
 /// The rotational stiffness k_theta beside a shear stiffness k_t.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RotationalStiffness {
     /// k_t l (1 - l/H)/2.
@@ -78,7 +80,7 @@ pub enum RotationalStiffness {
 }
 
 /// How the bonds of MBB-PD resist their strains.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Form {
     /// All bonds all three strains.
@@ -90,7 +92,7 @@ pub enum Form {
 }
 
 /// What the strains of MBB-PD are taken over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strains {
     /// The distances before the deformation.
@@ -163,15 +165,25 @@ impl Law {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["horizon_factor", "horizon"])))]
 pub(super) struct RawModel {
+    /// The bond law.
     law: Law,
+    /// Horizon of each point over the distance to its nearest neighbour, lambda; 3 is usual.
+    #[schemars(range(min = 1))]
     horizon_factor: Option<f64>,
+    /// One horizon for all points, m, in the place of `horizon_factor`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     horizon: Option<f64>,
+    /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
     calibration: Option<Calibration>,
+    /// Stiffness against relative rotation; of `mppd` and `orthotropic`.
     rotational_stiffness: Option<RotationalStiffness>,
+    /// How the bonds of `mbb-pd` resist their strains.
     form: Option<Form>,
+    /// What the strains of `mbb-pd` are taken over.
     strains: Option<Strains>,
 }
 

@@ -1,9 +1,11 @@
 //! `[[probe]]`: extra columns of the history.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::schema::exactly_one;
 use super::values::{Axis, Point, not_exactly_one, require, require_column_name};
 
 /// A column of the history.
@@ -44,7 +46,7 @@ pub enum Reading {
 }
 
 /// A component of the motion of a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Component {
     /// Displacement along x, m.
@@ -56,7 +58,7 @@ pub enum Component {
 }
 
 /// A field that a probe can read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Field {
     /// Share of the point's bonds that are broken, 0 to 1.
@@ -83,14 +85,22 @@ pub enum Field {
     StressXy,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["between", "at", "section"])))]
 pub(super) struct RawProbe {
+    /// Heads its column in `history.csv`; each name once.
+    #[schemars(length(min = 1))]
     name: String,
+    /// Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`.
     between: Option<[Point; 2]>,
+    /// A position, m, whose nearest point is read; with `field`.
     at: Option<Point>,
+    /// A line, m, through which the bonds carry a force, N; with `component`.
     section: Option<[Point; 2]>,
+    /// The component that `between` (m or rad) or `section` (N; `x` or `y`) reads.
     component: Option<Component>,
+    /// The field that is read `at` the position.
     field: Option<Field>,
 }
 

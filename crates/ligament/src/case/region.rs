@@ -1,9 +1,11 @@
-//! Where on the body something acts: groups, boxes, points; and pre-cracks.
+//! Where on the body something acts: groups, boxes, points.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::schema::exactly_one;
 use super::values::{Point, not_exactly_one, require};
 
 /// Where a support or a load acts.
@@ -28,55 +30,14 @@ pub enum Region {
     Box([Point; 2]),
 }
 
-/// A crack that is there from the start.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Precrack {
-    /// Corners of the polyline, two or more, m.
-    pub points: Vec<Point>,
-    /// Whether it cuts bonds that only touch it.
-    #[serde(default)]
-    pub ends: Ends,
-}
-
-/// Whether the ends of a pre-crack belong to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Ends {
-    /// It cuts bonds that pass through it.
-    #[default]
-    Excluded,
-    /// It cuts bonds that have a point in common with it.
-    Included,
-}
-
-impl Precrack {
-    pub(super) fn check(self, key: &KeyPath) -> Result<Self, KeyFault> {
-        let key = key.child("points");
-        require(
-            self.points.len() >= 2,
-            || key.clone(),
-            "two points or more",
-            &self.points,
-        )?;
-        for (index, pair) in self.points.windows(2).enumerate() {
-            let expected = "another point than the one before it";
-            require(
-                pair[0] != pair[1],
-                || key.child(index + 1),
-                expected,
-                pair[1],
-            )?;
-        }
-        Ok(self)
-    }
-}
-
 /// The keys that say where something acts, as found.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["group", "box"])))]
 pub(super) struct RawRegion {
+    /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     group: Option<String>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
     r#box: Option<[Point; 2]>,
 }
 

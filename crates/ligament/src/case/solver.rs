@@ -1,7 +1,9 @@
 //! `[solver]`: how the equations are solved. Nothing needs to be said: `solver = "auto"` is the default.
 
+use std::borrow::Cow;
 use std::fmt;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -32,7 +34,7 @@ pub struct Solver {
 }
 
 /// A factorisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Factorisation {
     /// `llt` where every bond has a positive shear stiffness, `ldlt` otherwise.
@@ -45,7 +47,7 @@ pub enum Factorisation {
 }
 
 /// An order of elimination.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ordering {
     /// `nested-dissection` from 10,000 points on, `minimum-degree` below.
@@ -58,7 +60,7 @@ pub enum Ordering {
 }
 
 /// What happens to the factor when bonds break.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Update {
     /// `incremental`.
@@ -70,13 +72,21 @@ pub enum Update {
     Refactor,
 }
 
-#[derive(Default, Deserialize)]
+/// Keys of the section.
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct Keys {
+    /// The factorisation of the stiffness.
     factorisation: Factorisation,
+    /// The order of elimination.
     ordering: Ordering,
+    /// What happens to the factor when bonds break.
     update: Update,
+    /// Broken bonds between two factors that are made anew.
+    #[schemars(range(min = 1))]
     rebuild_every: Option<u32>,
+    /// Threads; without it one for each processor. Results do not depend on it.
+    #[schemars(range(min = 1, max = MOST_THREADS))]
     threads: Option<u32>,
 }
 
@@ -114,6 +124,17 @@ impl RawSolver {
 impl<'de> Deserialize<'de> for RawSolver {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(SolverVisitor)
+    }
+}
+
+impl JsonSchema for RawSolver {
+    fn schema_name() -> Cow<'static, str> {
+        "Solver".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let keys = generator.subschema_for::<Keys>();
+        json_schema!({ "anyOf": [{ "const": "auto", "description": "All of it is chosen." }, keys] })
     }
 }
 

@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::absolute;
 use super::region::{RawRegion, Region};
+use super::schema::exactly_one;
 use super::values::{Point, not_exactly_one, require};
 
 /// A change of temperature at load factor 1. Where several reach, the last of them holds.
@@ -47,15 +49,25 @@ pub enum TemperatureChange {
     },
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["change", "file", "mesh_field"])))]
 pub(super) struct RawTemperature {
+    /// The part of the body; the whole body without it or a `box`.
     group: Option<String>,
+    /// The part of the body in this rectangle, by two opposite corners, m.
     r#box: Option<[Point; 2]>,
+    /// Change of the temperature at load factor 1, the same everywhere there, K.
     change: Option<f64>,
+    /// A CSV file with the columns `x`, `y` (m) and `change` (K), from the folder of the case file.
+    #[schemars(length(min = 1))]
     file: Option<String>,
+    /// A scalar field at the nodes in the mesh file, K; `ligament inspect` lists them.
     mesh_field: Option<String>,
+    /// Time step of the `mesh_field`, where the file has several.
     time_step: Option<i32>,
+    /// Subtracted from the values of the `mesh_field`, K.
+    #[schemars(extend("default" = 0.0))]
     reference: Option<f64>,
 }
 

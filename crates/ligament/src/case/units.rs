@@ -49,8 +49,8 @@ pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
         [.., "displacement", "x" | "y"] | [.., "stop", "displacement"] => Some("m"),
         [
             ..,
-            "thickness" | "horizon" | "spacing" | "corner" | "centre" | "radius" | "rectangle"
-            | "polygon" | "points" | "box" | "at" | "between" | "section",
+            "thickness" | "horizon" | "spacing" | "corner" | "centre" | "radius" | "length"
+            | "rectangle" | "polygon" | "points" | "box" | "at" | "between" | "section",
         ] => Some("m"),
         [.., "wall_time"] => Some("s"),
         _ => None,

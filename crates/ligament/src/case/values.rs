@@ -1,5 +1,6 @@
 //! Checks on single values that several sections share.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
@@ -9,7 +10,7 @@ use super::key_path::KeyPath;
 pub type Point = [f64; 2];
 
 /// A direction in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// Along x.

@@ -106,7 +106,7 @@ pub fn precracks(case: &CaseFile) -> Vec<PreCrack> {
         .precracks
         .iter()
         .map(|crack| PreCrack {
-            points: crack.points.clone(),
+            points: crack.points(),
             ends: match crack.ends {
                 case::Ends::Excluded => Ends::Excluded,
                 case::Ends::Included => Ends::Included,

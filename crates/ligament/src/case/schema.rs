@@ -1,0 +1,168 @@
+//! The JSON schema of a case file, for editors: made of the same structures that read it.
+
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use serde_json::{Value, json};
+
+use super::RawCase;
+
+/// The JSON schema of a case file.
+///
+/// It is of draft 7, the newest that the language server taplo (Even Better TOML) checks, and without references, at which
+/// taplo loses the descriptions beside them.
+pub fn schema() -> Value {
+    let settings = SchemaSettings::draft07().with(|it| it.inline_subschemas = true);
+    let mut schema = settings
+        .with_transform(ForToml)
+        .into_generator()
+        .into_root_schema_for::<RawCase>();
+    schema.insert("title".to_owned(), "Case file of Ligament".into());
+    schema.to_value()
+}
+
+/// That exactly one of the keys is there, as a value of `oneOf`.
+pub(super) fn exactly_one(keys: &[&str]) -> Value {
+    keys.iter()
+        .map(|key| json!({ "required": [key] }))
+        .collect()
+}
+
+/// What JSON and TOML do not share: TOML has no null, and formats of numbers are of no use to editors. Words become one
+/// `enum`, because editors offer a key once for each alternative of a `oneOf`; what they mean goes to the description, and to
+/// where taplo shows it beside the word.
+#[derive(Debug, Clone)]
+struct ForToml;
+
+impl Transform for ForToml {
+    fn transform(&mut self, schema: &mut Schema) {
+        transform_subschemas(self, schema);
+        schema.remove("format");
+        without_null(schema);
+        words(schema);
+    }
+}
+
+fn without_null(schema: &mut Schema) {
+    let is_null = |value: &Value| value == &json!({ "type": "null" });
+    if schema.get("default").is_some_and(Value::is_null) {
+        schema.remove("default");
+    }
+    if let Some(Value::Array(types)) = schema.get_mut("type") {
+        types.retain(|it| it != "null");
+        if let [only] = types.as_slice() {
+            let only = only.clone();
+            schema.insert("type".to_owned(), only);
+        }
+    }
+    if let Some(Value::Array(values)) = schema.get_mut("enum") {
+        values.retain(|it| !it.is_null());
+    }
+    let Some(Value::Array(alternatives)) = schema.get_mut("anyOf") else {
+        return;
+    };
+    let count = alternatives.len();
+    alternatives.retain(|it| !is_null(it));
+    if alternatives.len() < count
+        && let [Value::Object(only)] = alternatives.as_slice()
+    {
+        let only = only.clone();
+        schema.remove("anyOf");
+        for (key, value) in only {
+            // The description of the key says more than that of its type.
+            if key != "description" || schema.get(&key).is_none() {
+                schema.insert(key, value);
+            }
+        }
+        // The words of an alternative were put together before it got here, with a description of the type.
+        describe_words(schema);
+    }
+}
+
+/// Turns the alternatives of an enumeration, a word each, into a list of words.
+fn words(schema: &mut Schema) {
+    let Some(Value::Array(alternatives)) = schema.get("oneOf") else {
+        return;
+    };
+    let word = |it: &Value| Some((it.get("const")?.clone(), it.get("description").cloned()));
+    let Some(words) = alternatives.iter().map(word).collect::<Option<Vec<_>>>() else {
+        return;
+    };
+    let (values, docs): (Vec<_>, Vec<_>) = words.into_iter().unzip();
+    schema.remove("oneOf");
+    schema.insert("type".to_owned(), "string".into());
+    schema.insert("enum".to_owned(), Value::Array(values));
+    schema.insert(
+        "x-taplo".to_owned(),
+        json!({ "docs": { "enumValues": docs } }),
+    );
+    describe_words(schema);
+}
+
+/// Puts what the words mean below the description, once.
+fn describe_words(schema: &mut Schema) {
+    let Some(docs) = schema
+        .get("x-taplo")
+        .and_then(|it| it.pointer("/docs/enumValues"))
+    else {
+        return;
+    };
+    let (Some(Value::Array(words)), Some(docs)) = (schema.get("enum"), docs.as_array()) else {
+        return;
+    };
+    let lines = words.iter().zip(docs).map(|(word, doc)| {
+        let (word, doc) = (
+            word.as_str().unwrap_or_default(),
+            doc.as_str().unwrap_or_default(),
+        );
+        format!("\n- `{word}`: {doc}")
+    });
+    let list: String = lines.collect();
+    let description = schema
+        .get("description")
+        .and_then(Value::as_str)
+        .unwrap_or_default();
+    if !description.ends_with(&list) {
+        let description = format!("{description}\n{list}");
+        schema.insert("description".to_owned(), description.into());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use super::super::key_path::KeyPath;
+    use super::super::units::unit_of;
+
+    /// Keys with a unit have it in their descriptions, by the table of units that error messages take.
+    #[test]
+    fn descriptions_tell_the_unit() {
+        let mut count = 0;
+        check(&super::schema(), &KeyPath::default(), &mut count);
+        assert!(count > 80, "{count} keys with a unit");
+    }
+
+    fn check(schema: &Value, key: &KeyPath, count: &mut usize) {
+        if let (Some(unit), Some(text)) = (unit_of(key), schema["description"].as_str()) {
+            let mut words = text.split([',', ';', '.', ':', '`', ' ', '(', ')']);
+            let has_it = match unit.split_once(' ') {
+                Some(_) => text.contains(unit),
+                None => words.any(|word| word == unit),
+            };
+            assert!(has_it, "{key} ({unit}): {text}");
+            *count += 1;
+        }
+        for (name, below) in schema["properties"].as_object().into_iter().flatten() {
+            check(below, &key.child(name), count);
+        }
+        for (keyword, index) in [("items", "0"), ("additionalProperties", "name")] {
+            if let Some(below) = schema.get(keyword) {
+                check(below, &key.child(index), count);
+            }
+        }
+        for below in schema["anyOf"].as_array().into_iter().flatten() {
+            check(below, key, count);
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! Cases that together have every table of a case file, and the tables of documents and of the schema.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Map, Value};
+
+use super::{SCHEMA, document};
+
+const MESH: &str = r#"
+title = "On a mesh"
+mesh = { file = "disk.msh" }
+material = { young = 1e9, poisson = 0.2, tensile_strength = 1e6 }
+model = { law = "nhpd", horizon_factor = 3 }
+solver = "auto"
+correction = {}
+precrack = [{ points = [[0, 0], [1, 0]] }, { centre = [0, 0], length = 0.1, angle = 0.5 }]
+support = [{ group = "bottom", displacement = { x = 0.0 } }]
+no_fail = [{ box = [[0, 0], [1, 1]] }]
+[[load]]
+group = "top"
+displacement = { y = 0.1 }
+profile = { along = "x", zero = 0, one = 1 }
+[[load]]
+group = "left"
+force = { x = 1 }
+[[load]]
+group = "right"
+force_per_length = { x = 1 }
+[[load]]
+body_force = { x = 1 }
+[[load]]
+name = "pressed"
+group = "hole"
+pressure = 1e5
+[[temperature]]
+mesh_field = "T"
+[[probe]]
+name = "opening"
+between = [[0, 0], [1, 0]]
+component = "x"
+[[probe]]
+name = "damage"
+at = [0, 0]
+field = "damage"
+[[probe]]
+name = "force"
+section = [[0, 0], [1, 0]]
+component = "y"
+[fracture]
+steps = 10
+stop = { load_fraction = 0.5 }
+criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4 }]
+[output]
+stress = ["virial"]
+"#;
+
+const LATTICE: &str = r#"
+title = "On a lattice"
+[lattice]
+cells = [10, 20]
+spacing = 0.1
+remove = [{ circle = { centre = [0.5, 0.5], radius = 0.1 } }, { name = "rim", outside = { centre = [0.5, 1], radius = 1 } }]
+set = { bottom = { bottom = 1 }, top = { circle = { centre = [0.5, 1], radius = 0.2 } } }
+[material.fibre]
+group = "bottom"
+young_1 = 1e9
+young_2 = 1e9
+poisson_12 = 0.2
+shear_modulus = 1e8
+[material.matrix]
+group = "top"
+young = 1e9
+poisson = 0.2
+[model]
+law = "orthotropic"
+horizon = 0.3
+[solver]
+[[load]]
+group = "top"
+moment = 1
+[[temperature]]
+change = 10
+[fracture]
+control = "event"
+stop = { wall_time = 10 }
+criterion = [{ kind = "tension", limit = 1e-4 }]
+"#;
+
+const MODAL: &str = r#"
+analysis = "modal"
+[lattice]
+cells = [10, 20]
+spacing = 0.1
+[material]
+c11 = 1e9
+c12 = 1e8
+c16 = 0
+c22 = 1e9
+c26 = 0
+c66 = 1e8
+density = 1000
+[model]
+law = "mbb-pd"
+horizon_factor = 3
+[modal]
+"#;
+
+const ORTHOTROPIC: &str = r#"
+[lattice]
+cells = [10, 20]
+spacing = 0.1
+[material]
+young_1 = 1e9
+young_2 = 1e9
+poisson_12 = 0.2
+shear_modulus = 1e8
+[model]
+law = "orthotropic"
+horizon = 0.3
+[correction]
+surface = "domain"
+[[load]]
+body_couple = 1.0
+[[load]]
+name = "upward"
+body_force = { y = 1 }
+[[load]]
+at = [0, 0]
+force = { y = 1 }
+[[load]]
+group = "top"
+force_per_length = { y = 1 }
+[fracture]
+control = "event"
+criterion = [{ kind = "tension", limit = 1e-4 }]
+[output]
+"#;
+
+/// The mesh has strengths for all of its criteria.
+pub(super) fn documents() -> Vec<Value> {
+    let mesh = MESH.replace(
+        "tensile_strength",
+        "compressive_strength = 1e7, tensile_strength",
+    );
+    [mesh.as_str(), LATTICE, MODAL, ORTHOTROPIC]
+        .map(document)
+        .to_vec()
+}
+
+/// The path of a table: its keys and indices, and the same with a star for indices and for names that the user chooses.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct TablePath {
+    pub(super) pointer: String,
+    pub(super) pattern: String,
+}
+
+impl TablePath {
+    fn child(&self, segment: &str, pattern: &str) -> Self {
+        Self {
+            pointer: format!("{}/{segment}", self.pointer),
+            pattern: format!("{}/{pattern}", self.pattern),
+        }
+    }
+}
+
+/// All tables of a document with the schema of each.
+pub(super) fn tables(document: &Value) -> Vec<(TablePath, Value)> {
+    let mut found = Vec::new();
+    collect(document, &SCHEMA, &TablePath::default(), &mut found);
+    found
+}
+
+fn collect(value: &Value, schema: &Value, path: &TablePath, found: &mut Vec<(TablePath, Value)>) {
+    match value {
+        Value::Object(entries) => {
+            let schema = of_tables(schema);
+            found.push((path.clone(), schema.clone()));
+            for (key, value) in entries {
+                match schema["properties"].get(key) {
+                    Some(below) => collect(value, below, &path.child(key, key), found),
+                    None => {
+                        let below = &schema["additionalProperties"];
+                        assert!(below.is_object(), "{key} at {}", path.pointer);
+                        collect(value, below, &path.child(key, "*"), found);
+                    }
+                }
+            }
+        }
+        Value::Array(values) => {
+            for (index, value) in values.iter().enumerate() {
+                collect(
+                    value,
+                    &schema["items"],
+                    &path.child(&index.to_string(), "*"),
+                    found,
+                );
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Of a key that takes a table among others, what the table is.
+fn of_tables(schema: &Value) -> &Value {
+    let alternatives = schema["anyOf"]
+        .as_array()
+        .filter(|_| schema["type"].is_null());
+    let table = alternatives.and_then(|all| all.iter().find(|it| it["type"] == "object"));
+    table.unwrap_or(schema)
+}
+
+/// Patterns of all tables of the schema, and all keys: pattern of the table, key, schema.
+pub(super) fn all_of_schema() -> (BTreeSet<String>, Vec<(String, String, Value)>) {
+    let (mut tables, mut keys) = (BTreeSet::new(), Vec::new());
+    walk(&SCHEMA, "", &mut tables, &mut keys);
+    (tables, keys)
+}
+
+fn walk(
+    schema: &Value,
+    pattern: &str,
+    tables: &mut BTreeSet<String>,
+    keys: &mut Vec<(String, String, Value)>,
+) {
+    let schema = of_tables(schema);
+    if schema["items"].is_object() {
+        walk(&schema["items"], &format!("{pattern}/*"), tables, keys);
+    }
+    if schema["type"] != "object" {
+        return;
+    }
+    tables.insert(pattern.to_owned());
+    for (key, value) in schema["properties"].as_object().unwrap_or(&Map::new()) {
+        keys.push((pattern.to_owned(), key.clone(), value.clone()));
+        walk(value, &format!("{pattern}/{key}"), tables, keys);
+    }
+    if schema["additionalProperties"].is_object() {
+        walk(
+            &schema["additionalProperties"],
+            &format!("{pattern}/*"),
+            tables,
+            keys,
+        );
+    }
+}
