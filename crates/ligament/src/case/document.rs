@@ -80,11 +80,18 @@ impl Node {
     }
 
     /// The value one path segment below: of a key in a table, of an index in a list.
-    fn step(&self, segment: &str) -> Option<&Node> {
+    pub(crate) fn step(&self, segment: &str) -> Option<&Node> {
         match &self.value {
             Value::List(nodes) => nodes.get(segment.parse::<usize>().ok()?),
             _ => self.get(segment),
         }
+    }
+
+    /// The value at a path, if there is one.
+    pub(crate) fn at(&self, path: &KeyPath) -> Option<&Node> {
+        path.0
+            .iter()
+            .try_fold(self, |node, segment| node.step(segment))
     }
 
     /// Where the value at a path was written or, failing that, the innermost table above it.
