@@ -225,16 +225,29 @@ fn listed(
     Ok(points)
 }
 
-/// What people see of a value that has no label: its words, and of a path the file without folder and ending.
+/// What people see of values that have no label.
 fn label(cells: &[Cell]) -> String {
-    let one = |cell: &Cell| match cell {
+    let words: Vec<String> = cells.iter().map(short_words).collect();
+    words.join(", ")
+}
+
+/// A value in words: of a path the file without folder and ending, of a large or small number its exponent.
+pub(super) fn short_words(cell: &Cell) -> String {
+    match cell {
         Cell::String(text) if text.contains('/') => {
             let stem = std::path::Path::new(text).file_stem();
             stem.map_or(text.clone(), |stem| stem.to_string_lossy().into_owned())
         }
+        Cell::Number(number) => match number.as_f64() {
+            Some(float)
+                if number.is_f64() && float != 0.0 && !(1e-3..1e5).contains(&float.abs()) =>
+            {
+                format!("{float:e}")
+            }
+            _ => number.to_string(),
+        },
         other => written::words(other),
-    };
-    cells.iter().map(one).collect::<Vec<_>>().join(", ")
+    }
 }
 
 fn list<'a>(document: &'a Node, place: &KeyPath) -> Result<&'a [Node], KeyFault> {
@@ -262,7 +275,7 @@ fn ranged(document: &Node, place: &KeyPath, range: &RawRange) -> Result<Vec<Axis
             Cell::from(*value)
         };
         AxisPoint {
-            label: cell.to_string(),
+            label: short_words(&cell),
             texts: vec![cell.to_string()],
             cells: vec![cell],
             place: place.clone(),

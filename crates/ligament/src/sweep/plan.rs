@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::axis::{Axis, AxisPoint, Setting};
+use super::axis::{Axis, AxisPoint, Setting, short_words};
 use super::error::StudyError;
 use super::inputs::{Contents, Inputs};
 use super::meshes::MeshPlan;
@@ -50,11 +50,27 @@ impl Run {
 
     /// Its values in words: "horizon_factor = 2.5, file = 4 mm".
     pub fn words(&self, study: &Study) -> String {
-        let names = short_keys(&study.axes);
-        let parts = self.points(study).zip(&names);
-        let parts = parts.map(|((_, point), name)| format!("{name} = {}", point.label));
-        parts.collect::<Vec<_>>().join(", ")
+        let keys = short_keys(&study.axes);
+        let parts = self.points(study).zip(&keys);
+        let parts = parts.flat_map(|((axis, point), keys)| parts_of(axis, point, keys));
+        let words = parts.map(|(key, label)| format!("{key} = {label}"));
+        words.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// What a value of an axis is called, by its keys: each with its value, or the first one with the label.
+fn parts_of<'a>(
+    axis: &'a Axis,
+    point: &'a AxisPoint,
+    keys: &'a [String],
+) -> impl Iterator<Item = (&'a str, String)> {
+    let shown = if axis.is_labelled { 1 } else { keys.len() };
+    let label = |cell| match axis.is_labelled {
+        true => point.label.clone(),
+        false => short_words(cell),
+    };
+    let cells = keys.iter().zip(&point.cells).take(shown);
+    cells.map(move |(key, cell)| (key.as_str(), label(cell)))
 }
 
 /// Lists the runs of a study, the last axis varying fastest, and checks the case of each; meshes that have to be made lie in
@@ -207,36 +223,35 @@ fn blame(study: &Study, run: &str, settings: &[Setting], source: CaseError) -> S
 /// The part that each value of each axis has in the names of runs, `horizon_factor=2.5`; shape (n_axes, n_values).
 fn names(axes: &[Axis]) -> Vec<Vec<String>> {
     let keys = short_keys(axes);
-    let parts = |(axis, key): (&Axis, &String)| {
-        let labels: Vec<String> = axis.points.iter().map(|it| safe(&it.label)).collect();
-        let clashes = |label: &String| {
-            labels
+    let of_axis = |(axis, keys): (&Axis, &Vec<String>)| {
+        let name = |point| {
+            let parts = parts_of(axis, point, keys);
+            let parts =
+                parts.map(|(key, label)| safe(key) + "=" + &shortened(safe(&label), LONGEST_LABEL));
+            parts.collect::<Vec<_>>().join(",")
+        };
+        let names: Vec<String> = axis.points.iter().map(name).collect();
+        let clashes = |name: &String| {
+            names
                 .iter()
-                .filter(|it| it.eq_ignore_ascii_case(label))
+                .filter(|it| it.eq_ignore_ascii_case(name))
                 .count()
                 > 1
         };
-        let part = |(point, label): (&AxisPoint, &String)| {
-            let label = if clashes(label) || label.is_empty() {
-                // Labels that differ in letters that file systems do not tell apart.
-                format!("{label}~{:08x}", digest(&point.label) as u32)
-            } else {
-                label.clone()
-            };
-            safe(key) + "=" + &shortened(label, LONGEST_LABEL)
+        let unique = |(point, name): (&AxisPoint, &String)| match clashes(name) {
+            // Labels that differ in letters that file systems do not tell apart.
+            true => format!("{name}~{:08x}", digest(&point.label) as u32),
+            false => name.clone(),
         };
-        axis.points.iter().zip(&labels).map(part).collect()
+        axis.points.iter().zip(&names).map(unique).collect()
     };
-    axes.iter().zip(&keys).map(parts).collect()
+    axes.iter().zip(&keys).map(of_axis).collect()
 }
 
-/// The shortest end of the key of each axis that says what it is and is that of no other; of several keys, the first one's.
-pub(super) fn short_keys(axes: &[Axis]) -> Vec<String> {
-    let paths = axes.iter().map(|axis| {
-        let key = axis.keys.first().map_or("", String::as_str);
-        KeyPath::parse(key).unwrap_or_default().0
-    });
-    let paths: Vec<Vec<String>> = paths.collect();
+/// The shortest end of each key of each axis that says what it is and is that of no other; shape (n_axes, n_keys).
+pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
+    let path = |key: &String| KeyPath::parse(key).unwrap_or_default().0;
+    let paths: Vec<Vec<String>> = axes.iter().flat_map(|axis| &axis.keys).map(path).collect();
     let end = |path: &[String], parts: usize| path[path.len().saturating_sub(parts)..].join(".");
     // A number or a single letter says nothing: `displacement.y` instead of `y`.
     let least = |path: &[String]| {
@@ -244,13 +259,15 @@ pub(super) fn short_keys(axes: &[Axis]) -> Vec<String> {
         let silent = path.iter().rev().take_while(|part| !says(part)).count();
         (silent + 1).min(path.len())
     };
-    let name = |path: &Vec<String>| {
-        let others = || paths.iter().filter(|other| *other != path);
-        let differs = |parts: &usize| others().all(|other| end(other, *parts) != end(path, *parts));
-        let parts = (least(path)..=path.len()).find(differs);
-        end(path, parts.unwrap_or(path.len()))
+    let name = |path: Vec<String>| {
+        let others = || paths.iter().filter(|other| **other != path);
+        let differs =
+            |parts: &usize| others().all(|other| end(other, *parts) != end(&path, *parts));
+        let parts = (least(&path)..=path.len()).find(differs);
+        end(&path, parts.unwrap_or(path.len()))
     };
-    paths.iter().map(name).collect()
+    let of_axis = |axis: &Axis| axis.keys.iter().map(|key| name(path(key))).collect();
+    axes.iter().map(of_axis).collect()
 }
 
 /// A text in letters that every file system takes.
@@ -315,7 +332,7 @@ mod tests {
             axis("support.1.displacement.y", &["0.0"]),
             axis("precrack.0.points.1.0", &["3"]),
         ];
-        let keys = short_keys(&axes);
+        let keys = short_keys(&axes).concat();
         assert_eq!(keys[0], "horizon_factor");
         assert_eq!(keys[1], "file");
         assert_eq!(keys[2], "0.displacement.y");

@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::launch::Audience;
 use super::plan::Run;
 use super::record::Status;
+use super::report::unknown_names;
 use super::study::Study;
 use crate::progress::{ProgressMode, duration_text};
 use crate::quantities::Quantities;
@@ -22,6 +23,8 @@ pub(super) struct StudyProgress<'a> {
     total: usize,
     ended: usize,
     failed: usize,
+    /// Whether the names of results in the study were looked up in a run that has some.
+    names_are_known: bool,
     begun: Instant,
     /// Names of those that go on.
     running: BTreeMap<String, String>,
@@ -46,6 +49,7 @@ impl<'a> StudyProgress<'a> {
             total,
             ended: 0,
             failed: 0,
+            names_are_known: false,
             begun: Instant::now(),
             running: BTreeMap::new(),
         }
@@ -58,7 +62,8 @@ impl<'a> StudyProgress<'a> {
             (Some(bar), _) => bar.println(line),
             // Progress that cannot be written (a closed pipe) must not end the study.
             (None, _) => {
-                let _ = writeln!(io::stderr().lock(), "{line}");
+                // One write, so that lines of several shards in one log stay whole.
+                let _ = io::stderr().lock().write_all(format!("{line}\n").as_bytes());
             }
         }
     }
@@ -108,6 +113,15 @@ impl Audience for StudyProgress<'_> {
             self.total,
             run.words(self.study)
         ));
+        if let Status::Done(results) = status
+            && !self.names_are_known
+        {
+            self.names_are_known = true;
+            // A misspelt result costs no run, but is better mended before the last one is through.
+            for unknown in unknown_names(self.study, run, results) {
+                self.tell(&format!("warning: {unknown}"));
+            }
+        }
         if let Some(bar) = &self.bar {
             bar.set_position(self.ended as u64);
         }

@@ -188,7 +188,7 @@ fn write_pivot(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::R
             .position(|axis| axis.keys.first().is_some_and(|it| it == key));
         axis.map_or_else(
             || key.to_owned(),
-            |axis| short_keys(&study.axes)[axis].clone(),
+            |axis| short_keys(&study.axes)[axis][0].clone(),
         )
     };
     write!(out, "{} over {}", plot.y, plot.x)?;

@@ -112,7 +112,7 @@ impl StudyTable {
                 self.add(key, rows, |row| point(row).cells[k].clone());
             }
             if axis.is_labelled {
-                let name = format!("{}.label", names[index]);
+                let name = format!("{}.label", names[index][0]);
                 self.add(&name, rows, |row| Cell::from(point(row).label));
             }
         }
