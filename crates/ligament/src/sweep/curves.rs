@@ -196,7 +196,7 @@ fn equation(fit: &LineFit) -> String {
 /// A number with four digits; whole ones as they are.
 pub(super) fn rounded(value: f64) -> String {
     let size = value.abs();
-    if size == 0.0 || (size >= 100.0 && size < 1e5 && value.fract() == 0.0) {
+    if size == 0.0 || ((100.0..1e5).contains(&size) && value.fract() == 0.0) {
         return value.to_string();
     }
     if !(1e-3..1e5).contains(&size) {

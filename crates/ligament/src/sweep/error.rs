@@ -27,7 +27,7 @@ pub enum StudyError {
         /// Name of the run.
         run: String,
         /// What is wrong.
-        source: CaseError,
+        source: Box<CaseError>,
     },
     /// A file that a run takes cannot be read.
     #[error("{location}: the run {run} cannot read {}", path.display())]

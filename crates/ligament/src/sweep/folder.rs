@@ -134,6 +134,9 @@ impl StudyFolder {
     /// If another process has it, or a file cannot be locked.
     pub fn claim(&self, shard: Option<Shard>) -> Result<Claim, StudyError> {
         let mut locks = vec![self.lock("sweep", shard.is_some(), "the whole study")?];
+        if shard.is_none() {
+            self.remove_unfinished();
+        }
         let name = match shard {
             None => "sweep".to_owned(),
             Some(Shard { number, count }) => {
@@ -151,6 +154,18 @@ impl StudyFolder {
             _locks: locks,
             runs,
         })
+    }
+
+    /// Removes records that a killed sweep left half written; nobody else writes any.
+    fn remove_unfinished(&self) {
+        let entries = fs::read_dir(self.path.join("records"));
+        for entry in entries.into_iter().flatten().flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if name.starts_with('.') && name.ends_with(".partial") {
+                // One that stays does no harm.
+                let _ = fs::remove_file(entry.path());
+            }
+        }
     }
 
     /// Shards of another count have other runs in common with these.

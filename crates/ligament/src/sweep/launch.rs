@@ -99,13 +99,13 @@ pub(super) fn all(
         running: Vec::new(),
         time: Duration::ZERO,
     };
-    for next in 0..runs.len() {
+    for (next, run) in runs.iter().enumerate() {
         let bytes = launcher.wait_for_room(next, audience)?;
         match launcher.start(next, bytes, audience) {
             Ok(()) => {}
             Err(Refusal::Run(reason)) => {
-                record::fail(runs[next], folder, &reason)?;
-                audience.ends(runs[next], &Status::Failed(reason), Duration::ZERO);
+                record::fail(run, folder, &reason)?;
+                audience.ends(run, &Status::Failed(reason), Duration::ZERO);
             }
             Err(Refusal::Folder(error)) => return Err(error),
         }

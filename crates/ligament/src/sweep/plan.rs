@@ -216,7 +216,7 @@ fn blame(study: &Study, run: &str, settings: &[Setting], source: CaseError) -> S
     StudyError::Run {
         location: study.location(&setting.map_or_else(case_key, |it| it.place.clone())),
         run: run.to_owned(),
-        source,
+        source: Box::new(source),
     }
 }
 

@@ -63,7 +63,9 @@ impl<'a> StudyProgress<'a> {
             // Progress that cannot be written (a closed pipe) must not end the study.
             (None, _) => {
                 // One write, so that lines of several shards in one log stay whole.
-                let _ = io::stderr().lock().write_all(format!("{line}\n").as_bytes());
+                let _ = io::stderr()
+                    .lock()
+                    .write_all(format!("{line}\n").as_bytes());
             }
         }
     }

@@ -35,7 +35,13 @@ fn shards_together_are_the_whole() {
     assert_eq!(shared.table().column("status")[0], "missing");
     // At the same time, as an array of jobs does.
     let jobs: Vec<_> = ["1/4", "3/4", "4/4"]
-        .map(|shard| shared.command(&["--shard", shard, "--quiet"]).stdout(Stdio::null()).spawn().unwrap())
+        .map(|shard| {
+            shared
+                .command(&["--shard", shard, "--quiet"])
+                .stdout(Stdio::null())
+                .spawn()
+                .unwrap()
+        })
         .into_iter()
         .map(|mut child| child.wait().unwrap())
         .collect();
