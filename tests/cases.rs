@@ -1,13 +1,18 @@
-//! The cases of the repository: each is documented, and loads and checks on its mesh.
+//! The cases and studies of the repository: each is documented, and loads and checks on its mesh.
 #![allow(clippy::unwrap_used)]
 
 use std::path::PathBuf;
 
 use ligament::case::{BodySection, CaseFile, Surface};
 use ligament::check::{Extent, check};
+use ligament::sweep::plan;
+use ligament::sweep::study::Study;
 use verification::repository;
 
-/// Folders of `cases/` with the case files in them.
+/// What studies are called.
+const STUDY: &str = "study.toml";
+
+/// Folders of `cases/` with the case files and studies in them.
 fn folders() -> Vec<(PathBuf, Vec<PathBuf>)> {
     let list = |folder: &PathBuf| {
         let entries = std::fs::read_dir(folder).unwrap();
@@ -15,7 +20,7 @@ fn folders() -> Vec<(PathBuf, Vec<PathBuf>)> {
         paths.sort();
         paths
     };
-    let is_case = |path: &PathBuf| {
+    let is_toml = |path: &PathBuf| {
         path.extension()
             .is_some_and(|extension| extension == "toml")
     };
@@ -27,13 +32,19 @@ fn folders() -> Vec<(PathBuf, Vec<PathBuf>)> {
                 folder.clone(),
                 list(&folder)
                     .into_iter()
-                    .filter(is_case)
+                    .filter(is_toml)
                     .collect::<Vec<_>>(),
             )
         })
         .collect();
     assert!(!found.is_empty(), "there are no cases");
     found
+}
+
+/// All case files.
+fn cases() -> Vec<PathBuf> {
+    let all = folders().into_iter().flat_map(|(_, files)| files);
+    all.filter(|path| !path.ends_with(STUDY)).collect()
 }
 
 /// A case's folder tells what it is about and holds the case.
@@ -57,7 +68,7 @@ fn every_case_has_a_readme() {
 #[test]
 fn every_case_names_a_mesh_of_the_repository() {
     let root = repository().canonicalize().unwrap();
-    for path in folders().into_iter().flat_map(|(_, cases)| cases) {
+    for path in cases() {
         let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         assert!(
             !case.case.title.is_empty(),
@@ -95,7 +106,7 @@ fn every_case_names_a_mesh_of_the_repository() {
 /// domain correction, if it has one, converges unless the case says by a horizon factor below 2 that it may not.
 #[test]
 fn every_case_passes_the_check() {
-    for path in folders().into_iter().flat_map(|(_, cases)| cases) {
+    for path in cases() {
         let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let mut report = Vec::new();
         check(&case, Extent::Matrix, None, &mut report)
@@ -120,4 +131,20 @@ fn every_case_passes_the_check() {
             path.display()
         );
     }
+}
+
+/// Every study loads, and the case of each of its runs on the meshes of this repository.
+#[test]
+fn every_study_has_the_cases_of_its_runs() {
+    let all = folders().into_iter().flat_map(|(_, files)| files);
+    let mut studies = 0;
+    for path in all.filter(|path| path.ends_with(STUDY)) {
+        let study = Study::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!study.title.is_empty(), "{} has no title", path.display());
+        let runs = plan::runs(&study, &repository().join("results/none"));
+        let runs = runs.unwrap_or_else(|error| panic!("{error}"));
+        assert!(runs.len() > 1, "{}", path.display());
+        studies += 1;
+    }
+    assert!(studies > 0, "there are no studies");
 }

@@ -20,6 +20,8 @@ pub enum Value<'a> {
     Float(f64),
     /// A text, quoted where needed.
     Text(&'a str),
+    /// Nothing: an empty field, which readers of tables take for a missing value.
+    Missing,
 }
 
 impl From<i64> for Value<'_> {
@@ -97,14 +99,7 @@ impl Table {
                 found: row.len(),
             });
         }
-        let mut line = String::new();
-        for (column, value) in row.iter().enumerate() {
-            if column > 0 {
-                line.push(',');
-            }
-            push_value(&mut line, *value);
-        }
-        line.push('\n');
+        let line = line(row);
         // The file has no buffer of its own: the row goes out in one write and needs no flush.
         self.file
             .write_all(line.as_bytes())
@@ -113,6 +108,19 @@ impl Table {
                 source,
             })
     }
+}
+
+/// A row as text, with the line feed at its end: for tables that are replaced as a whole.
+pub fn line(row: &[Value<'_>]) -> String {
+    let mut line = String::new();
+    for (column, value) in row.iter().enumerate() {
+        if column > 0 {
+            line.push(',');
+        }
+        push_value(&mut line, *value);
+    }
+    line.push('\n');
+    line
 }
 
 fn push_value(line: &mut String, value: Value<'_>) {
@@ -126,6 +134,7 @@ fn push_value(line: &mut String, value: Value<'_>) {
             push_text(line, text);
             Ok(())
         }
+        Value::Missing => Ok(()),
     };
 }
 
@@ -175,7 +184,7 @@ mod tests {
 
     #[test]
     fn values_are_printed_as_readers_expect() {
-        let cases: [(Value<'_>, &str); 11] = [
+        let cases: [(Value<'_>, &str); 12] = [
             (0.0.into(), "0.0"),
             ((-0.0).into(), "-0.0"),
             (1e-7.into(), "1e-7"),
@@ -187,6 +196,7 @@ mod tests {
             (u64::MAX.into(), "18446744073709551615"),
             ("a \"b\", c".into(), "\"a \"\"b\"\", c\""),
             ("".into(), "\"\""),
+            (Value::Missing, ""),
         ];
         for (value, expected) in cases {
             assert_eq!(printed(value), expected);

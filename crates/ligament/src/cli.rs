@@ -8,6 +8,7 @@ mod inspect;
 mod mesh;
 mod run;
 mod schema;
+mod sweep;
 mod verify;
 mod yielding;
 
@@ -25,6 +26,7 @@ pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
+pub use sweep::SweepArgs;
 pub use verify::VerifyArgs;
 pub use yielding::{YieldArgs, YieldCalibration};
 
@@ -46,6 +48,7 @@ Examples:
   ligament inspect disk.msh                 its groups, for the case file to name
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
+  ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
@@ -57,6 +60,13 @@ pub enum Command {
     /// Run a case: solve it, break bonds, write fields and history
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
+    /// Run a case over all combinations of some settings: a table, plots, fitted lines
+    ///
+    /// A study file names a case and axes: keys of the case with their values. Runs all combinations in
+    /// parallel, as cores and memory allow, each in a process of its own; one that fails harms no other.
+    /// Writes a table of all runs (CSV, Parquet), plots (SVG) and lines of least squares.
+    #[command(after_help = sweep::EXAMPLES)]
+    Sweep(SweepArgs),
     /// Check a case and its mesh without running it
     ///
     /// Reads the case and its mesh, builds points and bonds, and reports what a run would use:
@@ -145,6 +155,7 @@ impl Cli {
     pub fn execute(self) -> anyhow::Result<()> {
         match self.command {
             Command::Run(args) => args.execute(),
+            Command::Sweep(args) => args.execute(),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),

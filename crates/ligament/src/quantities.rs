@@ -148,7 +148,8 @@ impl Quantities {
     }
 }
 
-fn flatten(name: String, value: &Value, out: &mut Vec<(String, Value)>) {
+/// Adds the single values below one, by their dotted names.
+pub(crate) fn flatten(name: String, value: &Value, out: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(parts) => {
             for (part, value) in parts {

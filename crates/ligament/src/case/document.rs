@@ -80,7 +80,7 @@ impl Node {
     }
 
     /// The value one path segment below: of a key in a table, of an index in a list.
-    fn step(&self, segment: &str) -> Option<&Node> {
+    pub(crate) fn step(&self, segment: &str) -> Option<&Node> {
         match &self.value {
             Value::List(nodes) => nodes.get(segment.parse::<usize>().ok()?),
             _ => self.get(segment),

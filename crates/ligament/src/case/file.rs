@@ -23,11 +23,15 @@ pub struct CaseFile {
 }
 
 /// What is needed to turn a key path into a location.
-struct Source<'a> {
-    path: &'a Path,
-    text: &'a str,
-    overrides: &'a [String],
-    document: &'a Node,
+pub(crate) struct Source<'a> {
+    /// The file.
+    pub(crate) path: &'a Path,
+    /// Its text.
+    pub(crate) text: &'a str,
+    /// The settings on top of it.
+    pub(crate) overrides: &'a [String],
+    /// All of it, parsed.
+    pub(crate) document: &'a Node,
 }
 
 impl CaseFile {
@@ -157,7 +161,8 @@ impl CaseFile {
 }
 
 impl Source<'_> {
-    fn error(&self, KeyFault { key, fault }: KeyFault) -> CaseError {
+    /// The error of a fault, with its place.
+    pub(crate) fn error(&self, KeyFault { key, fault }: KeyFault) -> CaseError {
         let origin = match &fault {
             // An unknown key is wrong itself; anything else is wrong about the value.
             Fault::UnknownKey { .. } => self.document.key_origin_of(&key),
@@ -176,7 +181,8 @@ impl Source<'_> {
         }
     }
 
-    fn location(&self, origin: Option<Origin>) -> Location {
+    /// The place of what was written.
+    pub(crate) fn location(&self, origin: Option<Origin>) -> Location {
         let path = self.path.to_owned();
         match origin {
             None => Location::Document { path },
@@ -191,7 +197,8 @@ impl Source<'_> {
     }
 }
 
-fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> CaseError {
+/// The error of a text that is not TOML.
+pub(crate) fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> CaseError {
     let path = path.to_owned();
     let mut message = error.message().trim().replace('\n', "; ");
     let Some(span) = error.span() else {

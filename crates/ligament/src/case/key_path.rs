@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// Sections that may be repeated.
-const REPEATED: [&[&str]; 8] = [
+/// Sections that may be repeated, those of a study last.
+const REPEATED: [&[&str]; 11] = [
     &["precrack"],
     &["support"],
     &["load"],
@@ -12,6 +12,9 @@ const REPEATED: [&[&str]; 8] = [
     &["probe"],
     &["lattice", "remove"],
     &["fracture", "criterion"],
+    &["axis"],
+    &["result"],
+    &["plot"],
 ];
 
 /// Path of a key from the root of the document: table keys and, for lists, indices counted from 0.

@@ -9,15 +9,8 @@ use ligament_analysis::stiffness::{
 };
 
 use crate::case::{self, CaseFile, Factorisation};
+use crate::memory;
 use crate::model::Model;
-
-/// Bytes that a stored value of the factor takes.
-const FACTOR_VALUE: usize = size_of::<f64>();
-
-/// Bytes of one bond while equations are solved: 96 of the model (its record, rigidities, limit and two entries in the lists
-/// of its ends), the rest for state, deformation, points and cells. The estimate lies 0 to 6 % below what runs of 106,000 to
-/// 10,000 points took. The correction, which is over by then, takes 170 at its peak.
-const BOND: usize = 250;
 
 /// An ordering with what it costs.
 struct Analysis {
@@ -37,8 +30,7 @@ pub(super) fn write(
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
-    // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.
-    let bytes = FACTOR_VALUE * factor + 4 * FACTOR_VALUE * matrix + BOND * model.system.bonds.len();
+    let bytes = memory::of_equations(&model.system, stiffness);
     writeln!(out, "equations")?;
     writeln!(
         out,

@@ -8,6 +8,7 @@ use clap::Args;
 use super::CaseArgs;
 use crate::progress::ProgressMode;
 use crate::run::run;
+use crate::sweep::take_leash;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -35,11 +36,17 @@ pub struct RunArgs {
     /// Show no progress, only the final result and errors
     #[arg(long, short)]
     pub quiet: bool,
+    /// End when standard input ends, and hold this lock until then: for `ligament sweep`.
+    #[arg(long, value_name = "LOCK", hide = true)]
+    pub leash: Option<PathBuf>,
 }
 
 impl RunArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
+        if let Some(lock) = &self.leash {
+            take_leash(lock)?;
+        }
         let case = self.case.load()?;
         let out = self
             .out

@@ -41,6 +41,7 @@ fn help_teaches_every_command() {
     assert_eq!(output.status.code(), Some(0));
     for word in [
         "run",
+        "sweep",
         "check",
         "explain",
         "inspect",
@@ -55,6 +56,7 @@ fn help_teaches_every_command() {
     }
     for command in [
         "run",
+        "sweep",
         "check",
         "explain",
         "inspect",

@@ -1,0 +1,224 @@
+//! The folder of a study: where runs, records, logs and meshes lie, and who may write there.
+
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+use ligament_output::folder::ResultFolder;
+use serde_json::json;
+
+use super::error::StudyError;
+use super::plan::Run;
+use super::study::Study;
+
+/// The file by which the folder of a study is known.
+pub const MARKER: &str = "sweep.json";
+
+/// How often a folder that another shard is about to mark is looked at again, and how long apart.
+const LOOKS: usize = 20;
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// The folder of a study.
+#[derive(Debug, Clone)]
+pub struct StudyFolder {
+    path: PathBuf,
+}
+
+/// A part of the runs: those whose number, from 1, is `number` after a multiple of `count`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Number of shards.
+    pub count: usize,
+}
+
+impl Shard {
+    /// Whether it has the run of an index, from 0.
+    pub fn contains(self, index: usize) -> bool {
+        index % self.count == self.number - 1
+    }
+}
+
+/// The right to run a study, or a shard of it, in a folder; it ends with this process.
+#[derive(Debug)]
+pub struct Claim {
+    _locks: Vec<File>,
+    /// The file that runs hold while they live.
+    pub runs: PathBuf,
+}
+
+impl StudyFolder {
+    /// The folder at a path, whether it is there or not.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// Creates it, or takes that of an earlier sweep.
+    ///
+    /// # Errors
+    ///
+    /// If there is something else in its place, or it cannot be written.
+    pub fn open(path: &Path, study: &Study) -> anyhow::Result<Self> {
+        let folder = Self::at(path);
+        for look in 0.. {
+            if folder.is_marked() {
+                break;
+            }
+            match ResultFolder::create_marked(path, MARKER, false) {
+                Ok(new) => {
+                    let marker = json!({
+                        "study": study.path.to_string_lossy(),
+                        "title": study.title,
+                        "version": env!("CARGO_PKG_VERSION"),
+                    });
+                    new.write_text(MARKER, &format!("{marker:#}\n"))?;
+                    break;
+                }
+                // Another shard may have made the folder and be about to mark it.
+                Err(_) if look < LOOKS && folder.is_fresh() => thread::sleep(PAUSE),
+                Err(error) => return Err(error.into()),
+            }
+        }
+        for name in ["runs", "records", "logs", "locks"] {
+            let path = folder.path.join(name);
+            fs::create_dir_all(&path).map_err(|source| file_error("create", &path, source))?;
+        }
+        Ok(folder)
+    }
+
+    /// Whether it is the folder of a study.
+    pub fn is_marked(&self) -> bool {
+        self.path.join(MARKER).is_file()
+    }
+
+    /// Whether there is nothing in it but what a shard that is marking it puts there.
+    fn is_fresh(&self) -> bool {
+        let hidden = format!(".{MARKER}.");
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        names.all(|name| name == MARKER || name.starts_with(&hidden))
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The results of a run.
+    pub fn run(&self, run: &Run) -> PathBuf {
+        self.path.join("runs").join(&run.name)
+    }
+
+    /// What is known of a run beside its results.
+    pub(super) fn record(&self, run: &Run) -> PathBuf {
+        self.path.join("records").join(format!("{}.json", run.name))
+    }
+
+    /// What a run says.
+    pub(super) fn log(&self, run: &Run) -> PathBuf {
+        self.path.join("logs").join(format!("{}.log", run.name))
+    }
+
+    /// Meshes that are made for the study.
+    pub fn meshes(&self) -> PathBuf {
+        self.path.join("meshes")
+    }
+
+    /// Claims the study, or a shard of it, for this process, and waits until runs that a killed sweep left have ended.
+    ///
+    /// # Errors
+    ///
+    /// If another process has it, or a file cannot be locked.
+    pub fn claim(&self, shard: Option<Shard>) -> Result<Claim, StudyError> {
+        let mut locks = vec![self.lock("sweep", shard.is_some(), "the whole study")?];
+        if shard.is_none() {
+            self.remove_unfinished();
+        }
+        let name = match shard {
+            None => "sweep".to_owned(),
+            Some(Shard { number, count }) => {
+                self.other_counts_are_free(count)?;
+                let name = format!("shard-{number}-of-{count}");
+                locks.push(self.lock(&name, false, &name.replace('-', " "))?);
+                name
+            }
+        };
+        let runs = self.lock_path(&format!("{name}-runs"));
+        let file = open_lock(&runs)?;
+        file.lock()
+            .map_err(|source| file_error("lock", &runs, source))?;
+        Ok(Claim {
+            _locks: locks,
+            runs,
+        })
+    }
+
+    /// Removes records that a killed sweep left half written; nobody else writes any.
+    fn remove_unfinished(&self) {
+        let entries = fs::read_dir(self.path.join("records"));
+        for entry in entries.into_iter().flatten().flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if name.starts_with('.') && name.ends_with(".partial") {
+                // One that stays does no harm.
+                let _ = fs::remove_file(entry.path());
+            }
+        }
+    }
+
+    /// Shards of another count have other runs in common with these.
+    fn other_counts_are_free(&self, count: usize) -> Result<(), StudyError> {
+        let folder = self.path.join("locks");
+        let entries =
+            fs::read_dir(&folder).map_err(|source| file_error("list", &folder, source))?;
+        for entry in entries.flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let Some(name) = name.strip_suffix(".lock") else {
+                continue;
+            };
+            let is_shard = name.starts_with("shard-") && !name.ends_with("-runs");
+            if is_shard && !name.ends_with(&format!("-of-{count}")) {
+                self.lock(name, true, &name.replace('-', " "))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn lock(&self, name: &str, shared: bool, what: &str) -> Result<File, StudyError> {
+        let path = self.lock_path(name);
+        let file = open_lock(&path)?;
+        let locked = if shared {
+            file.try_lock_shared()
+        } else {
+            file.try_lock()
+        };
+        match locked {
+            Ok(()) => Ok(file),
+            Err(TryLockError::WouldBlock) => Err(StudyError::Busy {
+                folder: self.path.clone(),
+                what: what.to_owned(),
+            }),
+            Err(TryLockError::Error(source)) => Err(file_error("lock", &path, source)),
+        }
+    }
+
+    fn lock_path(&self, name: &str) -> PathBuf {
+        self.path.join("locks").join(format!("{name}.lock"))
+    }
+}
+
+fn open_lock(path: &Path) -> Result<File, StudyError> {
+    let opened = File::options().create(true).append(true).open(path);
+    opened.map_err(|source| file_error("open", path, source))
+}
+
+/// The error of a file of the folder.
+pub(super) fn file_error(action: &'static str, path: &Path, source: io::Error) -> StudyError {
+    StudyError::File {
+        action,
+        path: path.to_owned(),
+        source,
+    }
+}

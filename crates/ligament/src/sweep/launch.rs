@@ -1,0 +1,313 @@
+//! Runs as processes of their own: as many at once as there are cores and memory for.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::estimate::{self, Estimates};
+use super::folder::StudyFolder;
+use super::plan::Run;
+use super::record::{self, Status};
+
+/// Lines of a failed run's last words that its reason has.
+const LAST_WORDS: usize = 4;
+
+/// What runs may take.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Room {
+    /// Runs at once.
+    pub(super) jobs: usize,
+    /// Processors.
+    pub(super) cores: usize,
+    /// Memory, bytes; `None` where it is not known.
+    pub(super) bytes: Option<u64>,
+    /// Whether the user said how much memory.
+    pub(super) bytes_are_given: bool,
+}
+
+impl Room {
+    /// As much as there is, or as the user says.
+    pub(super) fn new(jobs: Option<usize>, gigabytes: Option<f64>) -> Self {
+        let cores = thread::available_parallelism().map_or(1, NonZero::get);
+        Self {
+            jobs: jobs.unwrap_or(cores),
+            cores,
+            bytes: gigabytes
+                .map(|it| (1e9 * it) as u64)
+                .or_else(estimate::available),
+            bytes_are_given: gigabytes.is_some(),
+        }
+    }
+
+    /// Threads for a run that is one of `left` that are running or still to come.
+    fn threads(self, left: usize) -> usize {
+        (self.cores / left.min(self.jobs).max(1)).max(1)
+    }
+}
+
+/// What becomes of runs.
+pub(super) trait Audience {
+    /// A run begins, on so many threads.
+    fn begins(&mut self, run: &Run, threads: usize);
+    /// A run has ended.
+    fn ends(&mut self, run: &Run, status: &Status, time: Duration);
+}
+
+/// A run that has ended: which, how, and when it had begun.
+struct Ended {
+    index: usize,
+    status: io::Result<ExitStatus>,
+    time: Duration,
+}
+
+/// A run that goes on.
+struct Running {
+    index: usize,
+    bytes: u64,
+    /// It ends when this is dropped, if only because this process ends.
+    _leash: Option<std::process::ChildStdin>,
+}
+
+/// Does runs in their order, as many at once as there is room for; gives the sum of their times.
+///
+/// # Errors
+///
+/// If the study's folder cannot be written; a run that fails is none.
+pub(super) fn all(
+    runs: &[&Run],
+    folder: &StudyFolder,
+    lock: &Path,
+    room: Room,
+    audience: &mut dyn Audience,
+) -> anyhow::Result<Duration> {
+    let program = std::env::current_exe()?;
+    let (sender, receiver) = channel();
+    let mut launcher = Launcher {
+        runs,
+        folder,
+        lock,
+        room,
+        program,
+        sender,
+        receiver,
+        estimates: Estimates::default(),
+        running: Vec::new(),
+        time: Duration::ZERO,
+    };
+    for (next, run) in runs.iter().enumerate() {
+        let bytes = launcher.wait_for_room(next, audience)?;
+        match launcher.start(next, bytes, audience) {
+            Ok(()) => {}
+            Err(Refusal::Run(reason)) => {
+                record::fail(run, folder, &reason)?;
+                audience.ends(run, &Status::Failed(reason), Duration::ZERO);
+            }
+            Err(Refusal::Folder(error)) => return Err(error),
+        }
+    }
+    while !launcher.running.is_empty() {
+        launcher.wait(audience)?;
+    }
+    Ok(launcher.time)
+}
+
+/// Why a run was not started.
+enum Refusal {
+    /// For a reason of its own.
+    Run(String),
+    /// Because nothing can be.
+    Folder(anyhow::Error),
+}
+
+struct Launcher<'a> {
+    runs: &'a [&'a Run],
+    folder: &'a StudyFolder,
+    lock: &'a Path,
+    room: Room,
+    program: PathBuf,
+    sender: Sender<Ended>,
+    receiver: Receiver<Ended>,
+    estimates: Estimates,
+    running: Vec<Running>,
+    time: Duration,
+}
+
+impl Launcher<'_> {
+    /// Waits until the next run fits beside those that go on, or none goes on; gives the memory it will take.
+    fn wait_for_room(&mut self, next: usize, audience: &mut dyn Audience) -> anyhow::Result<u64> {
+        // A case without a model will fail by itself, with its reason.
+        let bytes = self.estimates.of(&self.runs[next].case).unwrap_or(0);
+        while self.running.len() >= self.room.jobs
+            || (!self.running.is_empty() && !self.fits(bytes))
+        {
+            self.wait(audience)?;
+        }
+        Ok(bytes)
+    }
+
+    /// Whether there is room for so many bytes beside the estimates of what runs; and, in case other programs have taken what was
+    /// there at the start, at this moment.
+    fn fits(&self, bytes: u64) -> bool {
+        let taken: u64 = self.running.iter().map(|it| it.bytes).sum();
+        let by_estimates = self.room.bytes.is_none_or(|room| taken + bytes <= room);
+        let now = if self.room.bytes_are_given {
+            None
+        } else {
+            estimate::available()
+        };
+        by_estimates && now.is_none_or(|now| bytes <= now)
+    }
+
+    fn start(
+        &mut self,
+        next: usize,
+        bytes: u64,
+        audience: &mut dyn Audience,
+    ) -> Result<(), Refusal> {
+        let run = self.runs[next];
+        if !self.fits(bytes) {
+            return Err(Refusal::Run(self.too_large(bytes)));
+        }
+        record::begin(run, self.folder).map_err(Refusal::Folder)?;
+        let left = self.running.len() + self.runs.len() - next;
+        let threads = self.room.threads(left);
+        let begun = Instant::now();
+        let mut child = self
+            .spawn(run, threads)
+            .map_err(|error| Refusal::Folder(error.into()))?;
+        audience.begins(run, threads);
+        self.running.push(Running {
+            index: next,
+            bytes,
+            _leash: child.stdin.take(),
+        });
+        let sender = self.sender.clone();
+        thread::spawn(move || {
+            let status = child.wait();
+            // Where nobody listens any more there is nobody to tell.
+            let _ = sender.send(Ended {
+                index: next,
+                status,
+                time: begun.elapsed(),
+            });
+        });
+        Ok(())
+    }
+
+    fn spawn(&self, run: &Run, threads: usize) -> io::Result<Child> {
+        let log = File::create(self.folder.log(run))?;
+        let mut command = Command::new(&self.program);
+        command.arg("run").arg(&run.case.path);
+        for setting in &run.overrides {
+            command.arg("--set").arg(setting);
+        }
+        command
+            .arg("--out")
+            .arg(self.folder.run(run))
+            .args(["--threads", &threads.to_string(), "--quiet", "--leash"])
+            .arg(self.lock)
+            .stdin(Stdio::piped())
+            .stdout(log.try_clone()?)
+            .stderr(log);
+        command.spawn()
+    }
+
+    /// Waits for a run to end.
+    fn wait(&mut self, audience: &mut dyn Audience) -> anyhow::Result<()> {
+        // The launcher has a sender of its own, so the channel is never closed.
+        let Ok(Ended {
+            index,
+            status,
+            time,
+        }) = self.receiver.recv()
+        else {
+            return Ok(());
+        };
+        self.running.retain(|it| it.index != index);
+        self.time += time;
+        let run = self.runs[index];
+        let exit = status?;
+        if !exit.success() {
+            record::fail(run, self.folder, &self.last_words(run, exit))?;
+        }
+        let status = match Status::of(run, self.folder) {
+            Status::Missing | Status::Changed(_) => {
+                Status::Failed("it ended well, but left no summary.json".to_owned())
+            }
+            status => status,
+        };
+        audience.ends(run, &status, time);
+        Ok(())
+    }
+
+    fn too_large(&self, bytes: u64) -> String {
+        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        let room = self.room.bytes.unwrap_or_default();
+        let now = estimate::available().map_or(room, |now| now.min(room));
+        let (what, advice) = if self.room.bytes_are_given {
+            (room, "allow more by --memory")
+        } else {
+            (now, "free some, allow more by --memory")
+        };
+        format!(
+            "it would take {:.2} GB of memory, and there are {:.2} GB for it; {advice}, or run it on a larger machine by --shard",
+            gigabytes(bytes),
+            gigabytes(what)
+        )
+    }
+
+    /// Why a run failed: its error, or the last that it said and how it ended.
+    fn last_words(&self, run: &Run, exit: ExitStatus) -> String {
+        let mut text = Vec::new();
+        // Without a log the exit status is all there is.
+        let read = File::open(self.folder.log(run)).and_then(|mut log| log.read_to_end(&mut text));
+        let text = read.map_or_else(
+            |_| String::new(),
+            |_| String::from_utf8_lossy(&text).into_owned(),
+        );
+        let lines: Vec<&str> = text
+            .lines()
+            .map(str::trim)
+            .filter(|line| !line.is_empty())
+            .collect();
+        let from = lines.iter().rposition(|line| line.starts_with("error: "));
+        match from {
+            Some(from) => {
+                let words = lines[from..].join("; ");
+                words.trim_start_matches("error: ").to_owned()
+            }
+            None => {
+                let last = &lines[lines.len().saturating_sub(LAST_WORDS)..];
+                let said = last
+                    .iter()
+                    .map(|line| format!("; {line}"))
+                    .collect::<String>();
+                format!("it ended by {exit}{said}")
+            }
+        }
+    }
+}
+
+/// Ties this process to the one that started it: holds a lock for as long as it lives, and ends when standard input does, which
+/// is a pipe whose other end the starter holds.
+///
+/// # Errors
+///
+/// If the lock cannot be taken.
+pub fn take_leash(lock: &Path) -> io::Result<()> {
+    let file = File::options().create(true).append(true).open(lock)?;
+    file.lock_shared()?;
+    thread::spawn(move || {
+        let _held = file;
+        let mut byte = [0];
+        while matches!(io::stdin().read(&mut byte), Ok(1..)) {}
+        // Nobody reads an exit code here; what is half written is recognised by what is missing.
+        std::process::exit(1);
+    });
+    Ok(())
+}

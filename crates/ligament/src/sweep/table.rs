@@ -1,0 +1,296 @@
+//! The table of a study: a row a run, a typed column for each axis, result and input.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use ligament_output::csv::{self, Value};
+use serde_json::Value as Cell;
+
+use super::plan::{Run, short_keys};
+use super::record::Status;
+use super::study::Study;
+use super::written::words;
+use crate::quantities::{Quantities, flatten};
+use crate::suggestion::hint;
+
+/// What stands before the keys of inputs, so that they are told from results.
+pub(super) const INPUT: &str = "case.";
+
+/// A row a run, in the order of the study.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StudyTable {
+    columns: Vec<Column>,
+    rows: usize,
+}
+
+/// A column: its cells have one type, or are null.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub kind: Kind,
+    /// A cell a run.
+    pub cells: Vec<Cell>,
+}
+
+/// What the cells of a column are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Whole numbers of 64 bits.
+    Integer,
+    /// Numbers.
+    Number,
+    /// True or false.
+    Truth,
+    /// Texts.
+    Text,
+}
+
+/// There is no such column of numbers.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "no column of numbers is called `{name}`{}",
+    hint(name, known, "there are", '`')
+)]
+pub struct NoColumn {
+    /// The name.
+    pub name: String,
+    /// The columns of numbers.
+    pub known: Vec<String>,
+}
+
+/// A run as a row.
+pub(super) struct Row<'a> {
+    /// The run.
+    pub(super) run: &'a Run,
+    /// How far it is.
+    pub(super) status: Status,
+    /// The folder of its results.
+    pub(super) folder: String,
+}
+
+impl StudyTable {
+    /// The table of some runs.
+    pub(super) fn of(study: &Study, rows: &[Row<'_>]) -> Self {
+        let mut table = Self {
+            columns: Vec::new(),
+            rows: rows.len(),
+        };
+        table.add("run", rows, |row| Cell::from(row.run.name.as_str()));
+        table.add("status", rows, |row| Cell::from(row.status.word()));
+        table.add_axes(study, rows);
+        for derived in &study.derived {
+            table.add(&derived.name, rows, |row| {
+                let value = results(row).and_then(|it| it.number(&derived.of).ok());
+                value.map_or(Cell::Null, |value| Cell::from(value / derived.over))
+            });
+        }
+        let known = rows.iter().filter_map(results);
+        let names = in_order(known.map(|it| it.iter().map(|(name, _)| name.to_owned())));
+        for name in names {
+            let cell = |row: &Row<'_>| results(row).and_then(|it| it.get(&name).cloned());
+            table.add(&name, rows, |row| cell(row).unwrap_or_default());
+        }
+        table.add("error", rows, |row| match &row.status {
+            Status::Failed(reason) => Cell::from(reason.as_str()),
+            _ => Cell::Null,
+        });
+        table.add("folder", rows, |row| match &row.status {
+            Status::Done(_) => Cell::from(row.folder.as_str()),
+            _ => Cell::Null,
+        });
+        table.add_inputs(study, rows);
+        table
+    }
+
+    fn add_axes(&mut self, study: &Study, rows: &[Row<'_>]) {
+        let names = short_keys(&study.axes);
+        for (index, axis) in study.axes.iter().enumerate() {
+            let point = |row: &Row<'_>| axis.points[row.run.place[index]].clone();
+            for (k, key) in axis.keys.iter().enumerate() {
+                self.add(key, rows, |row| point(row).cells[k].clone());
+            }
+            if axis.is_labelled {
+                let name = format!("{}.label", names[index][0]);
+                self.add(&name, rows, |row| Cell::from(point(row).label));
+            }
+        }
+    }
+
+    /// All inputs that no axis varies.
+    fn add_inputs(&mut self, study: &Study, rows: &[Row<'_>]) {
+        let inputs: Vec<Vec<(String, Cell)>> = rows.iter().map(|row| inputs(row.run)).collect();
+        let names = in_order(
+            inputs
+                .iter()
+                .map(|of| of.iter().map(|(name, _)| name.clone())),
+        );
+        let keys: BTreeSet<&String> = study.axes.iter().flat_map(|axis| &axis.keys).collect();
+        for name in names.iter().filter(|name| !keys.contains(name)) {
+            let cell = |of: &Vec<(String, Cell)>| {
+                let found = of.iter().find(|(other, _)| other == name);
+                found.map_or(Cell::Null, |(_, cell)| cell.clone())
+            };
+            self.push(format!("{INPUT}{name}"), inputs.iter().map(cell).collect());
+        }
+    }
+
+    fn add(&mut self, name: &str, rows: &[Row<'_>], cell: impl Fn(&Row<'_>) -> Cell) {
+        // An axis or a derived result may have the name of a result, which is then told apart.
+        let is_taken = self.columns.iter().any(|column| column.name == name);
+        let name = if is_taken {
+            format!("result.{name}")
+        } else {
+            name.to_owned()
+        };
+        self.push(name, rows.iter().map(cell).collect());
+    }
+
+    fn push(&mut self, name: String, mut cells: Vec<Cell>) {
+        let kind = Kind::of(&cells);
+        for cell in &mut cells {
+            if kind == Kind::Text && !cell.is_null() {
+                *cell = Cell::from(words(cell));
+            }
+        }
+        self.columns.push(Column { name, kind, cells });
+    }
+
+    /// Its columns: run, status, axes, derived results, results, error, folder, inputs (`case.` before their keys).
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Number of runs.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The numbers of a column, shape (n_runs); `None` where a run has none. An input may be called by its key alone.
+    ///
+    /// # Errors
+    ///
+    /// If no run has numbers under this name.
+    pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, NoColumn> {
+        let is_number = |column: &&Column| matches!(column.kind, Kind::Integer | Kind::Number);
+        let by_name = |name: &str| self.columns.iter().find(|column| column.name == name);
+        let found = by_name(name).or_else(|| by_name(&format!("{INPUT}{name}")));
+        match found.filter(is_number) {
+            Some(column) => Ok(column.cells.iter().map(Cell::as_f64).collect()),
+            None => Err(NoColumn {
+                name: name.to_owned(),
+                known: (self.columns.iter().filter(is_number))
+                    .map(|column| column.name.clone())
+                    .collect(),
+            }),
+        }
+    }
+
+    /// Writes it as CSV; what a run does not have is an empty field.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be written.
+    pub fn write_csv(&self, path: &Path) -> Result<(), ligament_output::Error> {
+        let names = self.columns.iter().map(|column| Value::Text(&column.name));
+        let mut text = csv::line(&names.collect::<Vec<_>>());
+        for row in 0..self.rows {
+            let cells: Vec<Value<'_>> = self.columns.iter().map(|it| value(it, row)).collect();
+            text += &csv::line(&cells);
+        }
+        ligament_output::replace_file(path, text.as_bytes())
+    }
+}
+
+fn value(column: &Column, row: usize) -> Value<'_> {
+    match &column.cells[row] {
+        Cell::Null => Value::Missing,
+        Cell::Bool(true) => Value::Text("true"),
+        Cell::Bool(false) => Value::Text("false"),
+        Cell::String(text) => Value::Text(text),
+        number => match (column.kind, number.as_i64()) {
+            (Kind::Integer, Some(integer)) => Value::Integer(integer),
+            _ => Value::Float(number.as_f64().unwrap_or(f64::NAN)),
+        },
+    }
+}
+
+impl Kind {
+    /// The narrowest that all cells have, of which null is any.
+    fn of(cells: &[Cell]) -> Self {
+        let all = |is: fn(&Cell) -> bool| cells.iter().all(|cell| cell.is_null() || is(cell));
+        if cells.iter().all(Cell::is_null) {
+            Self::Text
+        } else if all(Cell::is_i64) {
+            Self::Integer
+        } else if all(Cell::is_number) {
+            Self::Number
+        } else if all(Cell::is_boolean) {
+            Self::Truth
+        } else {
+            Self::Text
+        }
+    }
+}
+
+fn results<'a>(row: &'a Row<'_>) -> Option<&'a Quantities> {
+    match &row.status {
+        Status::Done(results) => Some(results),
+        _ => None,
+    }
+}
+
+/// The inputs of a run by their keys.
+pub(super) fn inputs(run: &Run) -> Vec<(String, Cell)> {
+    let mut all = Vec::new();
+    // A case whose paths are no text has no inputs to show, and cannot be run either.
+    let case = serde_json::to_value(&run.case.case).unwrap_or_default();
+    for (name, value) in case.as_object().into_iter().flatten() {
+        flatten(name.clone(), value, &mut all);
+    }
+    all
+}
+
+/// The names of several lists, each once: in the order of the first list, what others add after what precedes it there.
+fn in_order(lists: impl Iterator<Item = impl Iterator<Item = String>>) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    let mut seen = BTreeSet::new();
+    for list in lists {
+        let mut after = 0;
+        for name in list {
+            if seen.insert(name.clone()) {
+                names.insert(after, name);
+                after += 1;
+            } else if let Some(place) = names.iter().position(|other| *other == name) {
+                after = place + 1;
+            }
+        }
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn columns_have_the_narrowest_type() {
+        assert_eq!(Kind::of(&[json!(1), json!(null)]), Kind::Integer);
+        assert_eq!(Kind::of(&[json!(1), json!(2.5)]), Kind::Number);
+        assert_eq!(Kind::of(&[json!(u64::MAX)]), Kind::Number);
+        assert_eq!(Kind::of(&[json!(true), json!(false)]), Kind::Truth);
+        assert_eq!(Kind::of(&[json!(1), json!("a")]), Kind::Text);
+        assert_eq!(Kind::of(&[json!(null)]), Kind::Text);
+    }
+
+    #[test]
+    fn names_keep_their_neighbours() {
+        let lists = [vec!["a", "c", "d"], vec!["a", "b", "c"], vec!["e", "a"]];
+        let lists = lists
+            .iter()
+            .map(|list| list.iter().map(|name| (*name).to_owned()));
+        assert_eq!(in_order(lists), ["e", "a", "b", "c", "d"]);
+    }
+}
