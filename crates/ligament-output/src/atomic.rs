@@ -10,7 +10,7 @@ use crate::Error;
 ///
 /// They go to a temporary file in the same folder (a rename works only within one file system), which then takes the
 /// name `path`. On failure `path` is as before and the temporary file is removed.
-pub(crate) fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
+pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write_and_rename(path, contents).map_err(|source| Error::WriteFile {
         path: path.to_path_buf(),
         source,

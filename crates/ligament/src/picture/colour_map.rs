@@ -1,0 +1,66 @@
+//! Colours of the bands.
+
+use colorous::{CIVIDIS, Color, GREYS, RED_BLUE, VIRIDIS};
+
+/// A map from the shares of a scale to colours; all are told apart with any colour vision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum ColourMap {
+    /// Dark blue over green to yellow
+    Viridis,
+    /// Dark blue over grey to yellow
+    Cividis,
+    /// Light to dark grey
+    Grey,
+    /// Blue over white to red, with white at zero
+    Diverging,
+}
+
+impl ColourMap {
+    /// The colour of a share from 0 to 1, as `#rrggbb`.
+    pub(super) fn colour(self, share: f64) -> String {
+        let Color { r, g, b } = match self {
+            Self::Viridis => VIRIDIS.eval_continuous(share),
+            Self::Cividis => CIVIDIS.eval_continuous(share),
+            // White would be taken for what is outside the body.
+            Self::Grey => GREYS.eval_continuous(0.1 + 0.9 * share),
+            Self::Diverging => RED_BLUE.eval_continuous(1.0 - share),
+        };
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
+    /// Colours of so many bands, from one end of the map to the other.
+    pub(super) fn bands(self, count: usize) -> Vec<String> {
+        let share = |band: usize| match count {
+            1 => 0.5,
+            _ => band as f64 / (count - 1) as f64,
+        };
+        (0..count).map(|band| self.colour(share(band))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The published ends of viridis (#440154 and #fde725), and of ColorBrewer's RdBu.
+    #[test]
+    fn the_ends_of_a_scale_have_the_colours_of_the_map() {
+        let bands = ColourMap::Viridis.bands(9);
+        assert_eq!(
+            (bands[0].as_str(), bands[8].as_str()),
+            ("#440154", "#fde725")
+        );
+        let bands = ColourMap::Diverging.bands(4);
+        assert_eq!(
+            (bands[0].as_str(), bands[3].as_str()),
+            ("#053061", "#67001f")
+        );
+        assert_eq!(ColourMap::Cividis.bands(1).len(), 1);
+    }
+
+    /// The bands about zero are a bluish and a reddish white.
+    #[test]
+    fn the_middle_of_the_diverging_map_is_white() {
+        assert_eq!(ColourMap::Diverging.colour(0.5), "#f2efee");
+    }
+}
