@@ -25,20 +25,13 @@ impl Surface {
         positions: &[[f64; 2]],
         has_value: impl Fn(u32) -> bool,
     ) -> Self {
-        let at = |node: u32| positions[node as usize];
-        let turned = |[a, b, c]: [u32; 3]| {
-            if doubled_area(at(a), at(b), at(c)) < 0.0 {
-                [a, c, b]
-            } else {
-                [a, b, c]
-            }
-        };
         let with_values = |triangle: &[u32; 3]| triangle.iter().all(|&node| has_value(node));
-        let triangles: Vec<[u32; 3]> = triangles
-            .into_iter()
-            .filter(with_values)
-            .map(turned)
-            .collect();
+        let triangles = triangles.into_iter().filter(with_values);
+        Self::of_oriented(triangles.map(|it| oriented(it, positions)).collect())
+    }
+
+    /// Triangles whose corners are counter-clockwise already.
+    pub(super) fn of_oriented(triangles: Vec<[u32; 3]>) -> Self {
         // How often an edge is run along from its smaller to its larger node, less the other way.
         let mut edges: Vec<(Place, i32)> = triangles
             .iter()
@@ -103,6 +96,16 @@ impl Surface {
             [xa + share * (xb - xa), ya + share * (yb - ya)]
         };
         joined(along_boundary.chain(across_triangles).collect(), position)
+    }
+}
+
+/// A triangle with its corners counter-clockwise.
+pub(super) fn oriented([a, b, c]: [u32; 3], positions: &[[f64; 2]]) -> [u32; 3] {
+    let at = |node: u32| positions[node as usize];
+    if doubled_area(at(a), at(b), at(c)) < 0.0 {
+        [a, c, b]
+    } else {
+        [a, b, c]
     }
 }
 

@@ -69,26 +69,26 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         let points = curve.points.iter().map(|&point| place(point));
         series.push(Series::new(label, mark, colour, points.collect()));
     }
-    let peaks = curves.iter().enumerate();
-    let peaks = peaks.filter_map(|(number, curve)| Some((number, curve.first_peak?)));
-    for (order, (number, peak)) in peaks.enumerate() {
-        let label = match (order, is_single) {
-            (0, true) => format!("first peak {}", shown[1].value(peak[1])),
-            (0, false) => "first peak".to_owned(),
-            _ => String::new(),
+    let mut title = String::new();
+    let mut is_named = is_single;
+    for (number, curve) in curves.iter().enumerate() {
+        let Some(peak) = curve.first_peak else {
+            continue;
         };
+        if is_single {
+            let [x, y] = [0, 1].map(|axis| shown[axis].value(peak[axis]));
+            title = format!("first peak {y} at {x}");
+        }
+        // One entry of the legend for all.
+        let label = if is_named { "" } else { "first peak" };
+        is_named = true;
         let colour = COLOURS[number % COLOURS.len()];
-        series.push(Series::new(
-            &label,
-            Mark::Circles,
-            colour,
-            vec![place(peak)],
-        ));
+        series.push(Series::new(label, Mark::Circles, colour, vec![place(peak)]));
     }
     let words = |column: &str| column.replace('_', " ");
     let plot = Plot {
         name: "curves".to_owned(),
-        title: String::new(),
+        title,
         x: shown[0].label(&words(&request.columns[0])),
         y: shown[1].label(&words(&request.columns[1])),
         series,

@@ -133,7 +133,7 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let mut legend = vec![(None, magnification_words(magnification))];
     legend.extend(crack_legend(&sources, &panels));
     let quantity = if has_modes {
-        format!("{name} / its largest in the mode")
+        format!("{name} / its 99.5 % quantile")
     } else {
         name.clone()
     };

@@ -4,8 +4,9 @@ use ligament_output::FieldLocation;
 use ligament_output::vtu::Cell;
 
 use super::body::{Body, bounds};
-use super::contour::{Surface, halves};
+use super::contour::{Surface, halves, oriented};
 use super::field::Field;
+use super::joined::Joined;
 use super::levels::Levels;
 use super::svg::{Document, Paint, PathData};
 
@@ -15,14 +16,11 @@ const BARE: &str = "#dcdcdc";
 /// Colour of outlines.
 const OUTLINE: &str = "#404040";
 
-/// Widths of lines in pixels: outlines, ...
+/// Widths of lines in pixels: outlines ...
 const OUTLINE_WIDTH: f64 = 0.5;
 
-/// ... broken bonds, ...
-const BOND_WIDTH: f64 = 0.5;
-
-/// ... and around the cells of a lattice, in their own colour: without them cells that touch would show a hairline.
-const SEAM_WIDTH: f64 = 0.3;
+/// ... and broken bonds.
+const BOND_WIDTH: f64 = 0.4;
 
 /// A body with what is drawn of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,24 +115,10 @@ impl Panel {
 
     /// Contours of values at the points, each region over the one of the level below.
     fn draw_surface(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
-        let triangles = || {
-            let halves = |cell: &Cell| match *cell {
-                Cell::Triangle(corners) => vec![corners],
-                Cell::Quad(corners) => halves(corners).to_vec(),
-                Cell::Vertex(_) | Cell::Line(_) => Vec::new(),
-            };
-            self.body.cells.iter().flat_map(halves)
-        };
+        let triangles = || self.body.cells.iter().flat_map(halves_of);
         let reference = &self.body.reference;
         let whole = Surface::new(triangles(), reference, |_| true);
-        let path_of = |outlines: Vec<Vec<[f64; 2]>>| {
-            let mut path = PathData::default();
-            for outline in &outlines {
-                frame.add(&mut path, outline);
-            }
-            path
-        };
-        let outline = path_of(whole.outlines(&self.positions));
+        let outline = path_of(whole.outlines(&self.positions), frame);
         document.path(&outline, fill(BARE));
         if let Some((field, Scale { levels, colours })) = field {
             let values = &field.values;
@@ -142,44 +126,62 @@ impl Panel {
                 values[node as usize].is_finite()
             });
             let lowest = surface.outlines(&self.positions);
-            document.path(&path_of(lowest), fill(&colours[0]));
+            document.path(&path_of(lowest, frame), fill(&colours[0]));
             for (level, colour) in levels.bounds.iter().zip(colours).skip(1) {
                 let region = surface.region(&self.positions, values, *level);
-                document.path(&path_of(region), fill(colour));
+                document.path(&path_of(region, frame), fill(colour));
             }
         }
         let stroke = Some((OUTLINE, OUTLINE_WIDTH));
         document.path(&outline, Paint { fill: None, stroke });
     }
 
-    /// Cells with a colour each, those of a colour together.
+    /// Cells with a colour each: those of a band and of all above it over those of the band below.
     fn draw_cells(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
-        let n_bands = field.map_or(0, |(_, scale)| scale.colours.len());
-        // The last one is for cells without a value.
-        let mut paths = vec![PathData::default(); n_bands + 1];
-        for (place, cell) in self.body.cells.iter().enumerate() {
-            let corners: Vec<[f64; 2]> = cell
-                .points()
-                .iter()
-                .map(|&it| self.positions[it as usize])
-                .collect();
-            let value = field.map_or(f64::NAN, |(field, _)| field.values[place]);
-            let band = match field {
-                Some((_, scale)) if value.is_finite() => scale.levels.band(value),
-                _ => n_bands,
-            };
-            frame.add(&mut paths[band], &corners);
-        }
-        let colours = field.into_iter().flat_map(|(_, scale)| &scale.colours);
-        let colours = colours.map(String::as_str).chain([BARE]);
-        for (path, colour) in paths.iter().zip(colours) {
-            let paint = Paint {
-                fill: Some(colour),
-                stroke: Some((colour, SEAM_WIDTH)),
-            };
-            document.path(path, paint);
+        let (body, cells) = (&self.body, &self.body.cells);
+        let joined = Joined::new(cells, &body.reference, &self.positions);
+        let band_of = |cell: usize| {
+            let (field, scale) = field?;
+            let value = field.values[cell];
+            value.is_finite().then(|| scale.levels.band(value))
+        };
+        // What has no value lies below all bands.
+        let bands: Vec<Option<usize>> = (0..cells.len()).map(band_of).collect();
+        let mut draw = |from: Option<usize>, colour: &str| {
+            let chosen = cells.iter().zip(&bands).filter(|(_, band)| **band >= from);
+            let triangles = chosen.flat_map(|(cell, _)| halves_of(cell));
+            // Corners of one cell differ, so that orientations are seen without load.
+            let named = triangles.map(|corners| oriented(corners, &body.reference));
+            let named = named.map(|it| it.map(|corner| joined.place_of[corner as usize]));
+            let surface = Surface::of_oriented(named.collect());
+            document.path(
+                &path_of(surface.outlines(&joined.places), frame),
+                fill(colour),
+            );
+        };
+        draw(None, BARE);
+        let colours = field.iter().flat_map(|(_, scale)| &scale.colours);
+        for (band, colour) in colours.enumerate() {
+            draw(Some(band), colour);
         }
     }
+}
+
+/// The triangles of a cell.
+fn halves_of(cell: &Cell) -> Vec<[u32; 3]> {
+    match *cell {
+        Cell::Triangle(corners) => vec![corners],
+        Cell::Quad(corners) => halves(corners).to_vec(),
+        Cell::Vertex(_) | Cell::Line(_) => Vec::new(),
+    }
+}
+
+fn path_of(outlines: Vec<Vec<[f64; 2]>>, frame: Frame) -> PathData {
+    let mut path = PathData::default();
+    for outline in &outlines {
+        frame.add(&mut path, outline);
+    }
+    path
 }
 
 fn fill(colour: &str) -> Paint<'_> {
