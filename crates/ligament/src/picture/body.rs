@@ -58,6 +58,11 @@ impl Body {
         })
     }
 
+    /// Whether its cells share their corners: then cracks do not open between them.
+    pub(super) fn is_mesh(&self) -> bool {
+        self.tagged == FieldLocation::Point
+    }
+
     /// Positions with the displacement times a scale, shape (n), m.
     pub(super) fn deformed(&self, scale: f64) -> Vec<[f64; 2]> {
         let moved = self.reference.iter().zip(&self.displacement);

@@ -39,41 +39,23 @@ pub(super) struct Crack {
 }
 
 impl Crack {
-    /// Reads the broken bonds of a run.
-    pub(super) fn read(folder: &Path, follows_path: bool) -> Result<Self, PictureError> {
-        let sheet = Sheet::read(folder.join("breaks.csv"))?;
-        let tagged = if sheet.columns().iter().any(|it| it == "cell_a") {
-            "cell"
-        } else {
-            "node"
-        };
-        let tags = |end: &str| sheet.values::<i64>(&format!("{tagged}_{end}"));
-        let steps: Vec<usize> = sheet.values("step")?;
-        let criteria: Vec<String> = sheet.values("criterion")?;
-        let mut names = criteria.clone();
-        names.sort();
-        names.dedup();
-        let ends: Vec<[i64; 2]> = tags("a")?
-            .into_iter()
-            .zip(tags("b")?)
-            .map(|(a, b)| [a, b])
-            .collect();
-        let of_name = |name: String| {
-            let own = criteria.iter().zip(ends.iter().zip(&steps));
-            let own = own.filter(|(criterion, _)| **criterion == name);
-            Broken {
-                bonds: own.map(|(_, (ends, step))| (*ends, *step)).collect(),
-                colour: OVER_FIELD,
-                name,
-            }
-        };
-        let broken = names.into_iter().map(of_name);
+    /// Reads what a pre-crack cut in a run, and what broke if that is drawn.
+    pub(super) fn read(
+        folder: &Path,
+        follows_path: bool,
+        with_broken: bool,
+    ) -> Result<Self, PictureError> {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut = (!cut.is_empty()).then(|| Broken {
             name: "pre-crack".to_owned(),
             colour: CUT,
             bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
         });
+        let broken = if with_broken {
+            broken(&Sheet::read(folder.join("breaks.csv"))?)?
+        } else {
+            Vec::new()
+        };
         Ok(Self {
             kinds: cut.into_iter().chain(broken).collect(),
             breaks_after_output: follows_path,
@@ -82,18 +64,47 @@ impl Crack {
 
     /// The bonds of a kind that are broken in the output of a step, by the tags of their ends.
     pub(super) fn until(&self, kind: &Broken, step: usize) -> Vec<[i64; 2]> {
-        let is_broken = |at: usize| {
-            kind.colour == CUT || at < step || (at == step && !self.breaks_after_output)
-        };
+        let is_broken =
+            |at: usize| kind.is_cut() || at < step || (at == step && !self.breaks_after_output);
         let bonds = kind.bonds.iter().filter(|(_, at)| is_broken(*at));
         bonds.map(|(ends, _)| *ends).collect()
     }
 }
 
+impl Broken {
+    /// Whether a pre-crack cut these.
+    pub(super) fn is_cut(&self) -> bool {
+        self.colour == CUT
+    }
+}
+
+/// The broken bonds of a table by their criteria.
+fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
+    let has_cells = sheet.columns().iter().any(|it| it == "cell_a");
+    let tagged = if has_cells { "cell" } else { "node" };
+    let tags = |end: &str| sheet.values::<i64>(&format!("{tagged}_{end}"));
+    let steps: Vec<usize> = sheet.values("step")?;
+    let criteria: Vec<String> = sheet.values("criterion")?;
+    let ends = tags("a")?.into_iter().zip(tags("b")?).map(|(a, b)| [a, b]);
+    let bonds: Vec<([i64; 2], usize)> = ends.zip(steps).collect();
+    let mut names = criteria.clone();
+    names.sort();
+    names.dedup();
+    let of_name = |name: String| {
+        let own = criteria.iter().zip(&bonds).filter(|(it, _)| **it == name);
+        Broken {
+            bonds: own.map(|(_, bond)| *bond).collect(),
+            colour: OVER_FIELD,
+            name,
+        }
+    };
+    Ok(names.into_iter().map(of_name).collect())
+}
+
 /// Gives each criterion of all cracks a colour of its own; black where there is only one, drawn over a field.
 pub(super) fn paint(mut cracks: Vec<&mut Crack>, over_field: bool) {
     let kinds = cracks.iter().flat_map(|crack| &crack.kinds);
-    let broken = kinds.filter(|kind| kind.colour != CUT);
+    let broken = kinds.filter(|kind| !kind.is_cut());
     let mut names: Vec<String> = broken.map(|kind| kind.name.clone()).collect();
     names.sort();
     names.dedup();
@@ -101,7 +112,7 @@ pub(super) fn paint(mut cracks: Vec<&mut Crack>, over_field: bool) {
         return;
     }
     let kinds = cracks.iter_mut().flat_map(|crack| &mut crack.kinds);
-    for kind in kinds.filter(|kind| kind.colour != CUT) {
+    for kind in kinds.filter(|kind| !kind.is_cut()) {
         let place = names.iter().position(|it| *it == kind.name).unwrap_or(0);
         kind.colour = COLOURS[place % COLOURS.len()];
     }
@@ -114,7 +125,7 @@ mod tests {
     fn crack(text: &str, follows_path: bool) -> Crack {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("breaks.csv"), text).unwrap();
-        let mut crack = Crack::read(folder.path(), follows_path).unwrap();
+        let mut crack = Crack::read(folder.path(), follows_path, true).unwrap();
         paint(vec![&mut crack], false);
         crack
     }

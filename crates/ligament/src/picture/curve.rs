@@ -13,7 +13,7 @@ use crate::quantities::Quantities;
 use crate::suggestion::hint;
 
 /// Rows up to which each of them is marked by a dot.
-const DOTTED: usize = 60;
+const DOTTED: usize = 100;
 
 /// Width without and with a legend, mm.
 const WIDTHS: [f64; 2] = [120.0, 160.0];

@@ -15,7 +15,7 @@ use super::field::{Field, NONE};
 use super::levels::{Levels, Rule, has_both_signs};
 use super::panel::{Panel, Scale};
 use super::select::{Choice, Moment, chosen, moments};
-use super::strip::Strip;
+use super::strip::{Entry, Strip};
 use super::svg::PIXELS_PER_MM;
 use super::units::{Shown, four_digits};
 use super::{PictureError, Target, labels_of};
@@ -77,6 +77,8 @@ struct Source {
     /// Units to show displacement and force in.
     shown: Option<[Shown; 2]>,
     crack: Option<Crack>,
+    /// Whether broken bonds are drawn; of a mesh, whose cells hide it, a pre-crack is drawn in any case.
+    shows_broken: bool,
     /// Frequencies of modes by number, Hz.
     frequencies: BTreeMap<usize, f64>,
 }
@@ -130,7 +132,10 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
         .collect();
 
     let drawn = scale(&panels, &name, has_modes, request)?;
-    let mut legend = vec![(None, magnification_words(magnification))];
+    let mut legend = vec![Entry {
+        colour: None,
+        words: magnification_words(magnification),
+    }];
     legend.extend(crack_legend(&sources, &panels));
     let quantity = if has_modes {
         format!("{name} / its 99.5 % quantile")
@@ -178,6 +183,7 @@ impl Source {
                 moments: BTreeMap::new(),
                 shown: None,
                 crack: None,
+                shows_broken: false,
                 frequencies,
             });
         }
@@ -192,15 +198,14 @@ impl Source {
             ]
         });
         let follows_path = loading.is_some_and(|it| it.follows_path);
-        let crack = (request.crack)
-            .then(|| Crack::read(folder, follows_path))
-            .transpose()?;
+        let crack = Crack::read(folder, follows_path, request.crack)?;
         Ok(Self {
             outputs,
             label,
             moments,
             shown,
-            crack,
+            crack: Some(crack),
+            shows_broken: request.crack,
             frequencies: BTreeMap::new(),
         })
     }
@@ -288,6 +293,8 @@ impl Source {
             .crack
             .iter()
             .flat_map(|crack| crack.kinds.iter().map(move |it| (crack, it)));
+        let shows_cut = self.shows_broken || panel.body.is_mesh();
+        let kinds = kinds.filter(|(_, kind)| shows_cut || !kind.is_cut());
         panel.broken = kinds
             .map(|(crack, kind)| {
                 let bonds = crack.until(kind, number).into_iter();
@@ -395,8 +402,8 @@ fn scale(
 }
 
 /// The criteria by which bonds of any panel broke, each once, with the number in the last panel.
-fn crack_legend(sources: &[Source], panels: &[Panel]) -> Vec<(Option<&'static str>, String)> {
-    let mut entries: Vec<(Option<&'static str>, String)> = Vec::new();
+fn crack_legend(sources: &[Source], panels: &[Panel]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
     let kinds = sources
         .iter()
         .flat_map(|it| &it.crack)
@@ -411,8 +418,11 @@ fn crack_legend(sources: &[Source], panels: &[Panel]) -> Vec<(Option<&'static st
             [_] => format!("{} ({count})", kind.name),
             _ => kind.name.clone(),
         };
-        if count > 0 && !entries.iter().any(|it| it.1 == words) {
-            entries.push((Some(kind.colour), words));
+        if count > 0 && !entries.iter().any(|it| it.words == words) {
+            entries.push(Entry {
+                colour: Some(kind.colour),
+                words,
+            });
         }
     }
     entries

@@ -94,7 +94,7 @@ impl Panel {
             Some((field, scale)) if field.location == FieldLocation::Cell => {
                 self.draw_cells(document, frame, Some((field, scale)));
             }
-            None if self.stands_apart() => self.draw_cells(document, frame, None),
+            None if !self.body.is_mesh() => self.draw_cells(document, frame, None),
             _ => self.draw_surface(document, frame, field),
         }
         for (colour, bonds) in &self.broken {
@@ -105,12 +105,6 @@ impl Panel {
             let stroke = Some((*colour, BOND_WIDTH));
             document.path(&path, Paint { fill: None, stroke });
         }
-    }
-
-    /// Whether the cells share no corners, as those of a lattice.
-    fn stands_apart(&self) -> bool {
-        let n_corners: usize = self.body.cells.iter().map(|it| it.points().len()).sum();
-        n_corners == self.positions.len()
     }
 
     /// Contours of values at the points, each region over the one of the level below.

@@ -20,6 +20,15 @@ const TALLEST: f64 = 1.25;
 /// Bodies wider than so many heights are put below each other.
 const WIDE: f64 = 2.2;
 
+/// A line of the legend.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Entry {
+    /// Colour of its sample; None: words alone.
+    pub(super) colour: Option<&'static str>,
+    /// Its words.
+    pub(super) words: String,
+}
+
 /// What a picture consists of.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
@@ -29,8 +38,8 @@ pub(super) struct Strip<'a> {
     pub(super) scale: Option<&'a Scale>,
     /// The bar of the field.
     pub(super) bar: Option<ColourBar<'a>>,
-    /// Colours and words below the bodies; words alone without a colour.
-    pub(super) legend: Vec<(Option<&'static str>, String)>,
+    /// What is below the bodies.
+    pub(super) legend: Vec<Entry>,
     /// Part of the plane to draw, lower left and upper right corner, m; None: all.
     pub(super) window: Option<[[f64; 2]; 2]>,
     /// Bodies in a row.
@@ -128,7 +137,7 @@ impl Strip<'_> {
         }
         for (line, entries) in legend.iter().enumerate() {
             let y = MARGIN + inner + 4.0 + LINE * (line as f64 + 0.8);
-            for (x, (colour, words)) in entries {
+            for (x, Entry { colour, words }) in entries {
                 let mut start = MARGIN + x;
                 if let Some(colour) = colour {
                     document.line([start, y - 3.0], [start + 14.0, y - 3.0], colour, 1.5);
@@ -151,12 +160,12 @@ impl Strip<'_> {
     }
 
     /// The entries of the legend with their places in lines of a width.
-    fn legend_lines(&self, width: f64) -> Vec<Vec<(f64, &(Option<&'static str>, String))>> {
+    fn legend_lines(&self, width: f64) -> Vec<Vec<(f64, &Entry)>> {
         let mut lines: Vec<Vec<_>> = Vec::new();
         let mut at = 0.0;
         for entry in &self.legend {
-            let swatch = if entry.0.is_some() { 18.0 } else { 0.0 };
-            let needs = swatch + text_width(&entry.1, SIZE);
+            let swatch = if entry.colour.is_some() { 18.0 } else { 0.0 };
+            let needs = swatch + text_width(&entry.words, SIZE);
             if lines.is_empty() || at + needs > width {
                 lines.push(Vec::new());
                 at = 0.0;

@@ -52,8 +52,8 @@ impl Paper {
     pub fn new(width: f64, series: &[Series]) -> Self {
         let labels = series.iter().filter(|it| it.is_named());
         let longest = labels.map(|it| it.label.chars().count()).max();
-        // 9 pixels a letter of 15 pixels, beside the sample of the line.
-        let legend = longest.map_or(0, |letters| 52 + 9 * letters as i32);
+        // 8.5 pixels a letter of 15 pixels, beside the sample of the line.
+        let legend = longest.map_or(0, |letters| 52 + 17 * letters as i32 / 2);
         let pixels = (width * PIXELS_PER_MM).round();
         let height = HEIGHT * (pixels - f64::from(legend)).max(0.4 * pixels);
         Self {
