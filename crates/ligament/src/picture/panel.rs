@@ -67,11 +67,6 @@ impl Frame {
         ]
     }
 
-    /// Width and height, pixels.
-    pub(super) fn size(&self) -> [f64; 2] {
-        [0, 1].map(|axis| (self.high[axis] - self.low[axis]) * self.scale)
-    }
-
     /// Whether a polygon may reach into the frame.
     fn meets(&self, points: &[[f64; 2]]) -> bool {
         bounds(points).is_some_and(|[low, high]| {

@@ -29,6 +29,12 @@ pub(super) struct Entry {
     pub(super) words: String,
 }
 
+/// Room for the sample of a line in the legend, pixels.
+const SAMPLE: f64 = 18.0;
+
+/// Most of a colour bar's height, pixels.
+const LONGEST_BAR: f64 = 420.0;
+
 /// What a picture consists of.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
@@ -48,105 +54,147 @@ pub(super) struct Strip<'a> {
     pub(super) title: String,
 }
 
+/// Where everything lies, in pixels.
+#[derive(Debug)]
+struct Layout {
+    /// Bodies in a row.
+    columns: usize,
+    /// Pixels to the metre.
+    scale: f64,
+    /// Room for a body.
+    cell: [f64; 2],
+    /// Lines of the titles.
+    titles: Vec<Vec<String>>,
+    title_height: f64,
+    /// Upper left corner of the first title, and what all bodies take from there.
+    start: [f64; 2],
+    bodies: [f64; 2],
+    /// Height without margins and legend.
+    inner: f64,
+}
+
 impl Strip<'_> {
     /// The picture as the text of an SVG file, so many pixels wide.
     pub(super) fn to_svg(&self, width: f64) -> String {
-        let extents: Vec<[[f64; 2]; 2]> = (self.panels.iter())
-            .filter_map(|panel| self.window.or_else(|| bounds(&panel.positions)))
-            .collect();
-        let largest = |axis: usize| {
-            let sizes = extents.iter().map(|[low, high]| high[axis] - low[axis]);
-            sizes.fold(f64::MIN_POSITIVE, f64::max)
-        };
-        let body = [largest(0), largest(1)];
-        let columns = self
-            .columns
-            .unwrap_or_else(|| self.columns_for(body))
-            .clamp(1, self.panels.len());
-        let rows = self.panels.len().div_ceil(columns);
-        let bar_width = self
-            .bar
-            .as_ref()
-            .map_or(0.0, |bar| 2.0 * MARGIN + bar.width());
-        let between = 2.0 * MARGIN;
-        let room = width - 2.0 * MARGIN - bar_width - between * (columns as f64 - 1.0);
-        let cell_width = (room / columns as f64).max(1.0);
-        let titles: Vec<Vec<String>> = self
-            .panels
-            .iter()
-            .map(|panel| wrapped(&panel.title, cell_width))
-            .collect();
-        let n_lines = titles.iter().map(Vec::len).max().unwrap_or(0);
-        let title_height = LINE * n_lines as f64 + if n_lines > 0 { 3.0 } else { 0.0 };
         let legend = self.legend_lines(width - 2.0 * MARGIN);
-        let legend_height = LINE * legend.len() as f64 + if legend.is_empty() { 0.0 } else { 4.0 };
-        let gaps = MARGIN * (rows as f64 - 1.0);
-        let fixed = 2.0 * MARGIN + legend_height + title_height * rows as f64 + gaps;
-        let tallest = (TALLEST * width - fixed).max(1.0) / rows as f64;
-        let scale = (cell_width / body[0]).min(tallest / body[1]);
-        let cell_height = body[1] * scale;
-        let bodies_height = (title_height + cell_height) * rows as f64 + gaps;
-        let least = self.bar.as_ref().map_or(0.0, ColourBar::least_height);
-        // A body that keeps its height from filling the width leaves no empty room beside it.
-        let cell_width = cell_width.min((body[0] * scale).max(widest(&titles)));
-        let used = cell_width * columns as f64 + between * (columns as f64 - 1.0);
-        let left = MARGIN + 0.5 * (room + between * (columns as f64 - 1.0) - used);
-        let inner = bodies_height.max(least);
-        let top = MARGIN + 0.5 * (inner - bodies_height);
-        let mut document = Document::new([width, 2.0 * MARGIN + inner + legend_height]);
-        for (place, (panel, title)) in self.panels.iter().zip(&titles).enumerate() {
-            let (row, column) = (place / columns, place % columns);
-            let x = left + (cell_width + between) * column as f64;
-            let y = top + (title_height + cell_height + MARGIN) * row as f64;
-            for (line, words) in title.iter().enumerate() {
-                let at = [x + 0.5 * cell_width, y + LINE * (line as f64 + 0.8)];
-                document.text(at, Anchor::Middle, SIZE, words);
-            }
-            let Some([low, high]) = self.window.or_else(|| bounds(&panel.positions)) else {
-                continue;
-            };
-            let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
-            let at = [
-                x + 0.5 * (cell_width - own[0]),
-                y + title_height + 0.5 * (cell_height - own[1]),
-            ];
-            let frame = Frame {
-                low,
-                high,
-                at,
-                scale,
-            };
-            if self.window.is_some() {
-                document.begin_window(&format!("window-{place}"), at, frame.size());
-                panel.draw(&mut document, frame, self.scale);
-                document.end_window();
-                document.frame(at, frame.size());
-            } else {
-                panel.draw(&mut document, frame, self.scale);
-            }
+        let below = LINE * legend.len() as f64 + if legend.is_empty() { 0.0 } else { 4.0 };
+        let layout = self.layout(width, below);
+        let height = 2.0 * MARGIN + layout.inner + below;
+        let mut document = Document::new([width, height]);
+        for place in 0..self.panels.len() {
+            self.draw_panel(&mut document, &layout, place);
         }
         if let Some(bar) = &self.bar {
-            let (x, y) = (left + used + 2.0 * MARGIN, MARGIN + title_height);
-            // In one row beside the bodies, without their titles.
-            let height = (inner - title_height).clamp(60.0, 420.0);
-            bar.draw(
-                &mut document,
-                [x, y + 0.5 * (inner - title_height - height)],
-                height,
-            );
+            // Beside the bodies, without the titles of the first row.
+            let room = layout.inner - layout.title_height;
+            let height = room.clamp(60.0, LONGEST_BAR);
+            let x = layout.start[0] + layout.bodies[0] + 2.0 * MARGIN;
+            let y = MARGIN + layout.title_height + 0.5 * (room - height);
+            bar.draw(&mut document, [x, y], height);
         }
         for (line, entries) in legend.iter().enumerate() {
-            let y = MARGIN + inner + 4.0 + LINE * (line as f64 + 0.8);
+            let y = MARGIN + layout.inner + 4.0 + LINE * (line as f64 + 0.8);
             for (x, Entry { colour, words }) in entries {
                 let mut start = MARGIN + x;
                 if let Some(colour) = colour {
                     document.line([start, y - 3.0], [start + 14.0, y - 3.0], colour, 1.5);
-                    start += 18.0;
+                    start += SAMPLE;
                 }
                 document.text([start, y], Anchor::Start, SIZE, words);
             }
         }
         document.finish(&self.title)
+    }
+
+    /// Lower left and upper right corner of what is seen of a body, m.
+    fn extent(&self, panel: &Panel) -> Option<[[f64; 2]; 2]> {
+        self.window.or_else(|| bounds(&panel.positions))
+    }
+
+    fn layout(&self, width: f64, below: f64) -> Layout {
+        let extents: Vec<[[f64; 2]; 2]> = (self.panels.iter())
+            .filter_map(|panel| self.extent(panel))
+            .collect();
+        let body = [0, 1].map(|axis| {
+            let sizes = extents.iter().map(|[low, high]| high[axis] - low[axis]);
+            sizes.fold(f64::MIN_POSITIVE, f64::max)
+        });
+        let count = self.panels.len();
+        let columns = self
+            .columns
+            .unwrap_or_else(|| self.columns_for(body))
+            .clamp(1, count);
+        let rows = count.div_ceil(columns) as f64;
+        let bar = self
+            .bar
+            .as_ref()
+            .map_or(0.0, |bar| 2.0 * MARGIN + bar.width());
+        let gaps = 2.0 * MARGIN * (columns as f64 - 1.0);
+        let room = width - 2.0 * MARGIN - bar - gaps;
+        let widest_cell = (room / columns as f64).max(1.0);
+        let titles: Vec<Vec<String>> = (self.panels.iter())
+            .map(|panel| wrapped(&panel.title, widest_cell))
+            .collect();
+        let n_lines = titles.iter().map(Vec::len).max().unwrap_or(0);
+        let title_height = LINE * n_lines as f64 + if n_lines > 0 { 3.0 } else { 0.0 };
+        let row_gaps = MARGIN * (rows - 1.0);
+        let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
+        let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
+        let scale = (widest_cell / body[0]).min(tallest_cell / body[1]);
+        // Bodies that do not fill the width stand together in its middle.
+        let cell_width = widest_cell.min((body[0] * scale).max(widest(&titles)));
+        let cell = [cell_width, body[1] * scale];
+        let bodies = [
+            cell[0] * columns as f64 + gaps,
+            (title_height + cell[1]) * rows + row_gaps,
+        ];
+        let inner = bodies[1].max(self.bar.as_ref().map_or(0.0, ColourBar::least_height));
+        Layout {
+            columns,
+            scale,
+            cell,
+            titles,
+            title_height,
+            start: [
+                MARGIN + 0.5 * (room + gaps - bodies[0]),
+                MARGIN + 0.5 * (inner - bodies[1]),
+            ],
+            bodies,
+            inner,
+        }
+    }
+
+    fn draw_panel(&self, document: &mut Document, layout: &Layout, place: usize) {
+        let (panel, cell, scale) = (&self.panels[place], layout.cell, layout.scale);
+        let (row, column) = (place / layout.columns, place % layout.columns);
+        let x = layout.start[0] + (cell[0] + 2.0 * MARGIN) * column as f64;
+        let y = layout.start[1] + (layout.title_height + cell[1] + MARGIN) * row as f64;
+        for (line, words) in layout.titles[place].iter().enumerate() {
+            let at = [x + 0.5 * cell[0], y + LINE * (line as f64 + 0.8)];
+            document.text(at, Anchor::Middle, SIZE, words);
+        }
+        let Some([low, high]) = self.extent(panel) else {
+            return;
+        };
+        let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
+        let at = [
+            x + 0.5 * (cell[0] - own[0]),
+            y + layout.title_height + 0.5 * (cell[1] - own[1]),
+        ];
+        let frame = Frame {
+            low,
+            high,
+            at,
+            scale,
+        };
+        if self.window.is_none() {
+            panel.draw(document, frame, self.scale);
+            return;
+        }
+        document.begin_window(&format!("window-{place}"), at, own);
+        panel.draw(document, frame, self.scale);
+        document.end_window();
+        document.frame(at, own);
     }
 
     fn columns_for(&self, [width, height]: [f64; 2]) -> usize {
@@ -164,8 +212,8 @@ impl Strip<'_> {
         let mut lines: Vec<Vec<_>> = Vec::new();
         let mut at = 0.0;
         for entry in &self.legend {
-            let swatch = if entry.colour.is_some() { 18.0 } else { 0.0 };
-            let needs = swatch + text_width(&entry.words, SIZE);
+            let sample = if entry.colour.is_some() { SAMPLE } else { 0.0 };
+            let needs = sample + text_width(&entry.words, SIZE);
             if lines.is_empty() || at + needs > width {
                 lines.push(Vec::new());
                 at = 0.0;
