@@ -63,10 +63,10 @@ impl Shown {
     /// A value with this unit, to four digits.
     pub(super) fn value(&self, value: f64) -> String {
         let number = four_digits(value * self.factor);
-        if self.unit.is_empty() {
-            number
-        } else {
-            format!("{number} {}", self.unit)
+        match self.unit.as_str() {
+            "" => number,
+            unit if unit.starts_with("10") => format!("{number} × {unit}"),
+            unit => format!("{number} {unit}"),
         }
     }
 }
@@ -130,6 +130,7 @@ mod tests {
         }
         assert_eq!(Shown::new("m", 1.8e-4).value(1.8e-4), "0.1800 mm");
         assert_eq!(Shown::new("N", 6.4e5).value(644_761.3), "644.8 kN");
+        assert_eq!(Shown::new("m^3", 2e-6).value(2e-6), "2.000 × 10⁻⁶ m³");
         assert_eq!(Shown::new("-", 0.4).label("damage"), "damage");
     }
 
