@@ -41,6 +41,17 @@ impl Cell {
         }
     }
 
+    /// The cell of a number in `vtkCellType.h`; None where it is of another kind, or has other points.
+    fn from_vtk(vtk_type: u8, points: &[u32]) -> Option<Self> {
+        match (vtk_type, points) {
+            (1, &[a]) => Some(Self::Vertex([a])),
+            (3, &[a, b]) => Some(Self::Line([a, b])),
+            (5, &[a, b, c]) => Some(Self::Triangle([a, b, c])),
+            (9, &[a, b, c, d]) => Some(Self::Quad([a, b, c, d])),
+            _ => None,
+        }
+    }
+
     /// The number of the kind in `vtkCellType.h`.
     fn vtk_type(&self) -> u8 {
         match self {

@@ -6,6 +6,7 @@ mod completions;
 mod explain;
 mod inspect;
 mod mesh;
+mod plot;
 mod run;
 mod schema;
 mod sweep;
@@ -24,6 +25,7 @@ pub use completions::CompletionsArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
 pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
+pub use plot::PlotArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use sweep::SweepArgs;
@@ -49,6 +51,7 @@ Examples:
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
   ligament sweep study.toml                 a case over horizons, meshes, strengths
+  ligament plot results/disk                a picture of its damage
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
@@ -87,6 +90,13 @@ pub enum Command {
     /// folder of the results alone.
     #[command(after_help = explain::EXAMPLES)]
     Explain(ExplainArgs),
+    /// Draw fields, cracks, curves and modes from the results of runs (PNG, SVG)
+    ///
+    /// Draws a field on the deformed body as filled contours with a colour bar, the crack as broken
+    /// bonds, force-displacement curves, or the shapes of modes, at the size and fineness that a paper
+    /// asks for. Reads the folders of the results alone, also of a run that was cut short.
+    #[command(after_help = plot::EXAMPLES)]
+    Plot(PlotArgs),
     /// Show what is in a mesh: cells, size, edge lengths, groups
     #[command(after_help = inspect::EXAMPLES)]
     Inspect(InspectArgs),
@@ -159,6 +169,7 @@ impl Cli {
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),
+            Command::Plot(args) => args.execute(),
             Command::Inspect(args) => args.execute(),
             Command::Mesh(args) => args.execute(),
             Command::Yield(args) => args.execute(),

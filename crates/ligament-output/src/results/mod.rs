@@ -16,6 +16,7 @@
 mod largest;
 mod model_file;
 mod modes;
+pub mod outputs;
 mod point_fields;
 pub mod stored;
 mod tables;

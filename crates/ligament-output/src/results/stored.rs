@@ -1,16 +1,15 @@
 //! The results of a run, read back from their folder alone.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
 
 use super::model_file::{Absence, COEFFICIENTS, MODEL};
+use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
 use super::tables::deformation_names;
 use crate::csv::read::Sheet;
-use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -161,7 +160,7 @@ impl StoredRun {
             deformation_names,
             history: steps(&Sheet::read(folder.join("history.csv"))?)?,
             breaks: breaks(&broken, model.tagged, deformation_names)?,
-            fields: field_files(folder)?,
+            fields: numbered_files(folder, "fields")?,
             folder: folder.to_path_buf(),
             model,
         })
@@ -218,20 +217,8 @@ fn require_run(folder: &Path) -> Result<(), Error> {
             reason: reason.to_owned(),
         })
     };
-    if !folder.exists() {
-        return no_results("there is no such folder");
-    }
-    if folder.is_file() {
-        return no_results(
-            "it is a file; name the folder that `ligament run` wrote its results to",
-        );
-    }
-    if !folder.join(RESOLVED_CASE).is_file() {
-        return no_results(&format!(
-            "it has no {RESOLVED_CASE}; name the folder that `ligament run` wrote its results to"
-        ));
-    }
-    if folder.join("modes.csv").is_file() {
+    require_results(folder)?;
+    if kind_of(folder) == OutputKind::Modes {
         return no_results(
             "it has natural modes, in which no bond is loaded or breaks; explain needs a static analysis or one of fracture",
         );
@@ -428,23 +415,4 @@ fn breaks(sheet: &Sheet, tagged: &str, names: &[&str]) -> Result<Vec<StoredBreak
         },
     };
     Ok(criterion.into_iter().enumerate().map(of_row).collect())
-}
-
-/// The files `fields_NNNN.vtu` by their steps.
-fn field_files(folder: &Path) -> Result<BTreeMap<usize, PathBuf>, Error> {
-    let failed = |source| Error::Folder {
-        action: "list",
-        path: folder.to_path_buf(),
-        source,
-    };
-    let mut files = BTreeMap::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let name = path.file_name().and_then(|name| name.to_str());
-        let number = name.and_then(|it| it.strip_prefix("fields_")?.strip_suffix(".vtu"));
-        if let Some(Ok(step)) = number.map(str::parse) {
-            files.insert(step, path);
-        }
-    }
-    Ok(files)
 }

@@ -12,6 +12,7 @@ use base64::prelude::BASE64_STANDARD;
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use rayon::prelude::*;
 
+use super::Cell;
 use crate::xml::{attribute, unescape};
 use crate::{Error, FieldLocation};
 
@@ -40,6 +41,10 @@ struct Entry {
     section: Section,
     name: String,
     vtk_type: String,
+    /// Numbers a point or cell.
+    n_components: usize,
+    /// Names of the components: all of them or none.
+    components: Vec<String>,
     /// Where its base64 text is.
     content: Range<usize>,
 }
@@ -75,6 +80,19 @@ impl VtuFile {
         let section = Section::Fields(location);
         let of_section = self.arrays.iter().filter(move |it| it.section == section);
         of_section.map(|it| it.name.as_str())
+    }
+
+    /// How many numbers a field has for each point or cell, and their names where they have names; None where there is no such
+    /// field.
+    pub fn components(&self, location: FieldLocation, name: &str) -> Option<(usize, &[String])> {
+        let entry = self.find(Section::Fields(location), name)?;
+        Some((entry.n_components, &entry.components))
+    }
+
+    /// Whether a field holds integers.
+    pub fn is_integer(&self, location: FieldLocation, name: &str) -> bool {
+        let entry = self.find(Section::Fields(location), name);
+        entry.is_some_and(|it| it.vtk_type == "Int64")
     }
 
     /// The numbers of a field, point by point or cell by cell; None where there is no such field.
@@ -116,6 +134,32 @@ impl VtuFile {
     /// If they are damaged or missing.
     pub fn connectivity(&self) -> Result<Vec<i64>, Error> {
         self.whole(self.required(Section::Cells, "connectivity")?)
+    }
+
+    /// The cells, whose points are points of the file.
+    ///
+    /// # Errors
+    ///
+    /// If they are damaged or missing, or of another kind than this program writes.
+    pub fn cells(&self) -> Result<Vec<Cell>, Error> {
+        let connectivity = self.connectivity()?;
+        let offsets = self.whole(self.required(Section::Cells, "offsets")?)?;
+        let types = self.required(Section::Cells, "types")?;
+        let types = self.values(types, u8::from_le_bytes)?;
+        let n_points = self.points()?.len();
+        let point = |number: &i64| {
+            let number = u32::try_from(*number).ok();
+            number.filter(|it| (*it as usize) < n_points)
+        };
+        let mut from = 0;
+        let cell = |(vtk_type, to): (u8, i64)| {
+            let to = usize::try_from(to).ok()?;
+            let points: Option<Vec<u32>> = connectivity.get(from..to)?.iter().map(point).collect();
+            from = to;
+            Cell::from_vtk(vtk_type, &points?)
+        };
+        let cells: Option<Vec<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
+        cells.ok_or_else(|| self.strange("its cells are not those of a planar grid"))
     }
 
     /// The error of something in the file that is not as it should be.
@@ -187,10 +231,15 @@ fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
             "DataArray" => {
                 let of = |key| attribute(tag, key).ok_or("an array has no name or type");
                 let length = text[at..].find('<').ok_or("it ends in an array")?;
+                let count = attribute(tag, "NumberOfComponents").map_or(Ok(1), str::parse);
+                let component = |number| attribute(tag, &format!("ComponentName{number}"));
                 found.push(Entry {
                     section: section.ok_or("an array is out of place")?,
                     name: unescape(of("Name")?),
                     vtk_type: of("type")?.to_owned(),
+                    n_components: (count.ok().filter(|it| *it > 0))
+                        .ok_or("an array has no number of components")?,
+                    components: (0..).map_while(component).map(unescape).collect(),
                     content: at..at + length,
                 });
             }
@@ -312,6 +361,10 @@ mod tests {
                 .map(|&point| i64::from(point))
                 .collect();
             prop_assert_eq!(file.connectivity().unwrap(), of_cells);
+            prop_assert_eq!(file.cells().unwrap(), cells);
+            prop_assert_eq!(file.components(on_cells, "v"), Some((3, &[][..])));
+            prop_assert_eq!(file.components(on_points, "v"), None);
+            prop_assert!(file.is_integer(on_cells, &name) && !file.is_integer(on_points, &name));
             prop_assert_eq!(file.numbers(on_cells, "w").unwrap(), None);
             prop_assert!(file.numbers(on_cells, &name).is_err(), "integers are no numbers");
         }

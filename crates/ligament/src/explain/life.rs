@@ -10,9 +10,9 @@ use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
-use super::Loading;
 use super::strains::Strains;
 use crate::case::Units;
+use crate::loading::Loading;
 
 /// The lives of some bonds, over the same moments.
 #[derive(Debug)]

@@ -11,15 +11,13 @@ mod table;
 mod words;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::Context;
-use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::stored::StoredRun;
 use thiserror::Error;
 
 use self::life::{Lives, bonds_of, pair_of};
-use crate::case::Units;
+use crate::loading::loading;
 
 /// What to explain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,41 +146,4 @@ fn nearest_point(run: &StoredRun, [x, y]: [f64; 2]) -> u32 {
     let positions = run.model.positions.iter().enumerate();
     let nearest = positions.min_by(|(_, p), (_, q)| distance(p).total_cmp(&distance(q)));
     nearest.map_or(0, |(point, _)| point as u32)
-}
-
-/// What the loading of the run was like.
-#[derive(Debug, Clone, Copy)]
-struct Loading {
-    /// Whether the rows of the history are events, each just before its bonds break.
-    follows_path: bool,
-    /// Units of the first load.
-    units: Units,
-}
-
-/// The loading, from the resolved case beside the results.
-fn loading(folder: &Path) -> anyhow::Result<Loading> {
-    let path = folder.join(RESOLVED_CASE);
-    let text = std::fs::read_to_string(&path)
-        .with_context(|| format!("cannot read {}", path.display()))?;
-    let case: toml::Table = text
-        .parse()
-        .with_context(|| format!("cannot use {}", path.display()))?;
-    let control = case.get("fracture").and_then(|it| it.get("control"));
-    let first = case.get("load").and_then(|loads| loads.get(0));
-    let given = |key: &str| first.and_then(|load| load.get(key));
-    let moves = |motion: &toml::Value| motion.get("x").or(motion.get("y")).is_some();
-    let turns = given("displacement").is_some_and(|motion| !moves(motion));
-    let units = if first.is_none() {
-        Units::TEMPERATURE
-    } else if given("pressure").is_some() {
-        Units::PRESSURE
-    } else if turns || given("moment").or(given("body_couple")).is_some() {
-        Units::COUPLE
-    } else {
-        Units::FORCE
-    };
-    Ok(Loading {
-        follows_path: control.and_then(toml::Value::as_str) == Some("event"),
-        units,
-    })
 }

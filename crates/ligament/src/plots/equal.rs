@@ -2,6 +2,7 @@
 
 use plotters::prelude::{IntoDrawingArea, SVGBackend, WHITE};
 
+use super::paper::Pen;
 use super::{Drawn, LEGEND, Plot, PlotError, Series, draw_legends};
 
 /// Width and height, in pixels.
@@ -48,18 +49,18 @@ impl EqualScales {
         let area = SVGBackend::with_string(out, SIZE).into_drawing_area();
         area.fill(&WHITE)?;
         let (plane, legend) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
-        let mut chart = self.plot.chart(&plane, x, y)?;
-        self.plot.draw_axes(&mut chart, x, y)?;
+        let mut chart = self.plot.chart(&plane, Pen::SCREEN, x, y)?;
+        self.plot.draw_axes(&mut chart, Pen::SCREEN, x, y)?;
         for series in &self.plot.series {
             for points in inside(&series.points, [[x[0], y[0]], [x[1], y[1]]]) {
                 let piece = Series {
                     points,
                     ..series.clone()
                 };
-                piece.draw(&mut chart)?;
+                piece.draw(&mut chart, Pen::SCREEN)?;
             }
         }
-        draw_legends(&self.plot.series, &legend)?;
+        draw_legends(&self.plot.series, &legend, Pen::SCREEN)?;
         area.present()
     }
 }
@@ -72,7 +73,12 @@ fn pixels(
     let mut nothing = String::new();
     let area = SVGBackend::with_string(&mut nothing, SIZE).into_drawing_area();
     let (plane, _) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
-    let chart = plot.chart(&plane, [lower[0], upper[0]], [lower[1], upper[1]])?;
+    let chart = plot.chart(
+        &plane,
+        Pen::SCREEN,
+        [lower[0], upper[0]],
+        [lower[1], upper[1]],
+    )?;
     let (width, height) = chart.plotting_area().dim_in_pixel();
     Ok([f64::from(width), f64::from(height)])
 }

@@ -1,10 +1,15 @@
-//! Curves as SVG.
+//! Curves as SVG, and any SVG as PNG ([`png`]).
 //!
 //! A [`Plot`] has scales of its own along x and y; [`equal`] draws one with the same scale along both, [`polar`] draws
 //! curves around a centre.
 
 pub mod equal;
+mod paper;
+pub mod png;
 pub mod polar;
+
+pub use paper::Paper;
+use paper::Pen;
 
 use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
@@ -14,9 +19,6 @@ use plotters::prelude::{
     Cartesian2d, Circle, Color, DashedLineSeries, DrawingArea, IntoDrawingArea, IntoTextStyle,
     LineSeries, PathElement, RGBColor, SVGBackend, ShapeStyle, Text, WHITE,
 };
-
-/// Width and height of a plot, in pixels.
-const SIZE: (u32, u32) = (760, 420);
 
 /// Width of the legend, at the right.
 const LEGEND: i32 = 190;
@@ -125,12 +127,21 @@ impl Series {
 }
 
 impl Plot {
-    /// The plot as the text of an SVG file.
+    /// The plot as the text of an SVG file for a screen.
     ///
     /// # Errors
     ///
     /// If there is no finite point to draw.
     pub fn to_svg(&self) -> Result<String, PlotError> {
+        self.on(Paper::SCREEN)
+    }
+
+    /// The plot as the text of an SVG file of some size and fineness.
+    ///
+    /// # Errors
+    ///
+    /// If there is no finite point to draw.
+    pub fn on(&self, paper: Paper) -> Result<String, PlotError> {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let range = |axis: usize| range(points().map(|point| point[axis]));
         let Some((x, y)) = range(0).zip(range(1)) else {
@@ -138,21 +149,21 @@ impl Plot {
             return Err(PlotError::Empty { name });
         };
         let mut text = String::new();
-        self.draw(&mut text, x, y)
+        self.draw(&mut text, paper, x, y)
             .map_err(|error| self.error(&error))?;
-        Ok(text)
+        Ok(paper.sized(text))
     }
 
-    fn draw(&self, out: &mut String, x: [f64; 2], y: [f64; 2]) -> Drawn {
-        let area = SVGBackend::with_string(out, SIZE).into_drawing_area();
+    fn draw(&self, out: &mut String, paper: Paper, x: [f64; 2], y: [f64; 2]) -> Drawn {
+        let area = SVGBackend::with_string(out, paper.dots()).into_drawing_area();
         area.fill(&WHITE)?;
-        let (plane, legend) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
-        let mut chart = self.chart(&plane, x, y)?;
-        self.draw_axes(&mut chart, x, y)?;
+        let (plane, legend) = area.split_horizontally(paper.plane());
+        let mut chart = self.chart(&plane, paper.pen, x, y)?;
+        self.draw_axes(&mut chart, paper.pen, x, y)?;
         for series in &self.series {
-            series.draw(&mut chart)?;
+            series.draw(&mut chart, paper.pen)?;
         }
-        draw_legends(&self.series, &legend)?;
+        draw_legends(&self.series, &legend, paper.pen)?;
         area.present()
     }
 
@@ -160,18 +171,22 @@ impl Plot {
     fn chart<'a, 'b>(
         &self,
         plane: &'a DrawingArea<Backend<'b>, Shift>,
+        pen: Pen,
         x: [f64; 2],
         y: [f64; 2],
     ) -> Result<Chart<'a, 'b>, DrawingAreaErrorKind<std::io::Error>> {
-        ChartBuilder::on(plane)
-            .margin(14)
-            .caption(&self.title, ("sans-serif", 19, &TEXT))
-            .x_label_area_size(46)
-            .y_label_area_size(68)
-            .build_cartesian_2d(x[0]..x[1], y[0]..y[1])
+        let mut builder = ChartBuilder::on(plane);
+        builder
+            .margin(pen.dots(14))
+            .x_label_area_size(pen.dots(46))
+            .y_label_area_size(pen.dots(68));
+        if !self.title.is_empty() {
+            builder.caption(&self.title, ("sans-serif", pen.dots(19), &TEXT));
+        }
+        builder.build_cartesian_2d(x[0]..x[1], y[0]..y[1])
     }
 
-    fn draw_axes(&self, chart: &mut Chart<'_, '_>, x: [f64; 2], y: [f64; 2]) -> Drawn {
+    fn draw_axes(&self, chart: &mut Chart<'_, '_>, pen: Pen, x: [f64; 2], y: [f64; 2]) -> Drawn {
         let (x_decimals, y_decimals) = (decimals(x), decimals(y));
         chart
             .configure_mesh()
@@ -181,11 +196,12 @@ impl Plot {
             .y_labels(7)
             .x_label_formatter(&|value| tick(*value, x_decimals))
             .y_label_formatter(&|value| tick(*value, y_decimals))
-            .axis_desc_style(("sans-serif", 17, &TEXT))
-            .label_style(("sans-serif", 15, &TEXT))
-            .light_line_style(WHITE)
-            .bold_line_style(GRID)
-            .axis_style(AXES)
+            .axis_desc_style(("sans-serif", pen.dots(17), &TEXT))
+            .label_style(("sans-serif", pen.dots(15), &TEXT))
+            .light_line_style(WHITE.stroke_width(pen.dots(1) as u32))
+            .bold_line_style(GRID.stroke_width(pen.dots(1) as u32))
+            .axis_style(AXES.stroke_width(pen.dots(1) as u32))
+            .set_all_tick_mark_size(pen.dots(5))
             .draw()
     }
 
@@ -198,10 +214,10 @@ impl Plot {
 }
 
 /// The legends of the curves that have a name and points, below each other.
-fn draw_legends(series: &[Series], area: &DrawingArea<Backend<'_>, Shift>) -> Drawn {
+fn draw_legends(series: &[Series], area: &DrawingArea<Backend<'_>, Shift>, pen: Pen) -> Drawn {
     let named = series.iter().filter(|series| series.is_named());
     for (place, series) in named.enumerate() {
-        series.draw_legend(area, 52 + LINE * place as i32)?;
+        series.draw_legend(area, 52 + LINE * place as i32, pen)?;
     }
     Ok(())
 }
@@ -211,57 +227,63 @@ type Chart<'a, 'b> = ChartContext<'a, Backend<'b>, Cartesian2d<RangedCoordf64, R
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 impl Series {
-    fn draw(&self, chart: &mut Chart<'_, '_>) -> Drawn {
+    fn draw(&self, chart: &mut Chart<'_, '_>, pen: Pen) -> Drawn {
         let points = || {
             self.points
                 .iter()
                 .map(|&[x, y]| (x, y))
                 .filter(|(x, y)| x.is_finite() && y.is_finite())
         };
+        let (stroke, dot) = (self.stroke(pen), self.dot());
         match self.mark {
             Mark::Line => {
-                chart.draw_series(LineSeries::new(points(), self.stroke()))?;
-                chart.draw_series(points().map(|point| Circle::new(point, 3, self.dot())))?;
+                chart.draw_series(LineSeries::new(points(), stroke))?;
+                chart.draw_series(points().map(|point| Circle::new(point, pen.dots(3), dot)))?;
             }
             Mark::Curve => {
-                chart.draw_series(LineSeries::new(points(), self.stroke()))?;
+                chart.draw_series(LineSeries::new(points(), stroke))?;
             }
             Mark::Circles => {
-                chart.draw_series(points().map(|point| Circle::new(point, 6, self.stroke())))?;
+                chart.draw_series(points().map(|point| Circle::new(point, pen.dots(6), stroke)))?;
             }
             Mark::Dashes => {
-                let dashes = DashedLineSeries::new(points(), DASH.0, DASH.1, self.stroke());
-                chart.draw_series(dashes)?;
+                let (dash, gap) = (pen.dots(DASH.0), pen.dots(DASH.1));
+                chart.draw_series(DashedLineSeries::new(points(), dash, gap, stroke))?;
             }
         }
         Ok(())
     }
 
-    fn draw_legend(&self, area: &DrawingArea<Backend<'_>, Shift>, y: i32) -> Drawn {
-        let line = |from: i32, to: i32| PathElement::new([(from, y), (to, y)], self.stroke());
+    /// Its entry in the legend at a height, in pixels of a screen.
+    fn draw_legend(&self, area: &DrawingArea<Backend<'_>, Shift>, y: i32, pen: Pen) -> Drawn {
+        let at = |x: i32, y: i32| (pen.dots(x), pen.dots(y));
+        let line =
+            |from: i32, to: i32| PathElement::new([at(from, y), at(to, y)], self.stroke(pen));
         match self.mark {
             Mark::Line => {
                 area.draw(&line(4, 32))?;
-                area.draw(&Circle::new((18, y), 3, self.dot()))?;
+                area.draw(&Circle::new(at(18, y), pen.dots(3), self.dot()))?;
             }
             Mark::Curve => area.draw(&line(4, 32))?,
-            Mark::Circles => area.draw(&Circle::new((18, y), 6, self.stroke()))?,
+            Mark::Circles => {
+                area.draw(&Circle::new(at(18, y), pen.dots(6), self.stroke(pen)))?;
+            }
             Mark::Dashes => {
                 for start in [4, 16, 28] {
                     area.draw(&line(start, start + DASH.0))?;
                 }
             }
         }
-        let style = ("sans-serif", 15, &TEXT).into_text_style(area);
-        area.draw(&Text::new(self.label.as_str(), (42, y - 6), style))
+        let style = ("sans-serif", pen.dots(15), &TEXT).into_text_style(area);
+        area.draw(&Text::new(self.label.as_str(), at(42, y - 6), style))
     }
 
     fn is_named(&self) -> bool {
         !self.label.is_empty() && !self.points.is_empty()
     }
 
-    fn stroke(&self) -> ShapeStyle {
-        self.colour.rgb().stroke_width(2)
+    fn stroke(&self, pen: Pen) -> ShapeStyle {
+        self.colour.rgb().stroke_width(pen.dots(2) as u32)
     }
 
     fn dot(&self) -> ShapeStyle {

@@ -9,6 +9,7 @@ use plotters::prelude::{
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::paper::Pen;
 use super::{Chart, Drawn, GRID, LEGEND, PlotError, Series, TEXT, decimals, draw_legends, tick};
 
 /// Width and height, in pixels: the room beside the legend is square.
@@ -73,9 +74,9 @@ impl PolarPlot {
                 points: series.points.iter().map(planar).collect(),
                 ..series.clone()
             };
-            planar.draw(&mut chart)?;
+            planar.draw(&mut chart, Pen::SCREEN)?;
         }
-        draw_legends(&self.series, &legend)?;
+        draw_legends(&self.series, &legend, Pen::SCREEN)?;
         area.present()
     }
 }

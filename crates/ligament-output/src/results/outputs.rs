@@ -1,0 +1,156 @@
+//! The outputs in a result folder, whether or not the run that wrote them got to its end.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::model_file::{Absence, MODEL};
+use crate::folder::RESOLVED_CASE;
+use crate::vtu::read::VtuFile;
+use crate::{Error, FieldLocation};
+
+/// What the outputs of a folder are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutputKind {
+    /// States of a body at load steps or events: `fields_NNNN.vtu`.
+    Steps,
+    /// Natural modes: `mode_NNNN.vtu`.
+    Modes,
+}
+
+/// The outputs in a folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Outputs {
+    /// The folder.
+    pub folder: PathBuf,
+    /// What they are.
+    pub kind: OutputKind,
+    /// Their files by the number of the step or the mode; one or more.
+    pub files: BTreeMap<usize, PathBuf>,
+}
+
+impl Outputs {
+    /// Lists the outputs of a run.
+    ///
+    /// # Errors
+    ///
+    /// If the folder holds no results, or none with fields, or cannot be listed.
+    pub fn list(folder: &Path) -> Result<Self, Error> {
+        require_results(folder)?;
+        let kind = kind_of(folder);
+        let files = numbered_files(folder, kind.stem())?;
+        if files.is_empty() {
+            let stem = kind.stem();
+            return Err(Error::NoResults {
+                path: folder.to_path_buf(),
+                reason: format!(
+                    "it has no {stem}_NNNN.vtu; the run stopped before its first output, or the files were removed"
+                ),
+            });
+        }
+        Ok(Self {
+            folder: folder.to_path_buf(),
+            kind,
+            files,
+        })
+    }
+}
+
+impl OutputKind {
+    fn stem(self) -> &'static str {
+        match self {
+            Self::Steps => "fields",
+            Self::Modes => "mode",
+        }
+    }
+}
+
+/// What the results in a folder are.
+pub fn kind_of(folder: &Path) -> OutputKind {
+    if folder.join("modes.csv").is_file() {
+        OutputKind::Modes
+    } else {
+        OutputKind::Steps
+    }
+}
+
+/// Sees to it that a run has written to a folder.
+///
+/// # Errors
+///
+/// If not.
+pub fn require_results(folder: &Path) -> Result<(), Error> {
+    let reason = if !folder.exists() {
+        "there is no such folder".to_owned()
+    } else if folder.is_file() {
+        "it is a file; name the folder that `ligament run` wrote its results to".to_owned()
+    } else if !folder.join(RESOLVED_CASE).is_file() {
+        format!(
+            "it has no {RESOLVED_CASE}; name the folder that `ligament run` wrote its results to"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(Error::NoResults {
+        path: folder.to_path_buf(),
+        reason,
+    })
+}
+
+/// The pairs of points that a pre-crack parts, by the tags of their ends; None where the run wrote no model.
+///
+/// # Errors
+///
+/// If the model cannot be used.
+pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
+    let path = folder.join(MODEL);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let file = VtuFile::open(path)?;
+    let of_points = |name| file.integers(FieldLocation::Point, name);
+    let tags = match of_points("node")? {
+        Some(tags) => Some(tags),
+        None => of_points("cell")?,
+    };
+    let tags = tags.ok_or_else(|| file.strange("its points have no tags"))?;
+    let absent = file.integers(FieldLocation::Cell, "absent")?;
+    let absent = absent.ok_or_else(|| file.strange("it has no cell field absent"))?;
+    let is_cut = |number: &i64| Absence::from_number(*number) == Some(Absence::PreCrack);
+    if !absent.iter().any(is_cut) {
+        return Ok(Some(Vec::new()));
+    }
+    let tag = |point: i64| tags.get(usize::try_from(point).ok()?).copied();
+    let connectivity = file.connectivity()?;
+    let (ends, _) = connectivity.as_chunks::<2>();
+    let cut = ends
+        .iter()
+        .zip(&absent)
+        .filter(|(_, absent)| is_cut(absent));
+    let pairs: Option<Vec<[i64; 2]>> = cut.map(|(&[a, b], _)| Some([tag(a)?, tag(b)?])).collect();
+    let strange = || file.strange("its cells are no pairs of its points");
+    pairs.map(Some).ok_or_else(strange)
+}
+
+/// The files `STEM_NNNN.vtu` by their numbers.
+pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize, PathBuf>, Error> {
+    let failed = |source| Error::Folder {
+        action: "list",
+        path: folder.to_path_buf(),
+        source,
+    };
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let name = path.file_name().and_then(|name| name.to_str());
+        let number = name.and_then(|it| {
+            it.strip_prefix(stem)?
+                .strip_prefix('_')?
+                .strip_suffix(".vtu")
+        });
+        if let Some(Ok(number)) = number.map(str::parse) {
+            files.insert(number, path);
+        }
+    }
+    Ok(files)
+}

@@ -1,0 +1,200 @@
+//! `ligament plot`.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::picture::colour_map::ColourMap;
+use crate::picture::curve::{CurveRequest, draw_curves};
+use crate::picture::select::Choice;
+use crate::picture::{FieldRequest, Magnification, Target, draw_fields};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament plot results/disk                                damage of the last output
+  ligament plot results/disk --strip 4 --scale 20           four outputs, displacements 20 times larger
+  ligament plot results/disk --field displacement.x --step 40 --out ux.svg
+  ligament plot results/disk --field none --crack --box -0.01,-0.02,0.01,0.02
+  ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
+  ligament plot results/plate-modes                         the first six modes
+
+Fields are those of the VTU files: of a vector the norm, or NAME.x and NAME.y; of a stress NAME.xx
+and so on. A name that does not exist lists those that do. Values are in SI units.";
+
+/// `ligament plot`.
+#[derive(Debug, Args)]
+pub struct PlotArgs {
+    /// Folders with the results of runs
+    #[arg(value_name = "RESULT", required = true)]
+    pub results: Vec<PathBuf>,
+    /// Field to draw, or none [default: damage where bonds broke, else displacement]
+    #[arg(long, value_name = "NAME")]
+    pub field: Option<String>,
+    /// Steps or modes to draw [default: the last step, the first six modes]
+    #[arg(long, visible_alias = "mode", value_name = "N", num_args = 1.., value_delimiter = ',')]
+    pub step: Vec<usize>,
+    /// Draw so many outputs, evenly spread, side by side
+    #[arg(long, value_name = "COUNT", conflicts_with = "step", value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub strip: Option<u32>,
+    /// Draw the outputs nearest to these displacements of the load
+    #[arg(long = "displacement", value_name = "VALUE", num_args = 1.., value_delimiter = ',', conflicts_with_all = ["step", "strip"], allow_negative_numbers = true, value_parser = number)]
+    pub displacements: Vec<f64>,
+    /// Factor on the displacement, or auto: the largest is 2 to 5 % of the body, of a mode 10 %
+    #[arg(long, value_name = "FACTOR", default_value = "auto", allow_negative_numbers = true, value_parser = magnification)]
+    pub scale: Magnification,
+    /// Draw the broken bonds, coloured by criterion, and those that a pre-crack cut
+    #[arg(long)]
+    pub crack: bool,
+    /// Draw this part of the deformed body alone, m
+    #[arg(long = "box", value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = window)]
+    pub window: Option<[[f64; 2]; 2]>,
+    /// Bands of colour [default: about 16, with round levels]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256))]
+    pub levels: Option<u32>,
+    /// Values at the ends of the colour bar, in SI units [default: those of the outputs drawn]
+    #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = range)]
+    pub range: Option<[f64; 2]>,
+    /// Colours [default: viridis; diverging for values of both signs]
+    #[arg(long, value_enum)]
+    pub map: Option<ColourMap>,
+    /// Bodies in a row
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub columns: Option<u32>,
+    /// Draw curves over the load history in place of bodies: reaction over displacement
+    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "window", "levels", "range", "map", "columns"])]
+    pub curve: bool,
+    /// Column of history.csv along x
+    #[arg(
+        long,
+        value_name = "COLUMN",
+        default_value = "displacement",
+        requires = "curve"
+    )]
+    pub x: String,
+    /// Column of history.csv along y
+    #[arg(
+        long,
+        value_name = "COLUMN",
+        default_value = "reaction",
+        requires = "curve"
+    )]
+    pub y: String,
+    /// What the results are called [default: the names of their folders]
+    #[arg(long, value_name = "TEXT", num_args = 1..)]
+    pub labels: Vec<String>,
+    /// The picture, .png or .svg, replacing what is there [default: picture-NAME.png in the folder of the
+    /// results; of the curves of several results, in this one]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Width in mm [default: 90 for one body, 180 for several; 120 and 160 for curves]
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub width: Option<f64>,
+    /// Dots per inch of a PNG
+    #[arg(long, value_name = "DPI", default_value = "300", value_parser = positive)]
+    pub dpi: f64,
+}
+
+impl PlotArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let target = Target {
+            out: self.out,
+            width: self.width,
+            dpi: self.dpi,
+        };
+        let path = if self.curve {
+            draw_curves(&CurveRequest {
+                folders: self.results,
+                labels: self.labels,
+                columns: [self.x, self.y],
+                target,
+            })?
+        } else {
+            let choice = match (
+                self.strip,
+                self.step.is_empty(),
+                self.displacements.is_empty(),
+            ) {
+                (Some(count), ..) => Choice::Strip(count as usize),
+                (None, false, _) => Choice::Steps(self.step),
+                (None, true, false) => Choice::Displacements(self.displacements),
+                (None, true, true) => Choice::Default,
+            };
+            draw_fields(&FieldRequest {
+                folders: self.results,
+                labels: self.labels,
+                field: self.field,
+                choice,
+                magnification: self.scale,
+                crack: self.crack,
+                window: self.window,
+                bands: self.levels.map(|it| it as usize),
+                range: self.range,
+                map: self.map,
+                columns: self.columns.map(|it| it as usize),
+                target,
+            })?
+        };
+        Ok(writeln!(io::stdout(), "{}", path.display())?)
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
+    number.ok_or_else(|| format!("`{text}` is not a number"))
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = number(text)?;
+    let is_positive = number > 0.0;
+    is_positive
+        .then_some(number)
+        .ok_or_else(|| "it must be above zero".to_owned())
+}
+
+fn magnification(text: &str) -> Result<Magnification, String> {
+    match text {
+        "auto" => Ok(Magnification::Auto),
+        text => match number(text) {
+            Ok(factor) => Ok(Magnification::Times(factor)),
+            Err(_) => Err("expected a number, or auto".to_owned()),
+        },
+    }
+}
+
+fn numbers<const COUNT: usize>(text: &str) -> Option<[f64; COUNT]> {
+    let numbers: Result<Vec<f64>, String> = text.split(',').map(number).collect();
+    numbers.ok()?.try_into().ok()
+}
+
+fn range(text: &str) -> Result<[f64; 2], String> {
+    let range = numbers::<2>(text).filter(|[low, high]| low < high);
+    range.ok_or_else(|| "expected MIN,MAX with MIN below MAX, such as 0,0.5".to_owned())
+}
+
+fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
+    let window = numbers::<4>(text).filter(|[x0, y0, x1, y1]| x0 < x1 && y0 < y1);
+    window
+        .map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]])
+        .ok_or_else(|| {
+            "expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_ranges_and_factors_are_read() {
+        assert_eq!(window("-1,0,1, 2e-3"), Ok([[-1.0, 0.0], [1.0, 2e-3]]));
+        assert!(window("1,0,-1,2").is_err() && window("1,2,3").is_err());
+        assert_eq!(range("0,0.5"), Ok([0.0, 0.5]));
+        assert!(range("1,1").is_err() && range("0,nan").is_err());
+        assert_eq!(magnification("auto"), Ok(Magnification::Auto));
+        assert_eq!(magnification("-20"), Ok(Magnification::Times(-20.0)));
+        assert!(magnification("big").is_err_and(|it| it.contains("auto")));
+        assert!(positive("0").is_err());
+    }
+}

@@ -1,0 +1,49 @@
+//! What the loading of a stored run was like, from the case beside its results.
+
+use std::path::Path;
+
+use anyhow::Context;
+use ligament_output::folder::RESOLVED_CASE;
+
+use crate::case::Units;
+
+/// What the loading of the run was like.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Loading {
+    /// Whether the rows of the history are events, each just before its bonds break.
+    pub(crate) follows_path: bool,
+    /// Units of the first load.
+    pub(crate) units: Units,
+}
+
+/// The loading, from the resolved case beside the results.
+///
+/// # Errors
+///
+/// If the case cannot be read.
+pub(crate) fn loading(folder: &Path) -> anyhow::Result<Loading> {
+    let path = folder.join(RESOLVED_CASE);
+    let text = std::fs::read_to_string(&path)
+        .with_context(|| format!("cannot read {}", path.display()))?;
+    let case: toml::Table = text
+        .parse()
+        .with_context(|| format!("cannot use {}", path.display()))?;
+    let control = case.get("fracture").and_then(|it| it.get("control"));
+    let first = case.get("load").and_then(|loads| loads.get(0));
+    let given = |key: &str| first.and_then(|load| load.get(key));
+    let moves = |motion: &toml::Value| motion.get("x").or(motion.get("y")).is_some();
+    let turns = given("displacement").is_some_and(|motion| !moves(motion));
+    let units = if first.is_none() {
+        Units::TEMPERATURE
+    } else if given("pressure").is_some() {
+        Units::PRESSURE
+    } else if turns || given("moment").or(given("body_couple")).is_some() {
+        Units::COUPLE
+    } else {
+        Units::FORCE
+    };
+    Ok(Loading {
+        follows_path: control.and_then(toml::Value::as_str) == Some("event"),
+        units,
+    })
+}

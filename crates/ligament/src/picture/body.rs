@@ -1,0 +1,181 @@
+//! The body of an output, and where it lies once its displacement is drawn larger.
+
+use std::collections::HashMap;
+
+use ligament_output::FieldLocation;
+use ligament_output::vtu::Cell;
+use ligament_output::vtu::read::VtuFile;
+
+use super::PictureError;
+
+/// Share of the body's size that the largest displacement has where the scale is chosen by the program.
+const DRAWN_SHARE: f64 = 0.05;
+
+/// Cells with the positions and displacements of their corners.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Body {
+    /// Positions without load, shape (n), m.
+    pub(super) reference: Vec<[f64; 2]>,
+    /// Displacements, shape (n), m; in a mode of any size.
+    pub(super) displacement: Vec<[f64; 2]>,
+    /// Triangles and quadrangles.
+    pub(super) cells: Vec<Cell>,
+    /// What points of the model are: nodes, or cells of a lattice.
+    tagged: FieldLocation,
+    /// Their places by their tags.
+    places: HashMap<i64, usize>,
+}
+
+impl Body {
+    /// Reads it from an output.
+    pub(super) fn read(file: &VtuFile) -> Result<Self, PictureError> {
+        let reference = file.points()?;
+        let moved = file.numbers(FieldLocation::Point, "displacement")?;
+        let moved = moved.ok_or_else(|| missing(file, "displacement"))?;
+        let displacement: Vec<[f64; 2]> = moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect();
+        let mut tagged = FieldLocation::Point;
+        let mut tags = file.integers(tagged, "node")?;
+        if tags.is_none() {
+            tagged = FieldLocation::Cell;
+            tags = file.integers(tagged, "cell")?;
+        }
+        let tags = tags.ok_or_else(|| missing(file, "node or cell"))?;
+        let cells = file.cells()?;
+        let fits = displacement.len() == reference.len()
+            && match tagged {
+                FieldLocation::Point => tags.len() == reference.len(),
+                FieldLocation::Cell => tags.len() == cells.len(),
+            };
+        if !fits {
+            return Err(missing(file, "displacement of all points"));
+        }
+        Ok(Self {
+            reference,
+            displacement,
+            cells,
+            tagged,
+            places: tags.into_iter().zip(0..).collect(),
+        })
+    }
+
+    /// Whether its cells share their corners: then cracks do not open between them.
+    pub(super) fn is_mesh(&self) -> bool {
+        self.tagged == FieldLocation::Point
+    }
+
+    /// Positions with the displacement times a scale, shape (n), m.
+    pub(super) fn deformed(&self, scale: f64) -> Vec<[f64; 2]> {
+        let moved = self.reference.iter().zip(&self.displacement);
+        moved
+            .map(|(p, u)| [p[0] + scale * u[0], p[1] + scale * u[1]])
+            .collect()
+    }
+
+    /// Larger side of the box around it without load, m.
+    pub(super) fn size(&self) -> f64 {
+        bounds(&self.reference).map_or(0.0, |[low, high]| (high[0] - low[0]).max(high[1] - low[1]))
+    }
+
+    /// Largest length of a displacement.
+    pub(super) fn largest_displacement(&self) -> f64 {
+        let lengths = self.displacement.iter().map(|u| u[0].hypot(u[1]));
+        lengths.filter(|it| it.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// The scale at which the largest displacement is a share of the body's size.
+    pub(super) fn scale_for_share(&self, share: f64) -> f64 {
+        let largest = self.largest_displacement();
+        if largest > 0.0 {
+            share * self.size() / largest
+        } else {
+            1.0
+        }
+    }
+
+    /// Where the point of a tag lies among deformed positions, shape (n); None where there is no such tag.
+    pub(super) fn place(&self, tag: i64, positions: &[[f64; 2]]) -> Option<[f64; 2]> {
+        let place = *self.places.get(&tag)?;
+        match self.tagged {
+            FieldLocation::Point => positions.get(place).copied(),
+            FieldLocation::Cell => {
+                let corners = self.cells.get(place)?.points();
+                let sum = corners.iter().map(|&it| positions[it as usize]);
+                let [x, y] = sum.fold([0.0, 0.0], |[x, y], [dx, dy]| [x + dx, y + dy]);
+                Some([x, y].map(|it| it / corners.len() as f64))
+            }
+        }
+    }
+}
+
+/// A scale for all bodies, rounded down to 1, 2 or 5 times a power of ten: the largest displacement is 2 to 5 % of the body.
+pub(super) fn common_scale<'a>(bodies: impl Iterator<Item = &'a Body>) -> f64 {
+    let with_motion = bodies.filter(|body| body.largest_displacement() > 0.0);
+    let scales = with_motion.map(|body| body.scale_for_share(DRAWN_SHARE));
+    scales.reduce(f64::min).map_or(1.0, rounded_down)
+}
+
+fn rounded_down(scale: f64) -> f64 {
+    let power = 10f64.powf(scale.log10().floor());
+    let steps = [5.0, 2.0, 1.0].map(|it| it * power);
+    let fits = |it: &f64| *it <= scale * (1.0 + 1e-9);
+    steps.into_iter().find(fits).unwrap_or(power)
+}
+
+/// Lower left and upper right corner of a box around finite positions; None without any.
+pub(super) fn bounds(positions: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
+    let finite = positions
+        .iter()
+        .filter(|p| p.iter().all(|it| it.is_finite()));
+    finite.fold(None, |found: Option<[[f64; 2]; 2]>, &p| {
+        let [low, high] = found.unwrap_or([p, p]);
+        Some([
+            [low[0].min(p[0]), low[1].min(p[1])],
+            [high[0].max(p[0]), high[1].max(p[1])],
+        ])
+    })
+}
+
+fn missing(file: &VtuFile, what: &str) -> PictureError {
+    PictureError::NotDrawable {
+        path: file.path().to_path_buf(),
+        reason: format!("it has no {what}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(tagged: FieldLocation) -> Body {
+        Body {
+            reference: vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]],
+            displacement: vec![[0.0, 0.0], [0.01, 0.0], [0.01, -0.02], [0.0, -0.02]],
+            cells: vec![Cell::Quad([0, 1, 2, 3])],
+            tagged,
+            places: HashMap::from([(7, 0)]),
+        }
+    }
+
+    #[test]
+    fn points_move_by_the_scaled_displacement() {
+        let body = square(FieldLocation::Point);
+        assert_eq!(body.deformed(10.0)[2], [2.1, 0.8]);
+        assert_eq!(body.deformed(0.0), body.reference);
+        assert_eq!(body.place(7, &body.deformed(10.0)), Some([0.0, 0.0]));
+        assert_eq!(body.place(8, &body.reference), None);
+        let cell = square(FieldLocation::Cell);
+        let [x, y] = cell.place(7, &cell.deformed(10.0)).unwrap();
+        assert!((x - 1.05).abs() < 1e-15 && (y - 0.4).abs() < 1e-15);
+    }
+
+    /// The largest displacement is hypot(0.01, 0.02) = 0.02236, 5 % of the size of 2 is 0.1: 4.47 times it, so 2 is drawn.
+    #[test]
+    fn a_common_scale_is_round() {
+        assert_eq!(common_scale([square(FieldLocation::Point)].iter()), 2.0);
+        assert_eq!(
+            [0.9, 1.0, 4.9, 5.0, 19.0].map(rounded_down),
+            [0.5, 1.0, 2.0, 5.0, 10.0]
+        );
+        assert_eq!(common_scale(std::iter::empty()), 1.0);
+    }
+}

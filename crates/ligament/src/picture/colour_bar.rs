@@ -1,0 +1,89 @@
+//! The colour bar beside the bodies.
+
+use super::panel::Scale;
+use super::svg::{Anchor, Document, text_width};
+use super::units::{Shown, with_decimals_of};
+
+/// Width of the bar, pixels.
+const WIDTH: f64 = 11.0;
+
+/// Size of its labels, pixels.
+const SIZE: f64 = 8.5;
+
+/// Length of a tick, and room on both sides of a text.
+const TICK: f64 = 3.0;
+
+/// A bar with its labels.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ColourBar<'a> {
+    scale: &'a Scale,
+    /// Texts of the labels, from the bottom, with the number of their level.
+    labels: Vec<(usize, String)>,
+    /// What it shows, with the unit.
+    title: String,
+}
+
+impl<'a> ColourBar<'a> {
+    /// The bar of a quantity whose values go from `range[0]` to `range[1]`; ends beyond which there are values say so.
+    pub(super) fn new(scale: &'a Scale, quantity: &str, unit: &str, range: [f64; 2]) -> Self {
+        let levels = &scale.levels;
+        let [low, high] = levels.range();
+        let shown = Shown::new(unit, low.abs().max(high.abs()));
+        let labelled = &levels.labelled;
+        let apart = match labelled.as_slice() {
+            [first, second, ..] => levels.bounds[*second] - levels.bounds[*first],
+            _ => high - low,
+        };
+        let label = |&place: &usize| {
+            let value = levels.bounds[place];
+            let number = with_decimals_of(value * shown.factor, apart * shown.factor);
+            let rounding = 1e-9 * (high - low);
+            let sign = match place {
+                0 if range[0] < low - rounding => "≤ ",
+                _ if place == levels.n_bands() && range[1] > high + rounding => "≥ ",
+                _ => "",
+            };
+            (place, format!("{sign}{number}"))
+        };
+        Self {
+            scale,
+            labels: labelled.iter().map(label).collect(),
+            title: shown.label(quantity),
+        }
+    }
+
+    /// Width with labels and title, pixels.
+    pub(super) fn width(&self) -> f64 {
+        WIDTH + 2.0 * TICK + self.label_width() + TICK + 1.2 * SIZE
+    }
+
+    fn label_width(&self) -> f64 {
+        let widths = self.labels.iter().map(|(_, text)| text_width(text, SIZE));
+        widths.fold(0.0, f64::max)
+    }
+
+    /// Height that the title needs, pixels.
+    pub(super) fn least_height(&self) -> f64 {
+        text_width(&self.title, SIZE).max(90.0)
+    }
+
+    /// Draws it with its upper left corner at a place, pixels.
+    pub(super) fn draw(&self, document: &mut Document, [x, y]: [f64; 2], height: f64) {
+        let colours = &self.scale.colours;
+        let n_bands = colours.len() as f64;
+        let up = |level: f64| y + height * (1.0 - level / n_bands);
+        for (band, colour) in colours.iter().enumerate() {
+            // Up to the top, under the bands that follow: no seam is left between two.
+            document.rectangle([x, y], [WIDTH, up(band as f64) - y], colour);
+        }
+        document.frame([x, y], [WIDTH, height]);
+        for (level, text) in &self.labels {
+            let at = up(*level as f64);
+            document.line([x + WIDTH, at], [x + WIDTH + TICK, at], "#404040", 0.6);
+            let start = x + WIDTH + 2.0 * TICK;
+            document.text([start, at + 0.36 * SIZE], Anchor::Start, SIZE, text);
+        }
+        let end = x + self.width() - 0.2 * SIZE;
+        document.upright_text([end, y + 0.5 * height], SIZE, &self.title);
+    }
+}

@@ -1,0 +1,70 @@
+//! Colours of the bands.
+
+use colorous::{CIVIDIS, Color, GREYS, RED_BLUE, VIRIDIS};
+
+/// A map from the shares of a scale to colours; all are told apart with any colour vision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum ColourMap {
+    /// Dark blue over green to yellow
+    Viridis,
+    /// Dark blue over grey to yellow
+    Cividis,
+    /// Light to dark grey
+    Grey,
+    /// Blue over white to red, with white at zero
+    Diverging,
+}
+
+impl ColourMap {
+    /// The colour of a share from 0 to 1, as `#rrggbb`.
+    pub(super) fn colour(self, share: f64) -> String {
+        let Color { r, g, b } = match self {
+            Self::Viridis => VIRIDIS.eval_continuous(share),
+            Self::Cividis => CIVIDIS.eval_continuous(share),
+            // White would be taken for what is outside the body.
+            Self::Grey => GREYS.eval_continuous(0.1 + 0.9 * share),
+            Self::Diverging => RED_BLUE.eval_continuous(1.0 - share),
+        };
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
+    /// Colours of so many bands, from one end of the map to the other.
+    pub(super) fn bands(self, count: usize) -> Vec<String> {
+        let share = |band: usize| match count {
+            1 => 0.5,
+            _ => band as f64 / (count - 1) as f64,
+        };
+        (0..count).map(|band| self.colour(share(band))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn channels(colour: &str) -> [i32; 3] {
+        [1, 3, 5].map(|at| i32::from_str_radix(&colour[at..at + 2], 16).unwrap())
+    }
+
+    /// The published ends of viridis, and of ColorBrewer's RdBu, which splines through its colours meet to one in 255.
+    #[test]
+    fn the_ends_of_a_scale_have_the_colours_of_the_map() {
+        let bands = ColourMap::Viridis.bands(9);
+        assert_eq!(
+            (bands[0].as_str(), bands[8].as_str()),
+            ("#440154", "#fde725")
+        );
+        let bands = ColourMap::Diverging.bands(4);
+        for (found, published) in [(&bands[0], "#053061"), (&bands[3], "#67001f")] {
+            let away = channels(found).into_iter().zip(channels(published));
+            assert!(away.into_iter().all(|(a, b)| (a - b).abs() <= 1), "{found}");
+        }
+        assert_eq!(ColourMap::Cividis.bands(1).len(), 1);
+    }
+
+    #[test]
+    fn the_middle_of_the_diverging_map_is_nearly_white() {
+        let [r, g, b] = channels(&ColourMap::Diverging.colour(0.5));
+        assert!(r.min(g).min(b) > 230 && (r - b).abs() < 8);
+    }
+}

@@ -1,0 +1,154 @@
+//! Broken bonds, as lines between their ends.
+
+use std::path::Path;
+
+use ligament_output::csv::read::Sheet;
+use ligament_output::results::outputs::cut_pairs;
+
+use super::PictureError;
+
+/// Colours of the criteria, told apart with any colour vision (Okabe and Ito).
+const COLOURS: [&str; 6] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+];
+
+/// Colour of what a pre-crack cut.
+const CUT: &str = "#8c8c8c";
+
+/// Colour of bonds broken by the one criterion there is, over a field.
+const OVER_FIELD: &str = "#000000";
+
+/// Bonds that broke by one criterion, or that a pre-crack cut.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Broken {
+    /// The criterion.
+    pub(super) name: String,
+    /// Its colour.
+    pub(super) colour: &'static str,
+    /// Tags of the ends with the step in which they broke.
+    bonds: Vec<([i64; 2], usize)>,
+}
+
+/// All that a run broke.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Crack {
+    /// By criterion, what a pre-crack cut first.
+    pub(super) kinds: Vec<Broken>,
+    /// Whether bonds that broke in a step are still whole in its output.
+    breaks_after_output: bool,
+}
+
+impl Crack {
+    /// Reads what a pre-crack cut in a run, and what broke if that is drawn.
+    pub(super) fn read(
+        folder: &Path,
+        follows_path: bool,
+        with_broken: bool,
+    ) -> Result<Self, PictureError> {
+        let cut = cut_pairs(folder)?.unwrap_or_default();
+        let cut = (!cut.is_empty()).then(|| Broken {
+            name: "pre-crack".to_owned(),
+            colour: CUT,
+            bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
+        });
+        let broken = if with_broken {
+            broken(&Sheet::read(folder.join("breaks.csv"))?)?
+        } else {
+            Vec::new()
+        };
+        Ok(Self {
+            kinds: cut.into_iter().chain(broken).collect(),
+            breaks_after_output: follows_path,
+        })
+    }
+
+    /// The bonds of a kind that are broken in the output of a step, by the tags of their ends.
+    pub(super) fn until(&self, kind: &Broken, step: usize) -> Vec<[i64; 2]> {
+        let is_broken =
+            |at: usize| kind.is_cut() || at < step || (at == step && !self.breaks_after_output);
+        let bonds = kind.bonds.iter().filter(|(_, at)| is_broken(*at));
+        bonds.map(|(ends, _)| *ends).collect()
+    }
+}
+
+impl Broken {
+    /// Whether a pre-crack cut these.
+    pub(super) fn is_cut(&self) -> bool {
+        self.colour == CUT
+    }
+}
+
+/// The broken bonds of a table by their criteria.
+fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
+    let has_cells = sheet.columns().iter().any(|it| it == "cell_a");
+    let tagged = if has_cells { "cell" } else { "node" };
+    let tags = |end: &str| sheet.values::<i64>(&format!("{tagged}_{end}"));
+    let steps: Vec<usize> = sheet.values("step")?;
+    let criteria: Vec<String> = sheet.values("criterion")?;
+    let ends = tags("a")?.into_iter().zip(tags("b")?).map(|(a, b)| [a, b]);
+    let bonds: Vec<([i64; 2], usize)> = ends.zip(steps).collect();
+    let mut names = criteria.clone();
+    names.sort();
+    names.dedup();
+    let of_name = |name: String| {
+        let own = criteria.iter().zip(&bonds).filter(|(it, _)| **it == name);
+        Broken {
+            bonds: own.map(|(_, bond)| *bond).collect(),
+            colour: OVER_FIELD,
+            name,
+        }
+    };
+    Ok(names.into_iter().map(of_name).collect())
+}
+
+/// Gives each criterion of all cracks a colour of its own; black where there is only one, drawn over a field.
+pub(super) fn paint(mut cracks: Vec<&mut Crack>, over_field: bool) {
+    let kinds = cracks.iter().flat_map(|crack| &crack.kinds);
+    let broken = kinds.filter(|kind| !kind.is_cut());
+    let mut names: Vec<String> = broken.map(|kind| kind.name.clone()).collect();
+    names.sort();
+    names.dedup();
+    if over_field && names.len() == 1 {
+        return;
+    }
+    let kinds = cracks.iter_mut().flat_map(|crack| &mut crack.kinds);
+    for kind in kinds.filter(|kind| !kind.is_cut()) {
+        let place = names.iter().position(|it| *it == kind.name).unwrap_or(0);
+        kind.colour = COLOURS[place % COLOURS.len()];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crack(text: &str, follows_path: bool) -> Crack {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("breaks.csv"), text).unwrap();
+        let mut crack = Crack::read(folder.path(), follows_path, true).unwrap();
+        paint(vec![&mut crack], false);
+        crack
+    }
+
+    const BREAKS: &str = "order,step,node_a,node_b,criterion\n1,2,5,6,tension\n2,3,6,7,frictional\n3,4,8,9,tension\n";
+
+    #[test]
+    fn bonds_are_grouped_by_criterion_up_to_the_step() {
+        let crack = crack(BREAKS, false);
+        let names: Vec<&str> = crack.kinds.iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(names, ["frictional", "tension"]);
+        let of = |kind: usize, step| crack.until(&crack.kinds[kind], step);
+        assert_eq!(of(1, 2), [[5, 6]]);
+        assert_eq!(of(1, 9), [[5, 6], [8, 9]]);
+        assert!(of(0, 2).is_empty());
+        assert_ne!(crack.kinds[0].colour, crack.kinds[1].colour);
+    }
+
+    /// On the exact path an output shows the state just before the bond of its event breaks.
+    #[test]
+    fn on_the_exact_path_bonds_break_after_the_output() {
+        let crack = crack(BREAKS, true);
+        assert_eq!(crack.until(&crack.kinds[1], 2).len(), 0);
+        assert_eq!(crack.until(&crack.kinds[1], 3).len(), 1);
+    }
+}

@@ -1,0 +1,193 @@
+//! A field of an output by its name, one number a point or cell.
+
+use ligament_output::FieldLocation;
+use ligament_output::vtu::read::VtuFile;
+
+use super::PictureError;
+use crate::suggestion::nearest;
+
+/// The field of the names of an output that draws no field.
+pub(super) const NONE: &str = "none";
+
+/// A field as it is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Field {
+    /// Name with its component.
+    pub(super) name: String,
+    /// SI unit, `-` without one.
+    pub(super) unit: &'static str,
+    /// Whether the values belong to points or cells.
+    pub(super) location: FieldLocation,
+    /// The values, shape (n_points) or (n_cells).
+    pub(super) values: Vec<f64>,
+}
+
+/// The number of a vector or tensor that is drawn.
+enum Component {
+    Only,
+    Norm,
+    At(usize),
+}
+
+impl Field {
+    /// Reads a field: `damage`, `displacement` (its norm), `displacement.x`, `stress_virial.xx`. On a lattice, where fields belong
+    /// to the cells, those of the cells go first.
+    pub(super) fn read(file: &VtuFile, name: &str) -> Result<Self, PictureError> {
+        let whole = |name: &str| {
+            let has = |location: &FieldLocation| file.components(*location, name).is_some();
+            [FieldLocation::Cell, FieldLocation::Point]
+                .into_iter()
+                .find(has)
+        };
+        let (base, part) = match (whole(name), name.rsplit_once('.')) {
+            (None, Some((base, part))) => (base, Some(part)),
+            _ => (name, None),
+        };
+        let location = whole(base).ok_or_else(|| unknown(file, name))?;
+        let (count, names) = file.components(location, base).unwrap_or((1, &[]));
+        let component = match (part, count) {
+            (None, 1) => Component::Only,
+            (None | Some("magnitude"), 3) if names.is_empty() => Component::Norm,
+            (part, _) => {
+                let known = component_names(count, names);
+                let place = part.and_then(|part| known.iter().position(|it| it == part));
+                Component::At(place.ok_or_else(|| PictureError::NoComponent {
+                    field: base.to_owned(),
+                    choices: known.iter().map(|it| format!("{base}.{it}")).collect(),
+                })?)
+            }
+        };
+        let read = if file.is_integer(location, base) {
+            let integers = file.integers(location, base)?;
+            integers.map(|all| all.into_iter().map(|it| it as f64).collect())
+        } else {
+            file.numbers(location, base)?
+        };
+        let all: Vec<f64> = read.ok_or_else(|| unknown(file, name))?;
+        let values = match component {
+            Component::Only => all,
+            Component::Norm => all.chunks_exact(3).map(|v| v[0].hypot(v[1])).collect(),
+            Component::At(place) => all.chunks_exact(count).map(|v| v[place]).collect(),
+        };
+        Ok(Self {
+            name: name.to_owned(),
+            unit: unit_of(base),
+            location,
+            values,
+        })
+    }
+
+    /// Least and largest finite value; None where there is none.
+    pub(super) fn range(&self) -> Option<[f64; 2]> {
+        let finite = self.values.iter().copied().filter(|it| it.is_finite());
+        finite.fold(None, |range, value| {
+            let [low, high] = range.unwrap_or([value, value]);
+            Some([low.min(value), high.max(value)])
+        })
+    }
+}
+
+fn component_names(count: usize, names: &[String]) -> Vec<String> {
+    match (count, names) {
+        (1, _) => Vec::new(),
+        // The third component of a vector in the plane is zero.
+        (3, []) => ["x", "y", "magnitude"].map(str::to_owned).to_vec(),
+        (_, []) => (0..count).map(|it| it.to_string()).collect(),
+        _ => names.to_vec(),
+    }
+}
+
+fn unknown(file: &VtuFile, name: &str) -> PictureError {
+    let mut known: Vec<String> = Vec::new();
+    for location in [FieldLocation::Point, FieldLocation::Cell] {
+        for field in file.fields(location) {
+            let (count, names) = file.components(location, field).unwrap_or((1, &[]));
+            let components = component_names(count, names);
+            let all: Vec<String> = match components.as_slice() {
+                [] => vec![field.to_owned()],
+                parts => parts.iter().map(|part| format!("{field}.{part}")).collect(),
+            };
+            known.extend(all);
+        }
+    }
+    let mut seen = std::collections::HashSet::new();
+    known.retain(|name| seen.insert(name.clone()));
+    PictureError::UnknownField {
+        suggestion: nearest(name, &known).map(str::to_owned),
+        name: name.to_owned(),
+        known,
+    }
+}
+
+/// SI unit of a field.
+fn unit_of(field: &str) -> &'static str {
+    match field {
+        "displacement" | "horizon" | "nearest_distance" => "m",
+        "rotation" => "rad",
+        "reaction" => "N",
+        "strain_energy_density" | "dissipated_energy_density" => "J/m^3",
+        "temperature_change" => "K",
+        "volume" => "m^3",
+        name if name.starts_with("stress") => "Pa",
+        _ => "-",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ligament_output::vtu::{self, Cell, UnstructuredGrid, write_vtu};
+
+    use super::*;
+
+    fn sample(folder: &std::path::Path) -> VtuFile {
+        let path = folder.join("a.vtu");
+        let grid = UnstructuredGrid {
+            points: &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+            cells: &[Cell::Triangle([0, 1, 2])],
+            point_fields: &[
+                vtu::Field::scalar("damage", &[0.0, 0.5, f64::NAN]),
+                vtu::Field::integer("fragment", &[1, 2, -3]),
+                vtu::Field::vector(
+                    "displacement",
+                    &[[3.0, 4.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]],
+                ),
+                vtu::Field::components(
+                    "stress_virial",
+                    &["xx", "yy"],
+                    &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
+                ),
+            ],
+            cell_fields: &[vtu::Field::scalar("damage", &[0.25])],
+        };
+        write_vtu(&path, &grid).unwrap();
+        VtuFile::open(path).unwrap()
+    }
+
+    #[test]
+    fn fields_are_scalars_norms_or_components() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = sample(folder.path());
+        let values = |name: &str| Field::read(&file, name).unwrap().values;
+        assert_eq!(values("displacement"), [5.0, 1.0, 0.0]);
+        assert_eq!(values("displacement.magnitude"), [5.0, 1.0, 0.0]);
+        assert_eq!(values("displacement.y"), [4.0, -1.0, 0.0]);
+        assert_eq!(values("stress_virial.yy"), [2.0, 4.0, 6.0]);
+        assert_eq!(values("fragment"), [1.0, 2.0, -3.0]);
+        let damage = Field::read(&file, "damage").unwrap();
+        assert_eq!(
+            (damage.location, damage.values),
+            (FieldLocation::Cell, vec![0.25])
+        );
+    }
+
+    #[test]
+    fn what_is_not_there_is_told_with_what_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = sample(folder.path());
+        let error = |name: &str| Field::read(&file, name).unwrap_err().to_string();
+        assert!(error("damge").contains("did you mean `damage`?"));
+        assert!(error("quux").contains("stress_virial.xx, stress_virial.yy"));
+        assert!(error("stress_virial").contains("stress_virial.xx"));
+        assert!(error("displacement.q").contains("displacement.magnitude"));
+    }
+}

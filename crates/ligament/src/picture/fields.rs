@@ -1,0 +1,429 @@
+//! Pictures of fields, cracks and modes on deformed bodies.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ligament_output::csv::read::Sheet;
+use ligament_output::results::outputs::{OutputKind, Outputs};
+use ligament_output::vtu::read::VtuFile;
+
+use super::body::{Body, common_scale};
+use super::colour_bar::ColourBar;
+use super::colour_map::ColourMap;
+use super::crack::{self, Crack};
+use super::field::{Field, NONE};
+use super::levels::{Levels, Rule, has_both_signs};
+use super::panel::{Panel, Scale};
+use super::select::{Choice, Moment, chosen, moments};
+use super::strip::{Entry, Strip};
+use super::svg::PIXELS_PER_MM;
+use super::units::{Shown, four_digits};
+use super::{PictureError, Target, labels_of};
+use crate::loading::loading;
+
+/// Width of a column and of a page of a paper, mm.
+const WIDTHS: [f64; 2] = [90.0, 180.0];
+
+/// Share of the body's size that the largest displacement of a mode is drawn with.
+const MODE_SHARE: f64 = 0.1;
+
+/// Quantile of a mode's field that is drawn as its largest value: the corners of a clamp outshine all else.
+const MODE_QUANTILE: f64 = 0.995;
+
+/// How much larger displacements are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Magnification {
+    /// So that the largest is about a twentieth of the body; of a mode a tenth.
+    Auto,
+    /// By this factor.
+    Times(f64),
+}
+
+/// A picture of a field, or of a crack.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldRequest {
+    /// Folders with results.
+    pub folders: Vec<PathBuf>,
+    /// What they are called; empty: by their folders.
+    pub labels: Vec<String>,
+    /// Field with its component, or `none`; None: damage where bonds broke, else the displacement; of modes the strain energy
+    /// density.
+    pub field: Option<String>,
+    /// Outputs of each folder.
+    pub choice: Choice,
+    /// Factor on the displacement.
+    pub magnification: Magnification,
+    /// Whether broken bonds are drawn.
+    pub crack: bool,
+    /// Part of the plane, lower left and upper right corner, m.
+    pub window: Option<[[f64; 2]; 2]>,
+    /// Number of bands of colour.
+    pub bands: Option<usize>,
+    /// First and last level, SI units.
+    pub range: Option<[f64; 2]>,
+    /// Colours; None: as the signs of the field ask for.
+    pub map: Option<ColourMap>,
+    /// Bodies in a row.
+    pub columns: Option<usize>,
+    /// Size and file.
+    pub target: Target,
+}
+
+/// The results in a folder.
+struct Source {
+    outputs: Outputs,
+    label: String,
+    moments: BTreeMap<usize, Moment>,
+    /// Units to show displacement and force in.
+    shown: Option<[Shown; 2]>,
+    crack: Option<Crack>,
+    /// Whether broken bonds are drawn; of a mesh, whose cells hide it, a pre-crack is drawn in any case.
+    shows_broken: bool,
+    /// Frequencies of modes by number, Hz.
+    frequencies: BTreeMap<usize, f64>,
+}
+
+/// Draws the picture and returns where it is.
+///
+/// # Errors
+///
+/// If there are no such results, outputs or fields, or the picture cannot be written.
+pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
+    let first = &request.folders[0];
+    let labels = labels_of(&request.folders, &request.labels)?;
+    let mut sources = Vec::new();
+    for (folder, label) in request.folders.iter().zip(labels) {
+        sources.push(Source::open(folder, label, request)?);
+    }
+    let over_field = request.field.as_deref() != Some(NONE);
+    crack::paint(
+        sources
+            .iter_mut()
+            .filter_map(|it| it.crack.as_mut())
+            .collect(),
+        over_field,
+    );
+    let has_modes = sources
+        .iter()
+        .any(|it| it.outputs.kind == OutputKind::Modes);
+    let name = request
+        .field
+        .clone()
+        .unwrap_or_else(|| default_field(&sources).to_owned());
+    let file = request
+        .target
+        .file(|| first.join(default_name(&name, has_modes)))?;
+
+    let mut panels = Vec::new();
+    for source in &sources {
+        for (number, path) in chosen(&source.outputs, &request.choice, &source.moments)? {
+            let title = source.title(number, sources.len() > 1);
+            panels.push((source, number, source.panel(&path, &name, title)?));
+        }
+    }
+    let magnification = match request.magnification {
+        Magnification::Times(factor) => Some(factor),
+        Magnification::Auto if has_modes => None,
+        Magnification::Auto => Some(common_scale(panels.iter().map(|it| &it.2.body))),
+    };
+    let panels: Vec<Panel> = panels
+        .into_iter()
+        .map(|(source, number, panel)| source.deformed(panel, number, magnification))
+        .collect();
+
+    let drawn = scale(&panels, &name, has_modes, request)?;
+    let mut legend = vec![Entry {
+        colour: None,
+        words: magnification_words(magnification),
+    }];
+    legend.extend(crack_legend(&sources, &panels));
+    let quantity = if has_modes {
+        format!("{name} / its 99.5 % quantile")
+    } else {
+        name.clone()
+    };
+    let unit = panels[0].field.as_ref().map_or("-", |field| field.unit);
+    let bar = |(scale, range)| ColourBar::new(scale, &quantity, unit, range);
+    let strip = Strip {
+        scale: drawn.as_ref().map(|it| &it.0),
+        bar: drawn.as_ref().map(|(scale, range)| bar((scale, *range))),
+        legend,
+        window: request.window,
+        columns: request.columns,
+        title: format!("{name} of {}", sources[0].label),
+        panels: &panels,
+    };
+    let width = request
+        .target
+        .width
+        .unwrap_or(WIDTHS[usize::from(panels.len() > 1)]);
+    request
+        .target
+        .write(file, &strip.to_svg(width * PIXELS_PER_MM))
+}
+
+impl Source {
+    fn open(folder: &Path, label: String, request: &FieldRequest) -> Result<Self, PictureError> {
+        let outputs = Outputs::list(folder)?;
+        let path = folder.to_path_buf();
+        if outputs.kind == OutputKind::Modes {
+            if request.crack {
+                let (what, option) = ("broken bonds", "--crack");
+                return Err(PictureError::Modes { path, what, option });
+            }
+            let table = Sheet::read(folder.join("modes.csv"))?;
+            let numbers: Vec<usize> = table.values("mode")?;
+            let frequencies = numbers
+                .into_iter()
+                .zip(table.values("frequency_hz")?)
+                .collect();
+            return Ok(Self {
+                outputs,
+                label,
+                moments: BTreeMap::new(),
+                shown: None,
+                crack: None,
+                shows_broken: false,
+                frequencies,
+            });
+        }
+        let moments = moments(folder)?;
+        let loading = loading(folder).ok();
+        let largest =
+            |of: fn(&Moment) -> f64| moments.values().map(|it| of(it).abs()).fold(0.0, f64::max);
+        let shown = loading.map(|it| {
+            [
+                Shown::new(it.units.displacement, largest(|it| it.displacement)),
+                Shown::new(it.units.force, largest(|it| it.reaction)),
+            ]
+        });
+        let follows_path = loading.is_some_and(|it| it.follows_path);
+        let crack = Crack::read(folder, follows_path, request.crack)?;
+        Ok(Self {
+            outputs,
+            label,
+            moments,
+            shown,
+            crack: Some(crack),
+            shows_broken: request.crack,
+            frequencies: BTreeMap::new(),
+        })
+    }
+
+    fn title(&self, number: usize, is_labelled: bool) -> Vec<[String; 2]> {
+        let same = |text: String| [text.clone(), text];
+        let mut words = Vec::new();
+        if is_labelled {
+            words.push(same(self.label.clone()));
+        }
+        if self.outputs.kind == OutputKind::Modes {
+            let frequency = self.frequencies.get(&number);
+            let frequency =
+                frequency.map_or(String::new(), |it| format!(": {} Hz", four_digits(*it)));
+            words.push(same(format!("mode {number}{frequency}")));
+            return words;
+        }
+        words.push(same(format!("step {number}")));
+        if let (Some(moment), Some([displacement, force])) =
+            (self.moments.get(&number), &self.shown)
+        {
+            // A change of temperature loads a body that nothing moves.
+            let is_heated = displacement.unit.ends_with('K');
+            let moved = displacement.value(moment.displacement);
+            let moves = if is_heated {
+                "temperature change"
+            } else {
+                "displacement"
+            };
+            words.push([format!("{moves} {moved}"), moved]);
+            if !is_heated {
+                let held = force.value(moment.reaction);
+                words.push([format!("reaction {held}"), held]);
+            }
+        }
+        words
+    }
+
+    fn panel(
+        &self,
+        path: &Path,
+        name: &str,
+        title: Vec<[String; 2]>,
+    ) -> Result<Panel, PictureError> {
+        let file = VtuFile::open(path)?;
+        let mut field = (name != NONE)
+            .then(|| Field::read(&file, name))
+            .transpose()?;
+        if let Some(field) = field
+            .as_mut()
+            .filter(|_| self.outputs.kind == OutputKind::Modes)
+        {
+            relate_to_largest(field);
+        }
+        let body = Body::read(&file)?;
+        let (n_points, n_cells) = (body.reference.len(), body.cells.len());
+        let fits = field.as_ref().is_none_or(|it| match it.location {
+            ligament_output::FieldLocation::Point => it.values.len() == n_points,
+            ligament_output::FieldLocation::Cell => it.values.len() == n_cells,
+        });
+        if !fits {
+            return Err(PictureError::NotDrawable {
+                path: path.to_path_buf(),
+                reason: format!("`{name}` has not one value a point or cell"),
+            });
+        }
+        Ok(Panel {
+            title,
+            positions: Vec::new(),
+            body,
+            field,
+            broken: Vec::new(),
+        })
+    }
+
+    /// The panel with its body deformed and its broken bonds between the deformed ends.
+    fn deformed(&self, mut panel: Panel, number: usize, magnification: Option<f64>) -> Panel {
+        let factor = magnification.unwrap_or_else(|| panel.body.scale_for_share(MODE_SHARE));
+        let positions = panel.body.deformed(factor);
+        let line = |ends: [i64; 2]| {
+            let [a, b] = ends.map(|tag| panel.body.place(tag, &positions));
+            Some([a?, b?])
+        };
+        let kinds = self
+            .crack
+            .iter()
+            .flat_map(|crack| crack.kinds.iter().map(move |it| (crack, it)));
+        let shows_cut = self.shows_broken || panel.body.is_mesh();
+        let kinds = kinds.filter(|(_, kind)| shows_cut || !kind.is_cut());
+        panel.broken = kinds
+            .map(|(crack, kind)| {
+                let bonds = crack.until(kind, number).into_iter();
+                (kind.colour, bonds.filter_map(line).collect())
+            })
+            .collect();
+        panel.positions = positions;
+        panel
+    }
+
+    fn has_broken(&self) -> bool {
+        let breaks = Sheet::read(self.outputs.folder.join("breaks.csv"));
+        breaks.is_ok_and(|sheet| {
+            sheet
+                .texts("step")
+                .is_some_and(|mut it| it.next().is_some())
+        })
+    }
+}
+
+fn default_field(sources: &[Source]) -> &'static str {
+    if sources[0].outputs.kind == OutputKind::Modes {
+        "strain_energy_density"
+    } else if sources.iter().any(Source::has_broken) {
+        "damage"
+    } else {
+        "displacement"
+    }
+}
+
+/// Runs write no file of such a name.
+fn default_name(field: &str, has_modes: bool) -> String {
+    match field {
+        _ if has_modes => "picture-modes.png".to_owned(),
+        NONE => "picture-crack.png".to_owned(),
+        field => format!("picture-{field}.png"),
+    }
+}
+
+fn magnification_words(magnification: Option<f64>) -> String {
+    match magnification {
+        Some(0.0) => "undeformed".to_owned(),
+        Some(factor) => format!("deformation × {factor}"),
+        None => format!("largest displacement drawn as {MODE_SHARE} of the body"),
+    }
+}
+
+/// The quantile of the absolute values becomes 1: a mode has no size of its own.
+fn relate_to_largest(field: &mut Field) {
+    let mut sizes: Vec<f64> = field
+        .values
+        .iter()
+        .map(|it| it.abs())
+        .filter(|it| it.is_finite())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let place = (MODE_QUANTILE * sizes.len().saturating_sub(1) as f64).round() as usize;
+    let largest = sizes
+        .get(place)
+        .copied()
+        .filter(|it| *it > 0.0)
+        .unwrap_or(1.0);
+    for value in &mut field.values {
+        *value /= largest;
+    }
+    field.unit = "-";
+}
+
+/// Colours for the field of all panels, and the range of its values; None where no field is drawn.
+fn scale(
+    panels: &[Panel],
+    name: &str,
+    has_modes: bool,
+    request: &FieldRequest,
+) -> Result<Option<(Scale, [f64; 2])>, PictureError> {
+    let mut fields = panels
+        .iter()
+        .filter_map(|panel| panel.field.as_ref())
+        .peekable();
+    if fields.peek().is_none() {
+        return Ok(None);
+    }
+    let ranges = fields.filter_map(Field::range);
+    let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    let range = range.ok_or_else(|| PictureError::NoValues {
+        name: name.to_owned(),
+    })?;
+    // Modes are relative to their largest values.
+    let of_modes = has_modes.then_some([range[0].signum().min(0.0), 1.0]);
+    let asked = request.range.or(of_modes);
+    let drawn = asked.unwrap_or(range);
+    let map = request.map.unwrap_or(if has_both_signs(drawn) {
+        ColourMap::Diverging
+    } else {
+        ColourMap::Viridis
+    });
+    let rule = Rule {
+        bands: request.bands,
+        range: asked,
+        centred: map == ColourMap::Diverging,
+    };
+    let levels = Levels::new(range, rule);
+    let colours = map.bands(levels.n_bands());
+    Ok(Some((Scale { levels, colours }, range)))
+}
+
+/// The criteria by which bonds of any panel broke, each once, with the number in the last panel.
+fn crack_legend(sources: &[Source], panels: &[Panel]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let kinds = sources
+        .iter()
+        .flat_map(|it| &it.crack)
+        .flat_map(|it| &it.kinds);
+    for kind in kinds {
+        let is_drawn = panels.iter().flat_map(|it| &it.broken);
+        let count: usize = is_drawn
+            .filter(|it| it.0 == kind.colour)
+            .map(|it| it.1.len())
+            .sum();
+        let words = match panels {
+            [_] => format!("{} ({count})", kind.name),
+            _ => kind.name.clone(),
+        };
+        if count > 0 && !entries.iter().any(|it| it.words == words) {
+            entries.push(Entry {
+                colour: Some(kind.colour),
+                words,
+            });
+        }
+    }
+    entries
+}

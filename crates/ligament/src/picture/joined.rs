@@ -1,0 +1,95 @@
+//! The cells of a lattice as one surface where it is whole.
+//!
+//! Each cell moves with its point, so that cells that are stretched part or overlap by a little, everywhere. Drawn larger that is
+//! a net of hairlines. Corners that lie at one place without load, and still lie near each other, are drawn at their mean; where
+//! a crack opens they stay apart.
+
+use std::collections::HashMap;
+
+use ligament_output::vtu::Cell;
+
+/// Share of the side of a cell beyond which corners are apart.
+const NEAR: f64 = 0.25;
+
+/// Corners drawn as one, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Joined {
+    /// The number of the place of each corner, shape (n_corners).
+    pub(super) place_of: Vec<u32>,
+    /// Places, shape (n_places), m.
+    pub(super) places: Vec<[f64; 2]>,
+}
+
+impl Joined {
+    /// Joins the corners of cells, by their positions without load and as they are drawn, both of shape (n_corners).
+    pub(super) fn new(cells: &[Cell], reference: &[[f64; 2]], positions: &[[f64; 2]]) -> Self {
+        let side = side(cells, reference);
+        let mut meeting: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
+        let mut place_of = Vec::with_capacity(reference.len());
+        // Sums of the positions at a place, and their number.
+        let mut sums: Vec<([f64; 2], f64)> = Vec::new();
+        for (at, drawn) in reference.iter().zip(positions) {
+            // Half a cell is far from any other corner, and rounding far from half a cell.
+            let key = at.map(|it| (2.0 * it / side).round() as i64);
+            let known = meeting.entry(key).or_default();
+            let is_near = |place: &u32| {
+                let (sum, count) = sums[*place as usize];
+                (sum[0] / count - drawn[0]).hypot(sum[1] / count - drawn[1]) <= NEAR * side
+            };
+            let near = known.iter().copied().find(is_near);
+            let place = near.unwrap_or_else(|| {
+                known.push(sums.len() as u32);
+                sums.push(([0.0; 2], 0.0));
+                sums.len() as u32 - 1
+            });
+            let (sum, count) = &mut sums[place as usize];
+            *sum = [sum[0] + drawn[0], sum[1] + drawn[1]];
+            *count += 1.0;
+            place_of.push(place);
+        }
+        let mean = |(sum, count): ([f64; 2], f64)| sum.map(|it| it / count);
+        Self {
+            place_of,
+            places: sums.into_iter().map(mean).collect(),
+        }
+    }
+}
+
+/// Side of a cell: those of a lattice are equal.
+fn side(cells: &[Cell], reference: &[[f64; 2]]) -> f64 {
+    let first = cells.first().map_or(&[][..], Cell::points);
+    match *first {
+        [a, b, ..] => {
+            let [a, b] = [a, b].map(|it| reference[it as usize]);
+            (b[0] - a[0]).hypot(b[1] - a[1])
+        }
+        _ => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two cells side by side, with the right one moved by a tenth and by half of a cell.
+    #[test]
+    fn cells_are_joined_unless_a_crack_opens() {
+        let square = |x: f64| [[x, 0.0], [x + 0.1, 0.0], [x + 0.1, 0.1], [x, 0.1]];
+        let reference = [square(0.0), square(0.1)].concat();
+        let cells = [Cell::Quad([0, 1, 2, 3]), Cell::Quad([4, 5, 6, 7])];
+        let joined = |moved: f64| {
+            let positions = [square(0.0), square(0.1 + moved)].concat();
+            Joined::new(&cells, &reference, &positions)
+        };
+        let near = joined(0.01);
+        assert_eq!(near.places.len(), 6);
+        assert_eq!(near.place_of[1], near.place_of[4]);
+        assert!((near.places[near.place_of[1] as usize][0] - 0.105).abs() < 1e-15);
+        let apart = joined(0.05);
+        assert_eq!(apart.places.len(), 8);
+        assert_eq!(
+            apart.places[apart.place_of[4] as usize],
+            [0.15000000000000002, 0.0]
+        );
+    }
+}

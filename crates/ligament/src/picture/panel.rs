@@ -1,0 +1,181 @@
+//! One body in a picture: its field as bands of colour, its outline, its broken bonds.
+
+use ligament_output::FieldLocation;
+use ligament_output::vtu::Cell;
+
+use super::body::{Body, bounds};
+use super::contour::{Surface, halves, oriented};
+use super::field::Field;
+use super::joined::Joined;
+use super::levels::Levels;
+use super::svg::{Document, Paint, PathData};
+
+/// Colour of a body without a field, and of what has no value.
+const BARE: &str = "#dcdcdc";
+
+/// Colour of outlines.
+const OUTLINE: &str = "#404040";
+
+/// Widths of lines in pixels: outlines ...
+const OUTLINE_WIDTH: f64 = 0.5;
+
+/// ... and broken bonds.
+const BOND_WIDTH: f64 = 0.4;
+
+/// A body with what is drawn of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Panel {
+    /// Words of its title, long and short.
+    pub(super) title: Vec<[String; 2]>,
+    /// The body.
+    pub(super) body: Body,
+    /// Deformed positions of the corners of its cells.
+    pub(super) positions: Vec<[f64; 2]>,
+    /// The field, if one is drawn.
+    pub(super) field: Option<Field>,
+    /// Broken bonds by colour, between deformed ends.
+    pub(super) broken: Vec<(&'static str, Vec<[[f64; 2]; 2]>)>,
+}
+
+/// The colours of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Scale {
+    /// Levels between the bands.
+    pub(super) levels: Levels,
+    /// Colours of the bands.
+    pub(super) colours: Vec<String>,
+}
+
+/// Where a part of the plane lies in a document, at one scale along both axes and y upwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Frame {
+    /// Lower left corner of the part, m.
+    pub(super) low: [f64; 2],
+    /// Upper right corner, m.
+    pub(super) high: [f64; 2],
+    /// Its upper left corner in the document, pixels.
+    pub(super) at: [f64; 2],
+    /// Pixels to the metre.
+    pub(super) scale: f64,
+}
+
+impl Frame {
+    fn to_pixels(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [
+            self.at[0] + (x - self.low[0]) * self.scale,
+            self.at[1] + (self.high[1] - y) * self.scale,
+        ]
+    }
+
+    /// Whether a polygon may reach into the frame.
+    fn meets(&self, points: &[[f64; 2]]) -> bool {
+        bounds(points).is_some_and(|[low, high]| {
+            (0..2).all(|axis| low[axis] <= self.high[axis] && high[axis] >= self.low[axis])
+        })
+    }
+
+    fn add(&self, path: &mut PathData, outline: &[[f64; 2]]) {
+        if self.meets(outline) && outline.iter().flatten().all(|it| it.is_finite()) {
+            path.outline(outline.iter().map(|&point| self.to_pixels(point)));
+        }
+    }
+}
+
+impl Panel {
+    /// Draws it into a frame of a document.
+    pub(super) fn draw(&self, document: &mut Document, frame: Frame, scale: Option<&Scale>) {
+        let field = self.field.as_ref().zip(scale);
+        match field {
+            Some((field, scale)) if field.location == FieldLocation::Cell => {
+                self.draw_cells(document, frame, Some((field, scale)));
+            }
+            None if !self.body.is_mesh() => self.draw_cells(document, frame, None),
+            _ => self.draw_surface(document, frame, field),
+        }
+        for (colour, bonds) in &self.broken {
+            let mut path = PathData::default();
+            for ends in bonds.iter().filter(|ends| frame.meets(*ends)) {
+                path.segment(ends.map(|end| frame.to_pixels(end)));
+            }
+            let stroke = Some((*colour, BOND_WIDTH));
+            document.path(&path, Paint { fill: None, stroke });
+        }
+    }
+
+    /// Contours of values at the points, each region over the one of the level below.
+    fn draw_surface(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
+        let triangles = || self.body.cells.iter().flat_map(halves_of);
+        let reference = &self.body.reference;
+        let whole = Surface::new(triangles(), reference, |_| true);
+        let outline = path_of(whole.outlines(&self.positions), frame);
+        document.path(&outline, fill(BARE));
+        if let Some((field, Scale { levels, colours })) = field {
+            let values = &field.values;
+            let surface = Surface::new(triangles(), reference, |node| {
+                values[node as usize].is_finite()
+            });
+            let lowest = surface.outlines(&self.positions);
+            document.path(&path_of(lowest, frame), fill(&colours[0]));
+            for (level, colour) in levels.bounds.iter().zip(colours).skip(1) {
+                let region = surface.region(&self.positions, values, *level);
+                document.path(&path_of(region, frame), fill(colour));
+            }
+        }
+        let stroke = Some((OUTLINE, OUTLINE_WIDTH));
+        document.path(&outline, Paint { fill: None, stroke });
+    }
+
+    /// Cells with a colour each: those of a band and of all above it over those of the band below.
+    fn draw_cells(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
+        let (body, cells) = (&self.body, &self.body.cells);
+        let joined = Joined::new(cells, &body.reference, &self.positions);
+        let band_of = |cell: usize| {
+            let (field, scale) = field?;
+            let value = field.values[cell];
+            value.is_finite().then(|| scale.levels.band(value))
+        };
+        // What has no value lies below all bands.
+        let bands: Vec<Option<usize>> = (0..cells.len()).map(band_of).collect();
+        let mut draw = |from: Option<usize>, colour: &str| {
+            let chosen = cells.iter().zip(&bands).filter(|(_, band)| **band >= from);
+            let triangles = chosen.flat_map(|(cell, _)| halves_of(cell));
+            // Corners of one cell differ, so that orientations are seen without load.
+            let named = triangles.map(|corners| oriented(corners, &body.reference));
+            let named = named.map(|it| it.map(|corner| joined.place_of[corner as usize]));
+            let surface = Surface::of_oriented(named.collect());
+            document.path(
+                &path_of(surface.outlines(&joined.places), frame),
+                fill(colour),
+            );
+        };
+        draw(None, BARE);
+        let colours = field.iter().flat_map(|(_, scale)| &scale.colours);
+        for (band, colour) in colours.enumerate() {
+            draw(Some(band), colour);
+        }
+    }
+}
+
+/// The triangles of a cell.
+fn halves_of(cell: &Cell) -> Vec<[u32; 3]> {
+    match *cell {
+        Cell::Triangle(corners) => vec![corners],
+        Cell::Quad(corners) => halves(corners).to_vec(),
+        Cell::Vertex(_) | Cell::Line(_) => Vec::new(),
+    }
+}
+
+fn path_of(outlines: Vec<Vec<[f64; 2]>>, frame: Frame) -> PathData {
+    let mut path = PathData::default();
+    for outline in &outlines {
+        frame.add(&mut path, outline);
+    }
+    path
+}
+
+fn fill(colour: &str) -> Paint<'_> {
+    Paint {
+        fill: Some(colour),
+        stroke: None,
+    }
+}

@@ -1,0 +1,183 @@
+//! Which outputs of a folder are drawn.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ligament_output::csv::read::Sheet;
+use ligament_output::results::outputs::{OutputKind, Outputs};
+
+use super::PictureError;
+
+/// Modes that are drawn when none are named.
+const FIRST_MODES: usize = 6;
+
+/// Which outputs to draw.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Choice {
+    /// The last one; of modes the first six.
+    Default,
+    /// Those of these numbers.
+    Steps(Vec<usize>),
+    /// So many, evenly spread over all.
+    Strip(usize),
+    /// Those nearest to these displacements of the load.
+    Displacements(Vec<f64>),
+}
+
+/// The row of the history of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Moment {
+    /// Displacement of the first load.
+    pub(super) displacement: f64,
+    /// Its force.
+    pub(super) reaction: f64,
+}
+
+/// The rows of a history by their steps; none where there is no history.
+pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureError> {
+    let path = folder.join("history.csv");
+    if !path.is_file() {
+        return Ok(BTreeMap::new());
+    }
+    let sheet = Sheet::read(path)?;
+    let steps: Vec<usize> = sheet.values("step")?;
+    let (displacements, reactions) = (sheet.values("displacement")?, sheet.values("reaction")?);
+    let rows = steps.into_iter().zip(displacements).zip(reactions);
+    Ok(rows
+        .map(|((step, displacement), reaction)| {
+            (
+                step,
+                Moment {
+                    displacement,
+                    reaction,
+                },
+            )
+        })
+        .collect())
+}
+
+/// The numbers of the chosen outputs, in the order of the choice, with their files.
+pub(super) fn chosen(
+    outputs: &Outputs,
+    choice: &Choice,
+    moments: &BTreeMap<usize, Moment>,
+) -> Result<Vec<(usize, PathBuf)>, PictureError> {
+    let all: Vec<usize> = outputs.files.keys().copied().collect();
+    let last = all.len() - 1;
+    let numbers = match choice {
+        Choice::Default if outputs.kind == OutputKind::Modes => {
+            all.iter().copied().take(FIRST_MODES).collect()
+        }
+        Choice::Default => vec![all[last]],
+        Choice::Steps(steps) => steps.clone(),
+        Choice::Strip(1) => vec![all[last]],
+        Choice::Strip(count) => {
+            let count = (*count).min(all.len());
+            let place = |it: usize| (2 * it * last + count - 1) / (2 * (count - 1)).max(1);
+            (0..count).map(|it| all[place(it).min(last)]).collect()
+        }
+        Choice::Displacements(displacements) => {
+            let of_outputs = || {
+                all.iter()
+                    .filter_map(|step| Some((*step, moments.get(step)?)))
+            };
+            let nearest = |wanted: f64| {
+                let away = |(_, moment): &(usize, &Moment)| (moment.displacement - wanted).abs();
+                of_outputs().min_by(|a, b| away(a).total_cmp(&away(b)))
+            };
+            let found: Option<Vec<usize>> = displacements
+                .iter()
+                .map(|&wanted| Some(nearest(wanted)?.0))
+                .collect();
+            found.ok_or_else(|| PictureError::NoHistory {
+                path: outputs.folder.clone(),
+            })?
+        }
+    };
+    let file = |number: usize| {
+        let file = outputs.files.get(&number).cloned();
+        Some((number, file?))
+    };
+    let missing = numbers
+        .iter()
+        .copied()
+        .find(|&number| file(number).is_none());
+    match missing {
+        Some(number) => Err(PictureError::NoSuchOutput {
+            path: outputs.folder.clone(),
+            kind: outputs.kind,
+            number,
+            known: all,
+        }),
+        None => Ok(numbers.into_iter().filter_map(file).collect()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outputs(kind: OutputKind, steps: &[usize]) -> Outputs {
+        Outputs {
+            folder: PathBuf::from("results"),
+            kind,
+            files: steps
+                .iter()
+                .map(|&it| (it, PathBuf::from(it.to_string())))
+                .collect(),
+        }
+    }
+
+    fn steps(choice: &Choice) -> Vec<usize> {
+        let outputs = outputs(OutputKind::Steps, &[0, 5, 10, 15, 20, 25, 27]);
+        let moments =
+            [(0, 0.0), (5, 1.0), (10, 2.0), (20, 4.0), (27, 1.1)].map(|(step, displacement)| {
+                (
+                    step,
+                    Moment {
+                        displacement,
+                        reaction: 0.0,
+                    },
+                )
+            });
+        let found = chosen(&outputs, choice, &BTreeMap::from(moments));
+        found.unwrap().into_iter().map(|it| it.0).collect()
+    }
+
+    #[test]
+    fn strips_are_spread_from_the_first_to_the_last_output() {
+        assert_eq!(steps(&Choice::Strip(2)), [0, 27]);
+        assert_eq!(steps(&Choice::Strip(3)), [0, 15, 27]);
+        assert_eq!(steps(&Choice::Strip(4)), [0, 10, 20, 27]);
+        assert_eq!(steps(&Choice::Strip(7)), [0, 5, 10, 15, 20, 25, 27]);
+        assert_eq!(steps(&Choice::Strip(50)).len(), 7);
+        assert_eq!(steps(&Choice::Strip(1)), [27]);
+    }
+
+    #[test]
+    fn outputs_are_named_or_nearest_to_a_displacement() {
+        assert_eq!(steps(&Choice::Default), [27]);
+        assert_eq!(steps(&Choice::Steps(vec![20, 5])), [20, 5]);
+        assert_eq!(
+            steps(&Choice::Displacements(vec![1.04, 3.5, -1.0])),
+            [5, 20, 0]
+        );
+        let few = outputs(OutputKind::Steps, &[0, 100]);
+        let error = chosen(&few, &Choice::Steps(vec![50]), &BTreeMap::new()).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("no output of step 50; there are 0, 100"),
+            "{error}"
+        );
+        let error = chosen(&few, &Choice::Displacements(vec![1.0]), &BTreeMap::new());
+        assert!(matches!(error, Err(PictureError::NoHistory { .. })));
+    }
+
+    #[test]
+    fn the_first_modes_are_drawn() {
+        let modes = outputs(OutputKind::Modes, &[1, 2, 3, 4, 5, 6, 7, 8]);
+        let found = chosen(&modes, &Choice::Default, &BTreeMap::new()).unwrap();
+        assert_eq!(found.len(), 6);
+    }
+}

@@ -1,0 +1,271 @@
+//! Bodies side by side at one scale, with titles above, the colour bar at the right and the legend below.
+
+use super::body::bounds;
+use super::colour_bar::ColourBar;
+use super::panel::{Frame, Panel, Scale};
+use super::svg::{Anchor, Document, text_width};
+
+/// Size of the text, pixels.
+const SIZE: f64 = 9.0;
+
+/// Height of a line of text, pixels.
+const LINE: f64 = 12.0;
+
+/// Room at the rim and between bodies, pixels.
+const MARGIN: f64 = 6.0;
+
+/// Largest height over width of a picture.
+const TALLEST: f64 = 1.25;
+
+/// Bodies wider than so many heights are put below each other.
+const WIDE: f64 = 2.2;
+
+/// A line of the legend.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Entry {
+    /// Colour of its sample; None: words alone.
+    pub(super) colour: Option<&'static str>,
+    /// Its words.
+    pub(super) words: String,
+}
+
+/// Room for the sample of a line in the legend, pixels.
+const SAMPLE: f64 = 18.0;
+
+/// Most of a colour bar's height, pixels.
+const LONGEST_BAR: f64 = 420.0;
+
+/// What a picture consists of.
+#[derive(Debug)]
+pub(super) struct Strip<'a> {
+    /// The bodies; one or more.
+    pub(super) panels: &'a [Panel],
+    /// Colours of the field.
+    pub(super) scale: Option<&'a Scale>,
+    /// The bar of the field.
+    pub(super) bar: Option<ColourBar<'a>>,
+    /// What is below the bodies.
+    pub(super) legend: Vec<Entry>,
+    /// Part of the plane to draw, lower left and upper right corner, m; None: all.
+    pub(super) window: Option<[[f64; 2]; 2]>,
+    /// Bodies in a row.
+    pub(super) columns: Option<usize>,
+    /// Words for the file.
+    pub(super) title: String,
+}
+
+/// Where everything lies, in pixels.
+#[derive(Debug)]
+struct Layout {
+    /// Bodies in a row.
+    columns: usize,
+    /// Pixels to the metre.
+    scale: f64,
+    /// Room for a body.
+    cell: [f64; 2],
+    /// Lines of the titles.
+    titles: Vec<Vec<String>>,
+    title_height: f64,
+    /// Upper left corner of the first title, and what all bodies take from there.
+    start: [f64; 2],
+    bodies: [f64; 2],
+    /// Height without margins and legend.
+    inner: f64,
+}
+
+impl Strip<'_> {
+    /// The picture as the text of an SVG file, so many pixels wide.
+    pub(super) fn to_svg(&self, width: f64) -> String {
+        let legend = self.legend_lines(width - 2.0 * MARGIN);
+        let below = LINE * legend.len() as f64 + if legend.is_empty() { 0.0 } else { 4.0 };
+        let layout = self.layout(width, below);
+        let height = 2.0 * MARGIN + layout.inner + below;
+        let mut document = Document::new([width, height]);
+        for place in 0..self.panels.len() {
+            self.draw_panel(&mut document, &layout, place);
+        }
+        if let Some(bar) = &self.bar {
+            // Beside the bodies, without the titles of the first row.
+            let room = layout.inner - layout.title_height;
+            let height = room.clamp(60.0, LONGEST_BAR);
+            let x = layout.start[0] + layout.bodies[0] + 2.0 * MARGIN;
+            let y = MARGIN + layout.title_height + 0.5 * (room - height);
+            bar.draw(&mut document, [x, y], height);
+        }
+        for (line, entries) in legend.iter().enumerate() {
+            let y = MARGIN + layout.inner + 4.0 + LINE * (line as f64 + 0.8);
+            for (x, Entry { colour, words }) in entries {
+                let mut start = MARGIN + x;
+                if let Some(colour) = colour {
+                    document.line([start, y - 3.0], [start + 14.0, y - 3.0], colour, 1.5);
+                    start += SAMPLE;
+                }
+                document.text([start, y], Anchor::Start, SIZE, words);
+            }
+        }
+        document.finish(&self.title)
+    }
+
+    /// Lower left and upper right corner of what is seen of a body, m.
+    fn extent(&self, panel: &Panel) -> Option<[[f64; 2]; 2]> {
+        self.window.or_else(|| bounds(&panel.positions))
+    }
+
+    fn layout(&self, width: f64, below: f64) -> Layout {
+        let extents: Vec<[[f64; 2]; 2]> = (self.panels.iter())
+            .filter_map(|panel| self.extent(panel))
+            .collect();
+        let body = [0, 1].map(|axis| {
+            let sizes = extents.iter().map(|[low, high]| high[axis] - low[axis]);
+            sizes.fold(f64::MIN_POSITIVE, f64::max)
+        });
+        let count = self.panels.len();
+        let columns = self
+            .columns
+            .unwrap_or_else(|| self.columns_for(body))
+            .clamp(1, count);
+        let rows = count.div_ceil(columns) as f64;
+        let bar = self
+            .bar
+            .as_ref()
+            .map_or(0.0, |bar| 2.0 * MARGIN + bar.width());
+        let gaps = 2.0 * MARGIN * (columns as f64 - 1.0);
+        let room = width - 2.0 * MARGIN - bar - gaps;
+        let widest_cell = (room / columns as f64).max(1.0);
+        let titles: Vec<Vec<String>> = (self.panels.iter())
+            .map(|panel| wrapped(&panel.title, widest_cell))
+            .collect();
+        let n_lines = titles.iter().map(Vec::len).max().unwrap_or(0);
+        let title_height = LINE * n_lines as f64 + if n_lines > 0 { 3.0 } else { 0.0 };
+        let row_gaps = MARGIN * (rows - 1.0);
+        let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
+        let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
+        let scale = (widest_cell / body[0]).min(tallest_cell / body[1]);
+        // Bodies that do not fill the width stand together in its middle.
+        let cell_width = widest_cell.min((body[0] * scale).max(widest(&titles)));
+        let cell = [cell_width, body[1] * scale];
+        let bodies = [
+            cell[0] * columns as f64 + gaps,
+            (title_height + cell[1]) * rows + row_gaps,
+        ];
+        let inner = bodies[1].max(self.bar.as_ref().map_or(0.0, ColourBar::least_height));
+        Layout {
+            columns,
+            scale,
+            cell,
+            titles,
+            title_height,
+            start: [
+                MARGIN + 0.5 * (room + gaps - bodies[0]),
+                MARGIN + 0.5 * (inner - bodies[1]),
+            ],
+            bodies,
+            inner,
+        }
+    }
+
+    fn draw_panel(&self, document: &mut Document, layout: &Layout, place: usize) {
+        let (panel, cell, scale) = (&self.panels[place], layout.cell, layout.scale);
+        let (row, column) = (place / layout.columns, place % layout.columns);
+        let x = layout.start[0] + (cell[0] + 2.0 * MARGIN) * column as f64;
+        let y = layout.start[1] + (layout.title_height + cell[1] + MARGIN) * row as f64;
+        for (line, words) in layout.titles[place].iter().enumerate() {
+            let at = [x + 0.5 * cell[0], y + LINE * (line as f64 + 0.8)];
+            document.text(at, Anchor::Middle, SIZE, words);
+        }
+        let Some([low, high]) = self.extent(panel) else {
+            return;
+        };
+        let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
+        let at = [
+            x + 0.5 * (cell[0] - own[0]),
+            y + layout.title_height + 0.5 * (cell[1] - own[1]),
+        ];
+        let frame = Frame {
+            low,
+            high,
+            at,
+            scale,
+        };
+        if self.window.is_none() {
+            panel.draw(document, frame, self.scale);
+            return;
+        }
+        document.begin_window(&format!("window-{place}"), at, own);
+        panel.draw(document, frame, self.scale);
+        document.end_window();
+        document.frame(at, own);
+    }
+
+    fn columns_for(&self, [width, height]: [f64; 2]) -> usize {
+        let count = self.panels.len();
+        match count {
+            0..=4 if width > WIDE * height => 1,
+            0..=5 => count,
+            6 => 3,
+            _ => 4,
+        }
+    }
+
+    /// The entries of the legend with their places in lines of a width.
+    fn legend_lines(&self, width: f64) -> Vec<Vec<(f64, &Entry)>> {
+        let mut lines: Vec<Vec<_>> = Vec::new();
+        let mut at = 0.0;
+        for entry in &self.legend {
+            let sample = if entry.colour.is_some() { SAMPLE } else { 0.0 };
+            let needs = sample + text_width(&entry.words, SIZE);
+            if lines.is_empty() || at + needs > width {
+                lines.push(Vec::new());
+                at = 0.0;
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push((at, entry));
+            }
+            at += needs + 14.0;
+        }
+        lines
+    }
+}
+
+fn widest(titles: &[Vec<String>]) -> f64 {
+    let lines = titles.iter().flatten();
+    lines.map(|line| text_width(line, SIZE)).fold(0.0, f64::max)
+}
+
+/// Words in lines of a width: together where they fit, in their short form where one alone does not.
+fn wrapped(words: &[[String; 2]], width: f64) -> Vec<String> {
+    let fits = |text: &str| text_width(text, SIZE) <= width;
+    let mut lines: Vec<String> = Vec::new();
+    for [long, short] in words {
+        let word = if fits(long) { long } else { short };
+        let joined = lines.last().map(|line| format!("{line}, {word}"));
+        match joined {
+            Some(joined) if fits(&joined) => {
+                lines.pop();
+                lines.push(joined);
+            }
+            _ => lines.push(word.clone()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_wrapped_and_shortened_to_the_room() {
+        let words = [
+            ["step 44", "step 44"],
+            ["displacement 0.1800 mm", "0.1800 mm"],
+        ]
+        .map(|pair| pair.map(str::to_owned));
+        assert_eq!(wrapped(&words, 400.0), ["step 44, displacement 0.1800 mm"]);
+        assert_eq!(
+            wrapped(&words, 120.0),
+            ["step 44", "displacement 0.1800 mm"]
+        );
+        assert_eq!(wrapped(&words, 60.0), ["step 44", "0.1800 mm"]);
+    }
+}

@@ -1,0 +1,144 @@
+//! Units with the prefix that gives short numbers, and numbers as they are printed in pictures.
+
+/// A unit to show values of a quantity in.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Shown {
+    /// What a value in SI units is multiplied by.
+    pub(super) factor: f64,
+    /// The unit with its prefix or power of ten; empty for a number of no unit.
+    pub(super) unit: String,
+}
+
+/// Prefixes by the power of ten, in steps of three from 10^-12.
+const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+
+impl Shown {
+    /// The unit for values of a size in an SI unit such as `J/m^3`; `-` is none.
+    pub(super) fn new(unit: &str, size: f64) -> Self {
+        let pretty = unit.replace("^2", "²").replace("^3", "³");
+        let symbol = if unit == "-" { "" } else { pretty.as_str() };
+        // Lengths are read best as 0.1 to 100, all else as 1 to 1000.
+        let shift = if unit == "m" { 1.0 } else { 0.0 };
+        let exact = if size > 0.0 && size.is_finite() {
+            size.log10()
+        } else {
+            0.0
+        };
+        let thousands = ((exact + shift) / 3.0 + 1e-9).floor() as i32;
+        let takes_prefix = matches!(unit, "m" | "rad" | "Pa" | "Hz")
+            || unit.starts_with('N')
+            || unit.starts_with('J');
+        let prefix = usize::try_from(thousands + 4)
+            .ok()
+            .and_then(|it| PREFIXES.get(it));
+        match prefix {
+            Some(prefix) if takes_prefix => Self {
+                factor: 10f64.powi(-3 * thousands),
+                unit: format!("{prefix}{symbol}"),
+            },
+            _ if (-3.0..5.0).contains(&exact) => Self {
+                factor: 1.0,
+                unit: symbol.to_owned(),
+            },
+            _ => Self {
+                factor: 10f64.powi(-3 * thousands),
+                unit: format!(
+                    "{}{}{symbol}",
+                    power_of_ten(3 * thousands),
+                    if symbol.is_empty() { "" } else { " " }
+                ),
+            },
+        }
+    }
+
+    /// A quantity with this unit, as labels have it.
+    pub(super) fn label(&self, quantity: &str) -> String {
+        if self.unit.is_empty() {
+            quantity.to_owned()
+        } else {
+            format!("{quantity} ({})", self.unit)
+        }
+    }
+
+    /// A value with this unit, to four digits.
+    pub(super) fn value(&self, value: f64) -> String {
+        let number = four_digits(value * self.factor);
+        match self.unit.as_str() {
+            "" => number,
+            unit if unit.starts_with("10") => format!("{number} × {unit}"),
+            unit => format!("{number} {unit}"),
+        }
+    }
+}
+
+fn power_of_ten(exponent: i32) -> String {
+    let raised = |letter: char| match letter {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
+    };
+    let exponent: String = exponent.to_string().chars().map(raised).collect();
+    format!("10{exponent}")
+}
+
+/// A number with four digits that count.
+pub(super) fn four_digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{}", value.abs());
+    }
+    let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 9);
+    format!("{value:.*}", decimals as usize)
+}
+
+/// Numbers with as many decimals as the widest of them needs to show `step`.
+pub(super) fn with_decimals_of(value: f64, step: f64) -> String {
+    let needs = |decimals: usize| {
+        let scaled = step * 10f64.powi(decimals as i32);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled.abs().max(1e-300)
+    };
+    let first = (-step.abs().max(1e-12).log10().floor()).max(0.0) as usize;
+    let decimals = (first..first + 3)
+        .find(|it| needs(*it))
+        .unwrap_or(first + 2);
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.chars().all(|letter| matches!(letter, '-' | '0' | '.'));
+    if is_zero { text.replace('-', "") } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_get_the_prefix_that_makes_them_short() {
+        for (unit, size, expected) in [
+            ("m", 1.8e-4, "mm"),
+            ("m", 0.05, "mm"),
+            ("m", 2e-7, "µm"),
+            ("N", 6.4e5, "kN"),
+            ("J/m^3", 3.2e3, "kJ/m³"),
+            ("Pa", 4e6, "MPa"),
+            ("-", 0.4, ""),
+            ("-", 3e-5, "10⁻⁶"),
+            ("m^3", 2e-6, "10⁻⁶ m³"),
+            ("K", 120.0, "K"),
+            ("m", 0.0, "m"),
+        ] {
+            assert_eq!(Shown::new(unit, size).unit, expected, "{size} {unit}");
+        }
+        assert_eq!(Shown::new("m", 1.8e-4).value(1.8e-4), "0.1800 mm");
+        assert_eq!(Shown::new("N", 6.4e5).value(644_761.3), "644.8 kN");
+        assert_eq!(Shown::new("m^3", 2e-6).value(2e-6), "2.000 × 10⁻⁶ m³");
+        assert_eq!(Shown::new("-", 0.4).label("damage"), "damage");
+    }
+
+    #[test]
+    fn labels_have_the_decimals_of_their_step() {
+        assert_eq!(with_decimals_of(0.30000000000000004, 0.1), "0.3");
+        assert_eq!(with_decimals_of(0.25, 0.25), "0.25");
+        assert_eq!(with_decimals_of(200.0, 100.0), "200");
+        assert_eq!(with_decimals_of(-1e-18, 0.5), "0.0");
+    }
+}

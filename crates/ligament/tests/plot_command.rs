@@ -1,0 +1,454 @@
+//! `ligament plot` as it is called: what the pictures show, what they say, and what is refused.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use resvg::usvg::roxmltree::Document;
+
+/// A plate of 12 x 8 cells with a pre-crack, pulled apart until it is in two; every step has fields.
+const LATTICE: &str = r#"
+title = "Plate"
+[lattice]
+cells = [12, 8]
+spacing = 0.01
+[lattice.set]
+bottom = { bottom = 1 }
+top = { top = 1 }
+[material]
+young = 10e9
+poisson = 0.2
+tensile_strength = 1e6
+[model]
+law = "nhpd"
+horizon_factor = 3.0
+[[support]]
+group = "bottom"
+displacement = { x = 0.0, y = 0.0 }
+[[precrack]]
+points = [[-0.01, 0.04], [0.04, 0.04]]
+[[load]]
+group = "top"
+displacement = { x = 0.0, y = 2e-5 }
+[fracture]
+steps = 10
+[output]
+fields_every = 1
+"#;
+
+fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ligament"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs a case; the results are in the folder that is returned.
+fn run(folder: &Path, case: &str, name: &str, settings: &[&str]) -> PathBuf {
+    let (path, out) = (folder.join("case.toml"), folder.join(name));
+    fs::write(&path, case).unwrap();
+    let mut arguments: Vec<&OsStr> = vec!["run".as_ref(), path.as_ref(), "--out".as_ref()];
+    arguments.extend([out.as_os_str(), "--quiet".as_ref()]);
+    for setting in settings {
+        arguments.extend([OsStr::new("--set"), OsStr::new(setting)]);
+    }
+    let output = ligament(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    out
+}
+
+fn call(words: &[&str]) -> Output {
+    ligament(["plot"].iter().chain(words))
+}
+
+/// Calls it, and returns the file that it names.
+fn plot(words: &[&str]) -> Vec<u8> {
+    let output = call(words);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    fs::read(text(&output.stdout).trim_end()).unwrap()
+}
+
+fn refusal(words: &[&str]) -> String {
+    let output = call(words);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    text(&output.stderr)
+}
+
+/// The texts of an SVG, which must be XML.
+fn texts(svg: &[u8]) -> Vec<String> {
+    let svg = text(svg);
+    let document = Document::parse(&svg).unwrap();
+    let nodes = document.descendants();
+    let lines = nodes.filter(|node| node.tag_name().name() == "text");
+    lines
+        .filter_map(|node| node.text().map(|it| it.trim().to_owned()))
+        .collect()
+}
+
+/// Width and height, and the red, green and blue of all pixels.
+fn pixels(png: &[u8]) -> ([usize; 2], Vec<u8>) {
+    let decoder = png::Decoder::new(std::io::Cursor::new(png));
+    let mut reader = decoder.read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(info.color_type, png::ColorType::Rgb);
+    ([info.width as usize, info.height as usize], pixels)
+}
+
+/// The last step of a run, and its displacement, from its history.
+fn steps(results: &Path) -> Vec<(usize, f64, f64)> {
+    let table = fs::read_to_string(results.join("history.csv")).unwrap();
+    let row = |line: &str| {
+        let values: Vec<f64> = line
+            .split(',')
+            .take(4)
+            .map(|it| it.parse().unwrap())
+            .collect();
+        (values[0] as usize, values[2], values[3])
+    };
+    table.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn a_field_has_title_scale_and_colour_bar_and_is_the_same_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    let path = results.to_str().unwrap();
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    let svg = plot(&[path, "--scale", "50", "--out", out]);
+    let all = texts(&svg);
+    let (last, displacement, _) = *steps(&results).last().unwrap();
+    let title = format!("step {last}, displacement {:.2} µm", 1e6 * displacement);
+    assert!(
+        all.iter().any(|it| it.starts_with(&title)),
+        "{title}: {all:?}"
+    );
+    assert!(all.contains(&"deformation × 50".to_owned()), "{all:?}");
+    assert!(all.contains(&"damage".to_owned()), "{all:?}");
+    assert!(
+        all.contains(&"0.0".to_owned()) && all.len() > 6,
+        "labels of the bar: {all:?}"
+    );
+    assert_eq!(plot(&[path, "--scale", "50", "--out", out]), svg);
+
+    let png = folder.path().join("a.png");
+    let png = png.to_str().unwrap();
+    let drawn = plot(&[path, "--width", "60", "--dpi", "120", "--out", png]);
+    let ([width, height], colours) = pixels(&drawn);
+    // 60 mm at 120 dots per inch are 283.46 dots.
+    assert_eq!(width, 283);
+    let middle = &colours[3 * (width * (height * 2 / 3) + width / 3)..][..3];
+    assert_ne!(middle, [255, 255, 255], "the body is in the middle");
+    assert_eq!(
+        plot(&[path, "--width", "60", "--dpi", "120", "--out", png]),
+        drawn
+    );
+}
+
+/// A picture of a folder lies in it, and no file of the run is touched.
+#[test]
+fn a_picture_lies_beside_the_results_and_changes_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    let contents = || {
+        let entries = fs::read_dir(&results).unwrap().map(|it| it.unwrap().path());
+        let mut all: Vec<(PathBuf, Vec<u8>)> = entries
+            .map(|path| (path.clone(), fs::read(path).unwrap()))
+            .collect();
+        all.sort();
+        all
+    };
+    let before = contents();
+    plot(&[results.to_str().unwrap()]);
+    plot(&["--curve", results.to_str().unwrap()]);
+    let after = contents();
+    let is_new = |it: &&(PathBuf, Vec<u8>)| !before.contains(it);
+    let new: Vec<_> = after
+        .iter()
+        .filter(is_new)
+        .map(|it| it.0.file_name().unwrap())
+        .collect();
+    assert_eq!(new, ["picture-curve.png", "picture-damage.png"]);
+    assert_eq!(after.len(), before.len() + 2);
+}
+
+#[test]
+fn outputs_are_chosen_by_step_strip_or_displacement() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    let path = results.to_str().unwrap();
+    let out = folder.path().join("a.svg");
+    let titles = |words: &[&str]| {
+        let call: Vec<&str> = [&[path, "--out", out.to_str().unwrap()], words].concat();
+        let all = texts(&plot(&call));
+        let of_steps = all.iter().filter_map(|it| it.strip_prefix("step "));
+        let number = |it: &str| it.split(',').next().unwrap().parse::<usize>().unwrap();
+        of_steps.map(number).collect::<Vec<_>>()
+    };
+    let last = steps(&results).last().unwrap().0;
+    assert_eq!(titles(&[]), [last]);
+    assert_eq!(titles(&["--step", "3", "1"]), [3, 1]);
+    assert_eq!(titles(&["--step", "3,1"]), [3, 1]);
+    assert_eq!(titles(&["--strip", "2"]), [0, last]);
+    // The load goes up by 2e-6 m a step.
+    assert_eq!(titles(&["--displacement", "4.1e-6"]), [2]);
+}
+
+/// The paths of bonds in an SVG have two points each: as many pieces as `breaks.csv` has rows up to the step.
+#[test]
+fn the_crack_is_made_of_the_broken_bonds_and_the_precrack() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    let path = results.to_str().unwrap();
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    let breaks = fs::read_to_string(results.join("breaks.csv")).unwrap();
+    let n_broken = breaks.lines().count() - 1;
+    assert!(n_broken > 10);
+    let svg = plot(&[path, "--field", "none", "--crack", "--out", out]);
+    let all = texts(&svg);
+    assert!(all.contains(&format!("strength ({n_broken})")), "{all:?}");
+    assert!(
+        all.iter().any(|it| it.starts_with("pre-crack (")),
+        "{all:?}"
+    );
+    let svg = text(&svg);
+    let of_colour = |svg: &str, colour: &str| {
+        let document = Document::parse(svg).unwrap();
+        let paths = document
+            .descendants()
+            .filter(|it| it.attribute("stroke") == Some(colour));
+        paths
+            .filter_map(|it| it.attribute("d"))
+            .map(|it| it.matches('m').count())
+            .sum::<usize>()
+    };
+    assert_eq!(of_colour(&svg, "#0072b2"), n_broken);
+    assert!(
+        of_colour(&svg, "#8c8c8c") > 5,
+        "bonds that the pre-crack cut"
+    );
+    // In a corner without a crack nothing of it is left.
+    let corner = ["--box", "0.08,0.06,0.1,0.08", "--scale", "0"];
+    let words = [
+        &[
+            path, "--field", "none", "--crack", "--step", "0", "--out", out,
+        ],
+        &corner[..],
+    ]
+    .concat();
+    let svg = text(&plot(&words));
+    assert!(of_colour(&svg, "#8c8c8c") == 0 && svg.contains("clip-path"));
+    assert!(svg.contains("undeformed"));
+}
+
+#[test]
+fn fields_have_units_and_signs_their_colours() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(
+        folder.path(),
+        LATTICE,
+        "plate",
+        &["output.stress=[\"virial\"]"],
+    );
+    let path = results.to_str().unwrap();
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    let of = |field: &str| {
+        let svg = plot(&[path, "--step", "2", "--field", field, "--out", out]);
+        (texts(&svg), text(&svg))
+    };
+    assert!(
+        of("displacement.y")
+            .0
+            .contains(&"displacement.y (µm)".to_owned())
+    );
+    assert!(
+        of("stress_virial.yy")
+            .0
+            .iter()
+            .any(|it| it.starts_with("stress_virial.yy (") && it.ends_with("Pa)"))
+    );
+    let (labels, svg) = of("displacement.x");
+    assert!(labels.contains(&"0.0".to_owned()), "{labels:?}");
+    // Ends of the diverging map, as its splines give them.
+    assert!(svg.contains("#042f60") && svg.contains("#67001f"));
+    let words = [
+        path, "--field", "damage", "--range", "0,0.5", "--levels", "5", "--map", "cividis",
+        "--out", out,
+    ];
+    let svg = plot(&words);
+    let labels = texts(&svg);
+    for label in ["0.0", "0.1", "0.2", "0.3", "0.4"] {
+        assert!(labels.contains(&label.to_owned()), "{labels:?}");
+    }
+}
+
+#[test]
+fn curves_have_labels_units_and_first_peaks() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = run(folder.path(), LATTICE, "coarse", &[]);
+    let second = run(
+        folder.path(),
+        LATTICE,
+        "weak",
+        &["material.tensile_strength=0.8e6"],
+    );
+    let (first, second) = (first.to_str().unwrap(), second.to_str().unwrap());
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    let svg = plot(&[
+        "--curve", first, second, "--out", out, "--labels", "1 MPa", "0.8 MPa",
+    ]);
+    let all = texts(&svg);
+    for label in [
+        "1 MPa",
+        "0.8 MPa",
+        "first peak",
+        "displacement (µm)",
+        "reaction (kN)",
+    ] {
+        assert!(all.contains(&label.to_owned()), "{label}: {all:?}");
+    }
+    assert!(text(&svg).starts_with("<svg width=\"160.000mm\""));
+    let named = texts(&plot(&["--curve", first, second, "--out", out]));
+    assert!(named.contains(&"coarse".to_owned()) && named.contains(&"weak".to_owned()));
+    let energy = [
+        "--curve",
+        first,
+        "--y",
+        "stored_energy",
+        "--x",
+        "step",
+        "--out",
+        out,
+    ];
+    let all = texts(&plot(&energy));
+    assert!(
+        all.contains(&"step".to_owned()) && all.iter().any(|it| it.starts_with("stored energy (")),
+        "{all:?}"
+    );
+}
+
+#[test]
+fn modes_are_drawn_with_their_frequencies() {
+    let folder = tempfile::tempdir().unwrap();
+    let modal = LATTICE
+        .replace("[fracture]\nsteps = 10\n", "")
+        .replace("young = 10e9", "young = 10e9\ndensity = 2500.0")
+        .replace(
+            "title = \"Plate\"",
+            "title = \"Plate\"\nanalysis = \"modal\"",
+        )
+        .replace("fields_every = 1\n", "");
+    let (start, end) = (
+        modal.find("[[precrack]]").unwrap(),
+        modal.find("[output]").unwrap(),
+    );
+    let modal = modal
+        .replace(&modal[start..end], "[modal]\nmodes = 4\n")
+        .replace("[output]\n", "");
+    let results = run(folder.path(), &modal, "modes", &[]);
+    let path = results.to_str().unwrap();
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    let all = texts(&plot(&[path, "--out", out]));
+    let modes: Vec<&String> = all.iter().filter(|it| it.starts_with("mode ")).collect();
+    assert_eq!(modes.len(), 4, "{all:?}");
+    assert!(modes[0].starts_with("mode 1: ") && modes[0].ends_with(" Hz"));
+    let two = texts(&plot(&[path, "--mode", "2", "--out", out]));
+    assert_eq!(two.iter().filter(|it| it.starts_with("mode ")).count(), 1);
+    assert!(refusal(&["--curve", path]).contains("natural modes"));
+    assert!(refusal(&[path, "--crack"]).contains("--crack"));
+    assert!(refusal(&[path, "--mode", "9"]).contains("no output of mode 9; there are 1, 2, 3, 4"));
+}
+
+/// What a run leaves that was killed: no summary, and a history that ends early.
+#[test]
+fn a_run_that_was_cut_short_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    fs::remove_file(results.join("summary.json")).unwrap();
+    let history = fs::read_to_string(results.join("history.csv")).unwrap();
+    let kept: Vec<&str> = history.lines().take(4).collect();
+    fs::write(
+        results.join("history.csv"),
+        kept.join("\n") + "\n4,0.4,8e-6,1.2",
+    )
+    .unwrap();
+    let path = results.to_str().unwrap();
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    assert!(
+        texts(&plot(&[path, "--step", "2", "--out", out]))
+            .iter()
+            .any(|it| it.starts_with("step 2, displacement 4.000 µm"))
+    );
+    assert!(
+        !texts(&plot(&[path, "--out", out])).is_empty(),
+        "a step without a row of the history"
+    );
+    plot(&["--curve", path, "--out", out]);
+    fs::remove_file(results.join("history.csv")).unwrap();
+    plot(&[path, "--out", out]);
+}
+
+#[test]
+fn what_cannot_be_drawn_is_told_with_what_can() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &["output.fields_every=5"]);
+    let path = results.to_str().unwrap();
+    for (words, message) in [
+        (vec![path, "--field", "damge"], "did you mean `damage`?"),
+        (
+            vec![path, "--step", "3"],
+            "no output of step 3; there are 0, 5",
+        ),
+        (
+            vec!["--curve", path, "--y", "reactoin"],
+            "did you mean `reaction`?",
+        ),
+        (
+            vec![path, "--out", "a.pdf"],
+            "a picture ends in .png or .svg",
+        ),
+        (vec![path, "--labels", "a", "b"], "2 labels for 1 results"),
+        (vec!["nowhere"], "there is no such folder"),
+        (
+            vec![folder.path().to_str().unwrap()],
+            "it has no case.resolved.toml",
+        ),
+        (
+            vec![path, "--dpi", "1e6"],
+            "choose another --width or --dpi",
+        ),
+    ] {
+        let error = refusal(&words);
+        assert!(
+            error.starts_with("error: ") && error.contains(message),
+            "{words:?}: {error}"
+        );
+    }
+    for words in [
+        vec![path, "--range", "1,0"],
+        vec![path, "--strip", "0"],
+        vec![path, "--scale", "big"],
+    ] {
+        assert_eq!(call(&words).status.code(), Some(2), "{words:?}");
+    }
+    for entry in fs::read_dir(&results).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(
+            !name.starts_with("picture"),
+            "{name} of a picture that was refused"
+        );
+    }
+}
