@@ -141,7 +141,7 @@ impl Case {
         expected.write(&self.folder);
     }
 
-    /// What `ligament yield --case` writes for the two criteria of the case, with this Poisson's ratio in the plane.
+    /// What `ligament yield --case` writes for the three criteria of the case, with this Poisson's ratio in the plane.
     fn yields(&self, poisson: f64) {
         let request = Request {
             of: Families::Field(Box::new(CaseFile::load(&self.file.path, &[]).unwrap())),
@@ -159,8 +159,9 @@ impl Case {
             list: vec![list[place].clone()],
         };
         let of = [
-            ("tension", alone(0)),
+            ("strength", alone(0)),
             ("sliding", alone(1)),
+            ("compression", alone(2)),
             ("first_of_all", model.criteria.clone()),
         ];
         let mut expected = Expected::default();
@@ -259,14 +260,22 @@ bonds = true
 stress = ["virial", "traction"]
 "#;
 
-/// An elastic plate of triangles that a force pulls.
+/// An elastic plate of triangles that a force pulls, heated, with a material that has axes; it may turn about a corner.
 const ELASTIC: &str = r#"
 mesh = { file = "plate.msh" }
-material = { young = 15e9, poisson = 0.3 }
-model = { law = "nhpd", horizon_factor = 2.5 }
-support = [{ group = "left", displacement = { x = 0.0, y = 0.0 } }]
+model = { law = "orthotropic", horizon_factor = 2.5 }
+temperature = [{ group = "soft", change = 5.0 }]
+support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0 } }]
 load = [{ group = "right", force = { x = 1e4, y = 2e3 } }]
 output = { bonds = true, stress = ["traction"] }
+[material]
+young_1 = 40e9
+young_2 = 12e9
+poisson_12 = 0.25
+shear_modulus = 5e9
+angle = 0.4
+thermal_expansion_1 = 4e-6
+thermal_expansion_2 = 2e-5
 "#;
 
 /// The exact path on a mesh of quadrangles, down to a fall of the load.
@@ -299,8 +308,11 @@ lower = { box = [[0.1, -0.01], [0.116, 0.0]] }
 upper = { box = [[0.1, 0.0], [0.116, 0.01]] }
 [material.below]
 group = "lower"
-young = 65e9
-poisson = 0.3
+young_1 = 65e9
+young_2 = 40e9
+poisson_12 = 0.3
+shear_modulus = 20e9
+angle = 0.0
 fracture_energy = 60.0
 fracture_energy_sliding = 100.0
 mixed_mode_exponent = 1.5
@@ -333,30 +345,34 @@ bonds = true
 stress = ["virial"]
 "#;
 
-/// A heated lattice with beams for bonds, with stresses of both kinds.
+/// A heated lattice that nothing holds, whose material has axes, with stresses of both kinds.
 const HEATED_LATTICE: &str = r#"
 [lattice]
 cells = [9, 7]
 spacing = [0.01, 0.01]
 [lattice.set]
-left = { left = 1 }
 right = { right = 2 }
 [material]
-young = 30e9
-poisson = 0.2
-tensile_strength = 3e6
-thermal_expansion = 1e-5
+young_1 = 30e9
+young_2 = 20e9
+poisson_12 = 0.2
+shear_modulus = 9e9
+angle = 0.5
+thermal_expansion_1 = 1e-5
+thermal_expansion_2 = 3e-6
 [model]
-law = "mppd"
+law = "orthotropic"
 horizon_factor = 3.2
-[[support]]
-group = "left"
-displacement = { x = 0.0, y = 0.0, rotation = 0.0 }
+[[precrack]]
+points = [[0.0, 0.03], [0.025, 0.03]]
 [[temperature]]
 group = "right"
 change = 40.0
 [fracture]
 steps = 3
+[[fracture.criterion]]
+kind = "tension"
+limit = 2e-5
 [output]
 fields_every = 1
 bonds = true
@@ -380,11 +396,11 @@ lattice = { cells = [9, 5], spacing = 0.01 }
 material = { young = 70e9, poisson = 0.25, density = 2500.0 }
 model = { law = "mppd", horizon_factor = 3.0 }
 modal = { modes = 5 }
+precrack = [{ points = [[0.0305, 0.06], [0.0305, 0.025]] }]
 "#;
 
-/// For `ligament yield`: two criteria, and a pre-crack at which no family is whole.
+/// For `ligament yield`: criteria each of which decides somewhere, and a part that does not fail.
 const YIELDING: &str = r#"
-material = { young = 15e9, poisson = 0.21, tensile_strength = 3e6, compressive_strength = 9e6 }
 model = { law = "nhpd", horizon_factor = 2.5 }
 support = [{ box = [[-1.0, -1.0], [0.02, 1.0]], displacement = { x = 0.0, y = 0.0 } }]
 load = [{ box = [[0.08, -1.0], [1.0, 1.0]], displacement = { x = 1e-4 } }]
@@ -392,9 +408,23 @@ no_fail = [{ box = [[0.06, -1.0], [0.1, 0.021]] }]
 [fracture]
 steps = 1
 [[fracture.criterion]]
-kind = "tension"
+kind = "strength"
 [[fracture.criterion]]
 kind = "sliding"
+[[fracture.criterion]]
+kind = "compression"
+[material.weak]
+group = "soft"
+young = 15e9
+poisson = 0.21
+tensile_strength = 1e6
+compressive_strength = 0.15e6
+[material.strong]
+group = "hard"
+young = 15e9
+poisson = 0.21
+tensile_strength = 4e6
+compressive_strength = 12e6
 "#;
 
 fn compare(root: &Path) {
@@ -427,7 +457,8 @@ fn every_reader_finds_what_the_program_has_in_memory() {
     case("check-lattice", None, LATTICE).check();
     let on_mesh = format!("mesh = {{ file = \"plate.msh\" }}{YIELDING}");
     case("yield", Some(Squares::Both), &on_mesh).yields(0.21);
-    let lattice = "lattice = { cells = [12, 9], spacing = 0.01 }";
+    let lattice = "lattice = { cells = [12, 9], spacing = [0.01, 0.011], set = { \
+        soft = { bottom = 5 }, hard = { top = 4 } } }";
     let on_lattice = format!("{lattice}{YIELDING}");
     case("yield-lattice", None, &on_lattice).yields(0.21);
     compare(root.path());
