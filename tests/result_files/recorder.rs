@@ -179,10 +179,8 @@ impl<'a> Recorder<'a> {
         for (number, criterion) in view.criteria.list.iter().enumerate() {
             for (bond, seen) in self.largest.iter_mut().enumerate() {
                 let deformation = &view.balanced.deformations[bond];
-                let (measure, limit) = (
-                    criterion.measure(bond, deformation),
-                    criterion.limit[bond],
-                );
+                let (measure, limit) =
+                    (criterion.measure(bond, deformation), criterion.limit[bond]);
                 if view.state.intact[bond] && measure > SAME * f64::from(seen.0) * limit {
                     *seen = ((measure / limit) as f32, step as i64, number as i64);
                 }
@@ -241,7 +239,10 @@ impl<'a> Recorder<'a> {
         let boundary = view.boundary;
         if !boundary.temperature_change.is_empty() {
             let change = boundary.temperature_change.iter();
-            fields_of.reals("temperature_change", change.map(|it| state.load_factor * it));
+            fields_of.reals(
+                "temperature_change",
+                change.map(|it| state.load_factor * it),
+            );
             let strain = boundary.thermal_strain.iter();
             fields_of.components(
                 "thermal_strain",
@@ -283,7 +284,11 @@ impl<'a> Recorder<'a> {
         let utilisation = (0..system.bonds.len()).map(|bond| {
             let of = |it: &ligament_model::failure::Criterion| {
                 let measure = it.measure(bond, &deformations[bond]);
-                if measure > 0.0 { measure / it.limit[bond] } else { 0.0 }
+                if measure > 0.0 {
+                    measure / it.limit[bond]
+                } else {
+                    0.0
+                }
             };
             view.criteria.list.iter().map(of).fold(0.0, f64::max)
         });
