@@ -179,10 +179,7 @@ fn write_nodes(text: &mut String, mesh: &Mesh) -> fmt::Result {
     let count = mesh.node_tags.len();
     let least = mesh.node_tags.iter().min().unwrap_or(&0);
     let largest = mesh.node_tags.iter().max().unwrap_or(&0);
-    writeln!(
-        text,
-        "$Nodes\n1 {count} {least} {largest}\n2 1 0 {count}"
-    )?;
+    writeln!(text, "$Nodes\n1 {count} {least} {largest}\n2 1 0 {count}")?;
     for tag in &mesh.node_tags {
         writeln!(text, "{tag}")?;
     }
