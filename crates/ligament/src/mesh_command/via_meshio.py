@@ -272,7 +272,7 @@ class Abaqus:
         self.geometry = []
         self.nodes, self.elements = [], []
         self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
-        self.blocks_of_nodes = 0
+        self.blocks_of_nodes = self.instances = 0
         self.keyword, self.parameters, self.rest = "", {}, []
         with open(path, encoding="utf-8", errors="replace") as file:
             for line in file:
@@ -297,9 +297,10 @@ class Abaqus:
             self.geometry.append("*NODE")
         if self.keyword == "ELEMENT":
             self.geometry.append(f"*ELEMENT, TYPE={self.parameters.get('TYPE', '').upper()}")
-        if self.keyword in ("INCLUDE", "INSTANCE") or self.blocks_of_nodes > 1:
-            what = "several *NODE blocks" if self.blocks_of_nodes > 1 else f"*{self.keyword}"
-            raise Unfit("unreadable", f"the file has {what}, which meshio does not put together: write a flat input file of one part")
+        self.instances += self.keyword == "INSTANCE"
+        if self.blocks_of_nodes > 1 or self.instances > 1 or self.keyword == "INCLUDE":
+            what = "several *NODE blocks" if self.blocks_of_nodes > 1 else "several instances" if self.instances > 1 else "*INCLUDE"
+            raise Unfit("unreadable", f"the file has {what}, which are not put together: write an input file of one part")
         for keyword, sets in (("NSET", self.node_sets), ("ELSET", self.element_sets)):
             if self.keyword in ("NODE", "ELEMENT", keyword) and keyword in self.parameters:
                 if (self.keyword == "NODE") == (keyword == "NSET") or self.keyword == keyword:
@@ -328,6 +329,8 @@ class Abaqus:
                 self.into.extend(int(word) if word.isdigit() else word for word in words)
         elif self.keyword == "SURFACE" and len(words) == 2:
             self.into.append(tuple(words))
+        elif self.keyword == "INSTANCE":
+            raise Unfit("unreadable", "the file has an instance of a part that is moved: write an input file of the part alone")
 
     def resolved(self, sets, name, above=()):
         """The numbers of a set, with those of the sets that it names."""

@@ -44,8 +44,11 @@ class Plate:
 
 
 def abaqus(plate, path):
-    """Numbers of nodes as in the Gmsh file; sets by lists, GENERATE, at *ELEMENT and of sets; a surface by sides of elements."""
-    out = ["*Heading", "** made by hand", "*Node, nset=all-nodes"]
+    """Numbers of nodes as in the Gmsh file; sets by lists, GENERATE, at *ELEMENT and of sets; a surface by sides of elements.
+
+    A part, and an assembly with one instance of it, as Abaqus/CAE writes them.
+    """
+    out = ["*Heading", "** made by hand", "*Part, name=plate", "*Node, nset=all-nodes"]
     out += [f"{k}, {x!r}, {y!r}, 0." for k, (x, y, _) in enumerate(plate.points.tolist(), 1)]
     number, first = 1, {}
     out.append("*Element, type=T2D2")
@@ -62,7 +65,8 @@ def abaqus(plate, path):
         for corners in block.tolist():
             out.append(", ".join(str(it) for it in [number, *(corner + 1 for corner in corners)]))
             number += 1
-    out += ["*Nset, nset=corner", f"{plate.corner + 1},"]
+    out += ["*End Part", "*Assembly, name=all", "*Instance, name=plate-1, part=plate", "*End Instance"]
+    out += ["*Nset, nset=corner, instance=plate-1", f"{plate.corner + 1},"]
     out += ["*Nset, nset=NODES-OF-LEFT", *(f"{node + 1}," for node in sorted({*plate.lines["left"].ravel().tolist()}))]
     for name in ("left", "bottom", "top"):
         out += [f"*Elset, elset={name}, generate", f"{first[name]}, {first[name + ' end']}, 1"]
@@ -73,7 +77,7 @@ def abaqus(plate, path):
     out += ["*Elset, elset=half", *(f"{triangles + k}" for k in plate.half.tolist())]
     out.append("*Surface, type=ELEMENT, name=top-of-cells")
     out += [f"{triangles + k}, S{side}" for k, side in plate.sides_at_top()]
-    out += ["*Material, name=rock", "*Elastic", "15e9, 0.21"]
+    out += ["*End Assembly", "*Material, name=rock", "*Elastic", "15e9, 0.21"]
     path.write_text("\n".join(out) + "\n")
 
 
@@ -163,6 +167,9 @@ def unfit(plate, folder):
     meshio.Mesh(cube, [("tetra", [[0, 1, 2, 4]])]).write(folder / "tetra.vtu")
     meshio.Mesh(points, [("line", plate.lines["left"])]).write(folder / "lines.vtu")
     (folder / "broken.vtu").write_text("<VTKFile")
+    (folder / "moved.inp").write_text("*Node\n1, 0, 0\n*Instance, name=one, part=plate\n1., 0., 0.\n*End Instance\n")
+    (folder / "two.inp").write_text("*Node\n1, 0, 0\n*Node\n2, 0, 0\n")
+    (folder / "set.inp").write_text("*Node\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*Element, type=CPS3\n1, 1, 2, 3\n*Elset, elset=a\n7\n")
     (folder / "unknown.xyz").write_text("1 2 3\n")
     # Six nodes a triangle, numbers of cells, and a name that a curve and a surface have by chance.
     second = meshio.Mesh(

@@ -319,6 +319,12 @@ fn what_is_no_planar_mesh_is_refused() {
         ("tetra.vtu", "is a mesh of a volume (1 tetra)"),
         ("lines.vtu", "there are no triangles or quadrangles in"),
         ("broken.vtu", "meshio could not read"),
+        ("moved.inp", "an instance of a part that is moved"),
+        ("two.inp", "several *NODE blocks"),
+        (
+            "set.inp",
+            "a has the element 7, which the file does not have",
+        ),
         ("unknown.xyz", "meshio does not know the format of"),
     ] {
         let output = convert(folder.path(), file, "out.msh");
