@@ -159,9 +159,7 @@ class Groups:
             kind, other = KIND[dimension], KIND[clash[1]]
             self.remarks.add(f"{source} and another group ({other}) have the name `{name}`: the {kind} is now `{new}`")
             name = new
-        elif (name, dimension) in self.members:
-            return
-        self.members[name, dimension] = members
+        self.members[name, dimension] = list(dict.fromkeys([*self.members.get((name, dimension), []), *members]))
 
     def add_elements(self, name, by_dimension, source):
         """What is one group in the file keeps its name in all dimensions."""
