@@ -255,6 +255,14 @@ proptest! {
         }
     }
 
+    /// What the crate writes it reads back as the same mesh, whatever groups its elements are in.
+    #[test]
+    fn a_mesh_that_is_written_is_read_back(model in models()) {
+        let mut mesh = gmsh::parse(&model.write(Version::V4, Encoding::Ascii)).unwrap();
+        mesh.remarks.clear();
+        prop_assert_eq!(gmsh::parse(gmsh::write(&mesh).as_bytes()).unwrap(), mesh);
+    }
+
     #[test]
     fn a_node_of_no_cell_is_dropped_wherever_it_stands(model in models(), at in any::<prop::sample::Index>()) {
         let mut longer = model.clone();

@@ -47,6 +47,7 @@ pub struct Cli {
 const OVERVIEW: &str = "\
 Examples:
   ligament mesh disk.geo                    mesh a Gmsh geometry: writes disk.msh
+  ligament mesh --via-meshio disk.inp       convert a mesh of another program: writes disk.msh
   ligament inspect disk.msh                 its groups, for the case file to name
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
@@ -100,10 +101,11 @@ pub enum Command {
     /// Show what is in a mesh: cells, size, edge lengths, groups
     #[command(after_help = inspect::EXAMPLES)]
     Inspect(InspectArgs),
-    /// Mesh a Gmsh geometry (needs the program gmsh)
+    /// Mesh a Gmsh geometry (needs the program gmsh), or convert a mesh of another program
     ///
-    /// Calls gmsh to make a planar mesh, reads it back and shows what is in it. An existing mesh is
-    /// replaced only by one that could be read.
+    /// Calls gmsh to make a planar mesh, reads it back and shows what is in it. With --via-meshio reads
+    /// a mesh of Abaqus, Nastran, Exodus, MED, VTK and others by the Python package meshio, and writes it
+    /// for Gmsh with its groups. An existing mesh is replaced only by one that could be read.
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(MeshArgs),
     /// When bonds yield first, and how the directions of the bonds distort that

@@ -27,8 +27,10 @@ mod sections;
 mod tags;
 mod v2;
 mod v4;
+mod write;
 
 pub use error::{GmshError, Place};
+pub use write::write;
 
 use crate::mesh::Mesh;
 

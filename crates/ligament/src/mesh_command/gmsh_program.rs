@@ -1,14 +1,14 @@
-//! `ligament mesh`: planar meshes by the external program gmsh.
+//! Meshes of geometries by the external program gmsh.
 
 use std::collections::BTreeSet;
-use std::ffi::OsString;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
 use ligament_mesh::Mesh;
 use ligament_mesh::gmsh::{self, GmshError};
 
+use super::{Unfinished, indented, is_same_file};
 use crate::suggestion::hint;
 
 /// A mesh to be made.
@@ -27,6 +27,13 @@ pub struct MeshRequest {
 /// Why no mesh was made. An existing mesh is then as it was.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshingError {
+    /// The file is no geometry, by its ending.
+    #[error(
+        "{} is no .geo file: `ligament mesh` meshes geometries of Gmsh; a mesh of another program is \
+         converted by `ligament mesh --via-meshio {}`",
+        .0.display(), .0.display()
+    )]
+    NoGeo(PathBuf),
     /// There is no such geometry.
     #[error("there is no geometry {}", .0.display())]
     NoGeometry(PathBuf),
@@ -95,21 +102,6 @@ pub enum MeshingError {
     },
 }
 
-/// Lines of gmsh's own below the error, each on its line.
-fn indented(lines: &[String]) -> String {
-    lines.iter().map(|line| format!("\n  {line}")).collect()
-}
-
-/// Removes the unfinished mesh if it is still there at the end.
-struct Unfinished(PathBuf);
-
-impl Drop for Unfinished {
-    fn drop(&mut self) {
-        // After success it has been renamed, so there is nothing to remove.
-        let _ = std::fs::remove_file(&self.0);
-    }
-}
-
 /// Calls gmsh and returns the mesh it wrote to `request.out`.
 ///
 /// The mesh is made next to its place and put there only once it could be read, so a failure never
@@ -123,6 +115,10 @@ pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
     if !geometry.is_file() {
         return Err(MeshingError::NoGeometry(geometry.clone()));
     }
+    let is_geo = |end: &std::ffi::OsStr| end.eq_ignore_ascii_case("geo");
+    if !geometry.extension().is_some_and(is_geo) {
+        return Err(MeshingError::NoGeo(geometry.clone()));
+    }
     if is_same_file(geometry, out) {
         return Err(MeshingError::WouldReplaceGeometry(out.clone()));
     }
@@ -131,13 +127,10 @@ pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
         path: out.clone(),
         source,
     };
-    if let Some(folder) = out.parent() {
-        std::fs::create_dir_all(folder).map_err(write_error)?;
-    }
-    let unfinished = Unfinished(unfinished_path(out));
-    let output = call_gmsh(request, &unfinished.0)?;
+    let unfinished = Unfinished::beside(out).map_err(write_error)?;
+    let output = call_gmsh(request, unfinished.path())?;
     let complaints = complaints(&output);
-    if !output.status.success() || !complaints.is_empty() || !unfinished.0.is_file() {
+    if !output.status.success() || !complaints.is_empty() || !unfinished.path().is_file() {
         let lines = if complaints.is_empty() {
             last_words(&output)
         } else {
@@ -148,12 +141,12 @@ pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
             lines,
         });
     }
-    let bytes = std::fs::read(&unfinished.0).map_err(write_error)?;
+    let bytes = std::fs::read(unfinished.path()).map_err(write_error)?;
     let mesh = gmsh::parse(&bytes).map_err(|source| MeshingError::Unusable {
         geometry: geometry.clone(),
         source,
     })?;
-    std::fs::rename(&unfinished.0, out).map_err(write_error)?;
+    unfinished.put_at(out).map_err(write_error)?;
     Ok(mesh)
 }
 
@@ -203,22 +196,7 @@ fn declared_constants(geometry: &str) -> Vec<String> {
         .collect()
 }
 
-fn is_same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
-}
-
-/// A hidden file in the same folder (a rename must not cross file systems), unique to this process.
-fn unfinished_path(out: &Path) -> PathBuf {
-    let mut name = OsString::from(".");
-    name.push(out.file_stem().unwrap_or_default());
-    name.push(format!("-unfinished-{}.msh", std::process::id()));
-    out.with_file_name(name)
-}
-
-fn call_gmsh(request: &MeshRequest, out: &Path) -> Result<Output, MeshingError> {
+fn call_gmsh(request: &MeshRequest, out: &std::path::Path) -> Result<Output, MeshingError> {
     let MeshRequest {
         geometry,
         gmsh,

@@ -1,0 +1,58 @@
+//! `ligament mesh`: planar meshes from other programs.
+//!
+//! | module | makes a mesh of |
+//! |---|---|
+//! | [`gmsh_program`] | a geometry, by the program gmsh |
+//! | [`via_meshio`] | a mesh in another format, by the Python package meshio |
+
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+
+pub mod gmsh_program;
+pub mod via_meshio;
+
+/// Lines of another program's own below an error, each on its line.
+fn indented(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("\n  {line}")).collect()
+}
+
+/// Whether two paths lead to one file; a path that leads nowhere is none.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// A mesh in the making: a hidden file beside its place, removed if it is still there at the end.
+struct Unfinished(PathBuf);
+
+impl Unfinished {
+    /// A name in the folder of `out`, which is made if need be (a rename must not cross file systems), unique to this process.
+    fn beside(out: &Path) -> io::Result<Self> {
+        if let Some(folder) = out.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        let mut name = OsString::from(".");
+        name.push(out.file_stem().unwrap_or_default());
+        name.push(format!("-unfinished-{}.msh", std::process::id()));
+        Ok(Self(out.with_file_name(name)))
+    }
+
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Puts it in its place.
+    fn put_at(self, out: &Path) -> io::Result<()> {
+        std::fs::rename(&self.0, out)
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        // After success it has been renamed, so there is nothing to remove.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}

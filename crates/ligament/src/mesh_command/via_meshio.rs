@@ -1,0 +1,409 @@
+//! Meshes in formats of other programs, read by the Python package meshio.
+//!
+//! A script in the executable (`via_meshio.py`) reads the file by meshio, gathers its groups and hands nodes, cells and groups over
+//! as text; here they become a Gmsh file, which is read back like any other.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use ligament_mesh::gmsh::{self, GmshError};
+use ligament_mesh::{Cell, Group, Mesh};
+
+use super::{Unfinished, indented, is_same_file};
+
+/// The script, which needs no file of its own.
+const SCRIPT: &str = include_str!("via_meshio.py");
+
+/// A mesh to be converted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConversionRequest {
+    /// The mesh of another program.
+    pub source: PathBuf,
+    /// Its format as meshio calls it; none to go by the ending of its name.
+    pub format: Option<String>,
+    /// The mesh file to write.
+    pub out: PathBuf,
+    /// The program python: a path, or a name to be found on the PATH.
+    pub python: PathBuf,
+}
+
+/// A converted mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conversion {
+    /// The mesh as it stands in the file that was written.
+    pub mesh: Mesh,
+    /// What was read in another way than it stands in the source, in words.
+    pub remarks: Vec<String>,
+}
+
+/// Why no mesh was written. An existing one is then as it was.
+#[derive(Debug, thiserror::Error)]
+pub enum ConversionError {
+    /// There is no such mesh.
+    #[error("there is no mesh {}", .0.display())]
+    NoSource(PathBuf),
+    /// The mesh would replace its own source.
+    #[error("--out {} is the mesh that is to be converted", .0.display())]
+    WouldReplaceSource(PathBuf),
+    /// Python could not be found.
+    #[error(
+        "cannot find the program `{}`; install Python from https://python.org, or say where it is by --python PATH",
+        .0.display()
+    )]
+    NoPython(PathBuf),
+    /// Python could not be started.
+    #[error("cannot start `{}`", python.display())]
+    Start {
+        /// The program.
+        python: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Python lacks a package.
+    #[error(
+        "`{}` has no package `{package}`; install it: {} -m pip install {}",
+        python.display(), python.display(), with_company(package)
+    )]
+    NoPackage {
+        /// The program.
+        python: PathBuf,
+        /// The package.
+        package: String,
+    },
+    /// The format is not known.
+    #[error(
+        "meshio does not know the format of {}: give it by --format NAME, as meshio calls it (abaqus, nastran, exodus, \
+         ...){}", mesh.display(), indented(lines)
+    )]
+    UnknownFormat {
+        /// The source.
+        mesh: PathBuf,
+        /// What meshio said, or the names of all formats.
+        lines: Vec<String>,
+    },
+    /// meshio could not read the file.
+    #[error("meshio could not read {}{}", mesh.display(), indented(lines))]
+    Unreadable {
+        /// The source.
+        mesh: PathBuf,
+        /// Why.
+        lines: Vec<String>,
+    },
+    /// The source is a Gmsh mesh.
+    #[error("{} is a Gmsh mesh: Ligament reads it as it is", .0.display())]
+    IsGmsh(PathBuf),
+    /// The source has volumes.
+    #[error(
+        "{} is a mesh of a volume ({}): Ligament needs a planar mesh of triangles and quadrangles",
+        mesh.display(), lines.join(" ")
+    )]
+    Volumes {
+        /// The source.
+        mesh: PathBuf,
+        /// Which cells it has.
+        lines: Vec<String>,
+    },
+    /// The source has cells of shapes that are not read.
+    #[error(
+        "{} has cells that are neither triangles nor quadrangles: {}",
+        mesh.display(), lines.join(" ")
+    )]
+    Shapes {
+        /// The source.
+        mesh: PathBuf,
+        /// Which.
+        lines: Vec<String>,
+    },
+    /// The source has no planar cells.
+    #[error(
+        "there are no triangles or quadrangles in {}, only: {}",
+        mesh.display(), lines.join(" ")
+    )]
+    NothingPlanar {
+        /// The source.
+        mesh: PathBuf,
+        /// What it has.
+        lines: Vec<String>,
+    },
+    /// The source is not in the plane of x and y.
+    #[error("{} is not planar: {}", mesh.display(), lines.join(" "))]
+    NotPlanar {
+        /// The source.
+        mesh: PathBuf,
+        /// How it lies.
+        lines: Vec<String>,
+    },
+    /// Python ended without a mesh.
+    #[error("`{}` failed on {}{}", python.display(), mesh.display(), indented(lines))]
+    Failed {
+        /// The program.
+        python: PathBuf,
+        /// The source.
+        mesh: PathBuf,
+        /// The last lines that it said.
+        lines: Vec<String>,
+    },
+    /// The mesh cannot be used.
+    #[error("the mesh of {} cannot be used", mesh.display())]
+    Unusable {
+        /// The source.
+        mesh: PathBuf,
+        /// The reader's reason; its lines are those of the Gmsh file that would have been written.
+        source: GmshError,
+    },
+    /// The mesh could not be put in its place.
+    #[error("cannot write {}", path.display())]
+    Write {
+        /// The mesh file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+}
+
+/// A package, with what it does not bring along itself: meshio needs others for formats on HDF5 and netCDF.
+fn with_company(package: &str) -> String {
+    match package {
+        "meshio" | "numpy" => "meshio".to_owned(),
+        other => format!("meshio {other}"),
+    }
+}
+
+/// Calls Python and meshio and returns the mesh that it wrote to `request.out`, in Gmsh's format 4.1.
+///
+/// The mesh is made next to its place and put there only once it could be read back, so a failure never damages an existing
+/// one.
+///
+/// # Errors
+///
+/// If Python or meshio are missing, the file cannot be read or is no planar mesh, or the result cannot be put in place.
+pub fn convert(request: &ConversionRequest) -> Result<Conversion, ConversionError> {
+    let ConversionRequest { source, out, .. } = request;
+    if !source.is_file() {
+        return Err(ConversionError::NoSource(source.clone()));
+    }
+    if is_same_file(source, out) {
+        return Err(ConversionError::WouldReplaceSource(out.clone()));
+    }
+    let output = call_python(request)?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let failed = || ConversionError::Failed {
+        python: request.python.clone(),
+        mesh: source.clone(),
+        lines: last_lines(&output),
+    };
+    if let Some(fault) = text.strip_prefix("error\n") {
+        return Err(of_fault(request, fault).unwrap_or_else(failed));
+    }
+    let handed = output.status.success().then(|| Handed::parse(&text));
+    let Handed { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
+    let text = gmsh::write(&mesh);
+    let mesh = gmsh::parse(text.as_bytes()).map_err(|error| ConversionError::Unusable {
+        mesh: source.clone(),
+        source: error,
+    })?;
+    let write_error = |source| ConversionError::Write {
+        path: out.clone(),
+        source,
+    };
+    let unfinished = Unfinished::beside(out).map_err(write_error)?;
+    std::fs::write(unfinished.path(), text).map_err(write_error)?;
+    unfinished.put_at(out).map_err(write_error)?;
+    Ok(Conversion { mesh, remarks })
+}
+
+fn call_python(request: &ConversionRequest) -> Result<Output, ConversionError> {
+    let ConversionRequest {
+        source,
+        format,
+        python,
+        ..
+    } = request;
+    // A name that begins with a hyphen, or is `-`, would be something else to Python.
+    let path = std::path::absolute(source).unwrap_or_else(|_| source.clone());
+    let mut command = Command::new(python);
+    command.args(["-c", SCRIPT]).arg(path).args(format);
+    let output = command.stdin(Stdio::null()).output();
+    output.map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => ConversionError::NoPython(python.clone()),
+        _ => ConversionError::Start {
+            python: python.clone(),
+            source: error,
+        },
+    })
+}
+
+/// The error for a fault that the script found: its kind, and the reason in lines.
+fn of_fault(request: &ConversionRequest, fault: &str) -> Option<ConversionError> {
+    let mut lines = fault.lines().map(str::to_owned);
+    let kind = lines.next()?;
+    let (mesh, lines): (PathBuf, Vec<String>) = (request.source.clone(), lines.collect());
+    Some(match kind.as_str() {
+        "no-package" => ConversionError::NoPackage {
+            python: request.python.clone(),
+            package: lines.concat(),
+        },
+        "unknown-format" => ConversionError::UnknownFormat { mesh, lines },
+        "unreadable" => ConversionError::Unreadable { mesh, lines },
+        "is-gmsh" => ConversionError::IsGmsh(mesh),
+        "three-dimensional" => ConversionError::Volumes { mesh, lines },
+        "foreign-cells" => ConversionError::Shapes { mesh, lines },
+        "nothing-planar" => ConversionError::NothingPlanar { mesh, lines },
+        "not-planar" => ConversionError::NotPlanar { mesh, lines },
+        _ => return None,
+    })
+}
+
+fn last_lines(output: &Output) -> Vec<String> {
+    let text = String::from_utf8_lossy(&output.stderr);
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let last = lines.split_off(lines.len().saturating_sub(5));
+    if last.is_empty() {
+        vec![format!("it said nothing ({})", output.status)]
+    } else {
+        last
+    }
+}
+
+/// What the script hands over.
+struct Handed {
+    mesh: Mesh,
+    remarks: Vec<String>,
+}
+
+impl Handed {
+    /// None if the text is not as the script writes it.
+    fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.lines();
+        let n_remarks = section(lines.next()?, "remarks")?;
+        let remarks: Vec<String> = lines.by_ref().take(n_remarks).map(str::to_owned).collect();
+
+        let n_nodes = section(lines.next()?, "nodes")?;
+        let (mut node_tags, mut positions) = (Vec::new(), Vec::new());
+        for line in lines.by_ref().take(n_nodes) {
+            let mut words = line.split(' ');
+            node_tags.push(words.next()?.parse().ok()?);
+            positions.push([words.next()?.parse().ok()?, words.next()?.parse().ok()?]);
+        }
+        let is_node = |node: &u32| (*node as usize) < positions.len();
+
+        let n_cells = section(lines.next()?, "cells")?;
+        let cells: Option<Vec<Cell>> = lines
+            .by_ref()
+            .take(n_cells)
+            .map(|line| match *numbers(line)? {
+                [a, b, c] => Some(Cell::Triangle([a, b, c])),
+                [a, b, c, d] => Some(Cell::Quadrangle([a, b, c, d])),
+                _ => None,
+            })
+            .collect();
+        let cells = cells?;
+        cells
+            .iter()
+            .all(|cell| cell.corners().iter().all(is_node))
+            .then_some(())?;
+
+        let n_groups = section(lines.next()?, "groups")?;
+        let mut groups: Vec<Group> = Vec::new();
+        for _ in 0..n_groups {
+            let mut words = lines.next()?.splitn(3, ' ');
+            let dimension: u8 = words.next()?.parse().ok()?;
+            let count = words.next()?.parse().ok()?;
+            let name = words.next()?.to_owned();
+            let members: Option<Vec<Vec<u32>>> = lines.by_ref().take(count).map(numbers).collect();
+            let (mut nodes, mut edges, mut of_cells) = (Vec::new(), Vec::new(), Vec::new());
+            for member in members? {
+                match (dimension, member.as_slice()) {
+                    (0, &[node]) if is_node(&node) => nodes.push(node),
+                    (1, &[a, b]) if is_node(&a) && is_node(&b) => edges.push([a, b]),
+                    (2, &[cell]) if (cell as usize) < cells.len() => of_cells.push(cell),
+                    _ => return None,
+                }
+            }
+            groups.push(Group {
+                name,
+                dimension,
+                // Numbers of groups are those of their order in their dimension, from 1.
+                number: 1 + groups.iter().filter(|it| it.dimension == dimension).count() as i32,
+                nodes,
+                edges,
+                cells: of_cells,
+            });
+        }
+        (lines.next()? == "end").then_some(Self {
+            mesh: Mesh {
+                node_tags,
+                positions,
+                cells,
+                groups,
+                fields: Vec::new(),
+                remarks: Vec::new(),
+            },
+            remarks,
+        })
+    }
+}
+
+/// The number of lines of a section.
+fn section(line: &str, name: &str) -> Option<usize> {
+    line.strip_prefix(name)?.trim().parse().ok()
+}
+
+fn numbers(line: &str) -> Option<Vec<u32>> {
+    line.split(' ').map(|word| word.parse().ok()).collect()
+}
+
+/// The mesh file for a mesh of another program: of the same name, ending in `.msh`.
+///
+/// A file that ends in `.msh` itself, as those of ANSYS do, gets `-gmsh.msh` instead.
+pub fn default_out(source: &Path) -> PathBuf {
+    let out = source.with_extension("msh");
+    if out != source {
+        return out;
+    }
+    let mut name = source.file_stem().unwrap_or_default().to_owned();
+    name.push("-gmsh.msh");
+    source.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HANDED: &str = "remarks 1\n2 nodes were dropped\nnodes 4\n7 0.0 0.0\n8 1.0 0.0\n9 1.0 0.30000000000000004\n\
+        4 0.0 1.0\ncells 2\n0 1 2\n0 2 3\ngroups 3\n2 1 a part\n1\n1 1 edge\n0 1\n0 2 edge\n0\n3\nend\n";
+
+    #[test]
+    fn what_is_handed_over_is_read() {
+        let Handed { mesh, remarks } = Handed::parse(HANDED).unwrap();
+        assert_eq!(remarks, ["2 nodes were dropped"]);
+        assert_eq!(mesh.node_tags, [7, 8, 9, 4]);
+        assert_eq!(mesh.positions[2], [1.0, 0.1 + 0.2]);
+        let groups: Vec<(&str, u8, i32)> = (mesh.groups.iter())
+            .map(|it| (it.name.as_str(), it.dimension, it.number))
+            .collect();
+        assert_eq!(groups, [("a part", 2, 1), ("edge", 1, 1), ("edge", 0, 1)]);
+        assert_eq!(mesh.groups[0].cells, [1]);
+        assert_eq!(mesh.groups[1].edges, [[0, 1]]);
+        assert_eq!(mesh.groups[2].nodes, [0, 3]);
+    }
+
+    /// A text that ends early, or has nodes and cells that are not there, is none.
+    #[test]
+    fn anything_else_is_refused() {
+        for end in 0..HANDED.len() - 1 {
+            assert!(Handed::parse(&HANDED[..end]).is_none(), "{end}");
+        }
+        for (from, to) in [("0 2 3\n", "0 2 4\n"), ("part\n1\n", "part\n2\n")] {
+            assert!(Handed::parse(&HANDED.replace(from, to)).is_none(), "{to}");
+        }
+    }
+
+    #[test]
+    fn a_mesh_of_ansys_is_not_to_be_replaced() {
+        let out = |path: &str| default_out(Path::new(path));
+        assert_eq!(out("meshes/plate.inp"), Path::new("meshes/plate.msh"));
+        assert_eq!(out("meshes/plate.msh"), Path::new("meshes/plate-gmsh.msh"));
+    }
+}

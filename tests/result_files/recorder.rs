@@ -1,0 +1,477 @@
+//! An observer that keeps what a run has in memory, apart from the writer of the results.
+
+use ligament::case::{Control, StressField};
+use ligament::model::Model;
+use ligament_analysis::driver::Problem;
+use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::stress::{traction, virial};
+use ligament_analysis::{ControlKind, fields};
+use ligament_model::failure::AfterLimit;
+use ligament_output::results::Absence;
+
+use crate::bodies::Canvas;
+use crate::expected::{Entry, Expected, Place, Rows};
+
+/// A utilisation that is not larger by more than this is the same: the file keeps the first of several.
+const SAME: f64 = 1.0 + 2e-7;
+
+/// Seven digits of a horizon or a factor.
+fn single(value: f64) -> f32 {
+    value as f32
+}
+
+pub(crate) struct Recorder<'a> {
+    pub(crate) expected: Expected,
+    model: &'a Model,
+    canvas: &'a Canvas,
+    problem: Problem<'a>,
+    fields_every: usize,
+    bonds: bool,
+    stress: Vec<StressField>,
+    times_are_steps: bool,
+    labels: Vec<String>,
+    history: Rows,
+    breaks: Rows,
+    iterations: Rows,
+    fields: Rows,
+    bond_files: Rows,
+    round: (usize, usize, f64, usize),
+    step_of_breaking: Vec<i64>,
+    /// Utilisation, step and criterion.
+    largest: Vec<(f32, i64, i64)>,
+}
+
+/// A criterion's name, with a number from the second of its kind on.
+fn labels(problem: &Problem<'_>) -> Vec<String> {
+    let names: Vec<&str> = problem.criteria.list.iter().map(|it| it.name).collect();
+    let label = |(k, name): (usize, &&str)| match names[..k].iter().filter(|it| *it == name).count()
+    {
+        0 => (*name).to_owned(),
+        before => format!("{name}-{}", before + 1),
+    };
+    names.iter().enumerate().map(label).collect()
+}
+
+/// Names of the two or three components of bonds that files have, each with how it is read.
+fn deformation_names(problem: &Problem<'_>) -> &'static [&'static str] {
+    if problem.system.element.has_strains() {
+        &["strain_xx", "strain_xy", "strain_yy"]
+    } else {
+        &["stretch", "shear"]
+    }
+}
+
+fn component(name: &str, deformation: &ligament_analysis::BondDeformation) -> f64 {
+    let [xx, yy, xy] = deformation.strain();
+    match name {
+        "stretch" => deformation.stretch,
+        "shear" => deformation.shear,
+        "strain_xx" => xx,
+        "strain_yy" => yy,
+        "strain_xy" => xy,
+        other => panic!("{other}"),
+    }
+}
+
+impl<'a> Recorder<'a> {
+    pub(crate) fn new(
+        case: &ligament::case::Case,
+        model: &'a Model,
+        canvas: &'a Canvas,
+        problem: Problem<'a>,
+    ) -> Self {
+        let history = [
+            "step",
+            "load_factor",
+            "displacement",
+            "reaction",
+            "stored_energy",
+            "released_energy",
+            "broken_bonds",
+            "external_work",
+            "energy_error",
+            "broken_in_step",
+            "largest_ratio",
+            "rounds",
+            "solves",
+            "fragments",
+            "at_rest",
+            "negative_eigenvalues",
+            "dissipated_energy",
+        ];
+        let groups = problem.boundary.groups.iter().flat_map(|group| {
+            ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
+        });
+        let probes = problem.probes.iter().map(|it| it.name.clone());
+        let history = history.map(str::to_owned).into_iter();
+        let tagged = model.body.tagged();
+        let breaks = ["order", "step", "round", "load_factor"].map(str::to_owned);
+        let breaks = breaks
+            .into_iter()
+            .chain(["displacement", "reaction"].map(str::to_owned));
+        let ends = [format!("{tagged}_a"), format!("{tagged}_b")];
+        let after = ["utilisation", "criterion"].map(str::to_owned);
+        let names = deformation_names(&problem)
+            .iter()
+            .map(|it| (*it).to_owned());
+        let iterations = [
+            "step",
+            "round",
+            "iteration",
+            "load_factor",
+            "residual",
+            "stored_energy",
+            "broken_bonds",
+        ];
+        let n_bonds = problem.system.bonds.len();
+        Self {
+            expected: Expected::default(),
+            model,
+            canvas,
+            problem,
+            fields_every: case.output.fields_every as usize,
+            bonds: case.output.bonds,
+            stress: case.output.stress.clone(),
+            times_are_steps: matches!(
+                case.fracture.as_ref().map(|it| &it.control),
+                Some(Control::Event)
+            ),
+            labels: labels(&problem),
+            history: Rows::new(history.chain(groups).chain(probes)),
+            breaks: Rows::new(breaks.chain(ends).chain(after).chain(names)),
+            iterations: Rows::new(iterations),
+            fields: Rows::new(["timestep", "file"]),
+            bond_files: Rows::new(["timestep", "file"]),
+            round: (0, 0, 0.0, 0),
+            step_of_breaking: vec![-1; n_bonds],
+            largest: vec![(0.0, 0, 0); n_bonds],
+        }
+    }
+
+    /// The tables and the model, once the run has ended.
+    pub(crate) fn finish(mut self) -> Expected {
+        self.model_file();
+        let mut expected = self.expected;
+        self.history.into_expected("history.csv", &mut expected);
+        self.breaks.into_expected("breaks.csv", &mut expected);
+        self.iterations
+            .into_expected("iterations.csv", &mut expected);
+        self.fields.into_expected("fields.pvd", &mut expected);
+        if self.bonds {
+            self.bond_files.into_expected("bonds.pvd", &mut expected);
+        }
+        let mut criteria = Rows::new(["criterion", "measure", "after"]);
+        for (criterion, label) in self.problem.criteria.list.iter().zip(&self.labels) {
+            let after = match criterion.after {
+                AfterLimit::Brittle => "brittle",
+                AfterLimit::Bilinear { .. } => "bilinear",
+                AfterLimit::Exponential { .. } => "exponential",
+                AfterLimit::Plastic => "plastic",
+            };
+            let row = [label.as_str(), criterion.measure.word(), after];
+            criteria.push(row.map(Entry::from));
+        }
+        criteria.into_expected("criteria.csv", &mut expected);
+        expected
+    }
+
+    fn see_largest(&mut self, step: usize, view: &View<'_>) {
+        for (number, criterion) in view.criteria.list.iter().enumerate() {
+            for (bond, seen) in self.largest.iter_mut().enumerate() {
+                let deformation = &view.balanced.deformations[bond];
+                let (measure, limit) =
+                    (criterion.measure(bond, deformation), criterion.limit[bond]);
+                if view.state.intact[bond] && measure > SAME * f64::from(seen.0) * limit {
+                    *seen = ((measure / limit) as f32, step as i64, number as i64);
+                }
+            }
+        }
+    }
+
+    fn write_fields(&mut self, file: &str, view: &View<'_>) {
+        let (system, state, balanced) = (view.system, view.state, view.balanced);
+        let motion = |point: usize| {
+            let at = 3 * point;
+            [
+                state.displacement[at],
+                state.displacement[at + 1],
+                state.displacement[at + 2],
+            ]
+        };
+        let points = 0..system.cloud.len();
+        self.canvas.grid(file, &mut self.expected);
+        let displacement: Vec<[f64; 3]> = points
+            .clone()
+            .map(|point| [motion(point)[0], motion(point)[1], 0.0])
+            .collect();
+        self.canvas
+            .displacement(file, &displacement, &mut self.expected);
+        let reactions = view
+            .boundary
+            .reactions(state.load_factor, &balanced.internal.values);
+        let mut fields_of = self.canvas.on(file, &mut self.expected);
+        fields_of.reals("rotation", points.clone().map(|it| motion(it)[2]));
+        fields_of.reals("damage", fields::damage(system, &state.intact));
+        fields_of.reals(
+            "strain_energy_density",
+            fields::strain_energy_density(system, state.bonds(), &balanced.deformations),
+        );
+        fields_of.components(
+            "reaction",
+            ["", "", ""],
+            points
+                .clone()
+                .map(|it| [reactions[3 * it], reactions[3 * it + 1], 0.0]),
+        );
+        let fragments = view.fragments.of_point.iter();
+        fields_of.integers("fragment", fragments.map(|&it| i64::from(it)));
+        let held = points
+            .clone()
+            .map(|it| i64::from(state.held[3 * it..3 * it + 3].contains(&true)));
+        fields_of.integers("held", held);
+        for (name, values) in fields::damages(system, view.criteria, state) {
+            fields_of.reals(name, values);
+        }
+        if !view.criteria.list.is_empty() {
+            let values = fields::dissipated_energy_density(system, &state.dissipated);
+            fields_of.reals("dissipated_energy_density", values);
+        }
+        let boundary = view.boundary;
+        if !boundary.temperature_change.is_empty() {
+            let change = boundary.temperature_change.iter();
+            fields_of.reals(
+                "temperature_change",
+                change.map(|it| state.load_factor * it),
+            );
+            let strain = boundary.thermal_strain.iter();
+            fields_of.components(
+                "thermal_strain",
+                ["xx", "yy", "xy"],
+                strain.map(|it| it.map(|it| state.load_factor * it)),
+            );
+        }
+        if self.stress.contains(&StressField::Virial) {
+            let stress = virial::stress(system, state.bonds(), &balanced.deformations);
+            fields_of.components("stress_virial", ["xx", "yy", "xy"], stress);
+        }
+        if self.stress.contains(&StressField::Traction) {
+            let stress = traction::stress(system, state.bonds(), &balanced.deformations);
+            fields_of.components("stress_traction", ["xx", "yx", "yy", "xy"], stress);
+        }
+        fields_of.fixed(self.model);
+    }
+
+    fn write_bonds(&mut self, file: &str, view: &View<'_>) {
+        let (system, deformations) = (view.system, &view.balanced.deformations);
+        let ends = system.bonds.ends.iter().map(|it| it.as_slice());
+        let positions = self.model.body.positions().iter().copied();
+        self.expected.grid(file, positions, ends);
+        let point = Place {
+            file,
+            part: "point",
+            name: "displacement",
+        };
+        let motions = view.state.displacement.chunks(3);
+        let motions = motions.map(|it| [it[0], it[1], 0.0]);
+        self.expected.components(point, ["", "", ""], motions);
+        let cell = |name| Place {
+            file,
+            part: "cell",
+            name,
+        };
+        let intact = view.state.intact.iter().map(|&it| i64::from(it));
+        self.expected.integers(cell("intact"), intact);
+        let utilisation = (0..system.bonds.len()).map(|bond| {
+            let of = |it: &ligament_model::failure::Criterion| {
+                let measure = it.measure(bond, &deformations[bond]);
+                if measure > 0.0 {
+                    measure / it.limit[bond]
+                } else {
+                    0.0
+                }
+            };
+            view.criteria.list.iter().map(of).fold(0.0, f64::max)
+        });
+        self.expected.reals(cell("utilisation"), utilisation);
+        let omega = self.model.fixed.domain_factor.iter().copied();
+        self.expected.reals(cell("domain_factor"), omega);
+        let steps = self.step_of_breaking.iter().copied();
+        self.expected.integers(cell("step_of_breaking"), steps);
+        for name in deformation_names(&self.problem) {
+            let values = deformations.iter().map(|it| component(name, it));
+            self.expected.reals(cell(name), values);
+        }
+    }
+
+    fn model_file(&mut self) {
+        let (file, system, fixed) = ("model.vtu", self.problem.system, &self.model.fixed);
+        let absent = &fixed.absent;
+        let ends = system.bonds.ends.iter().map(|it| it.as_slice());
+        let absent_ends = absent.iter().map(|it| it.ends.as_slice());
+        let positions = self.model.body.positions().iter().copied();
+        let expected = &mut self.expected;
+        expected.grid(file, positions, ends.chain(absent_ends));
+        let point = |name| Place {
+            file,
+            part: "point",
+            name,
+        };
+        expected.reals(point("volume"), system.cloud.volumes.iter().copied());
+        expected.reals(point("horizon"), fixed.horizon.iter().copied());
+        let no_fail = fixed.no_fail.iter().map(|&it| i64::from(it));
+        expected.integers(point("no_fail"), no_fail);
+        let tags = (0..system.cloud.len() as u32).map(|it| self.model.body.tag(it) as i64);
+        expected.integers(point(self.model.body.tagged()), tags);
+
+        fn cell(name: &str) -> Place<'_> {
+            let (file, part) = ("model.vtu", "cell");
+            Place { file, part, name }
+        }
+        let n_bonds = system.bonds.len();
+        let none = || absent.iter().map(|_| f64::NAN);
+        let words = absent.iter().map(|it| match it.absence {
+            Absence::PreCrack => 1,
+            Absence::Hole => 2,
+        });
+        expected.integers(cell("absent"), std::iter::repeat_n(0, n_bonds).chain(words));
+        let horizons = system.bonds.horizon.iter().copied();
+        let horizons = horizons.chain(absent.iter().map(|it| it.horizon));
+        expected.singles(cell("horizon"), horizons.map(single));
+        let alpha = (0..n_bonds).map(|bond| system.weight[bond] / fixed.domain_factor[bond]);
+        expected.singles(cell("length_factor"), alpha.chain(none()).map(single));
+        let omega = fixed.domain_factor.iter().copied();
+        expected.singles(cell("domain_factor"), omega.chain(none()).map(single));
+        for (criterion, label) in self.problem.criteria.list.iter().zip(&self.labels) {
+            let limits = criterion.limit.iter().copied();
+            expected.reals(cell(&format!("limit.{label}")), limits.chain(none()));
+            let count = criterion.coefficient.len() / n_bonds;
+            let names = ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
+            for (place, name) in names.into_iter().enumerate().take(count) {
+                let values = (0..n_bonds).map(|bond| criterion.coefficients(bond)[place]);
+                expected.reals(cell(&format!("{name}.{label}")), values.chain(none()));
+            }
+            let parameters = match &criterion.after {
+                AfterLimit::Bilinear { end } => end,
+                AfterLimit::Exponential { scale } => scale,
+                AfterLimit::Brittle | AfterLimit::Plastic => continue,
+            };
+            let values = parameters.iter().copied().chain(none());
+            expected.reals(cell(&format!("after.{label}")), values);
+        }
+        if self.problem.criteria.list.is_empty() {
+            return;
+        }
+        let nothing = || absent.iter().map(|_| (f32::NAN, 0, 0));
+        let all = || self.largest.iter().copied().chain(nothing());
+        expected.singles(cell("largest_utilisation"), all().map(|it| it.0));
+        expected.integers(cell("step_of_largest"), all().map(|it| it.1));
+        expected.integers(cell("criterion_of_largest"), all().map(|it| it.2));
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn iteration(
+        &mut self,
+        iteration: usize,
+        residual: f64,
+        stored_energy: f64,
+    ) -> Result<(), ObserverError> {
+        let (step, round, load_factor, broken) = self.round;
+        self.iterations.push([
+            step.into(),
+            round.into(),
+            iteration.into(),
+            load_factor.into(),
+            residual.into(),
+            stored_energy.into(),
+            broken.into(),
+        ]);
+        Ok(())
+    }
+
+    fn round(
+        &mut self,
+        step: usize,
+        round: usize,
+        load_factor: f64,
+        broken: usize,
+    ) -> Result<(), ObserverError> {
+        self.round = (step, round, load_factor, broken);
+        Ok(())
+    }
+
+    fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
+        for record in records {
+            self.step_of_breaking[record.bond as usize] = record.step as i64;
+            let ends = self.problem.system.bonds.ends[record.bond as usize];
+            let [a, b] = ends.map(|end| self.model.body.tag(end) as usize);
+            let row: [Entry; 10] = [
+                record.order.into(),
+                record.step.into(),
+                record.round.into(),
+                record.load_factor.into(),
+                record.displacement.into(),
+                record.reaction.into(),
+                a.into(),
+                b.into(),
+                record.ratio.into(),
+                self.labels[record.criterion].as_str().into(),
+            ];
+            let names = deformation_names(&self.problem).iter();
+            let deformation = names.map(|name| component(name, &record.deformation).into());
+            self.breaks.push(row.into_iter().chain(deformation));
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        let is_due = match self.fields_every {
+            0 => record.step == 0,
+            every => record.step.is_multiple_of(every),
+        };
+        if is_due || view.is_last {
+            let time = match view.boundary.control.kind {
+                _ if self.times_are_steps => record.step as f64,
+                ControlKind::Force => record.reaction,
+                ControlKind::Displacement | ControlKind::Temperature => record.displacement,
+            };
+            let name = format!("fields_{:04}.vtu", record.step);
+            self.write_fields(&name, view);
+            self.fields.push([time.into(), name.as_str().into()]);
+            if self.bonds {
+                let name = format!("bonds_{:04}.vtu", record.step);
+                self.write_bonds(&name, view);
+                self.bond_files.push([time.into(), name.as_str().into()]);
+            }
+        }
+        self.see_largest(record.step, view);
+        let missing = record.external_work - record.stored_energy - record.released_energy;
+        let energy_error = match record.external_work {
+            0.0 => 0.0,
+            work => missing / work,
+        };
+        let row: [Entry; 17] = [
+            record.step.into(),
+            record.load_factor.into(),
+            record.displacement.into(),
+            record.reaction.into(),
+            record.stored_energy.into(),
+            record.released_energy.into(),
+            record.broken_bonds.into(),
+            record.external_work.into(),
+            energy_error.into(),
+            record.broken_in_step.into(),
+            record.largest_ratio.into(),
+            record.rounds.into(),
+            record.solves.into(),
+            record.fragments.into(),
+            usize::from(record.at_rest).into(),
+            record.negative_eigenvalues.into(),
+            record.dissipated_energy.into(),
+        ];
+        let forces = record.group_forces.iter().flatten().copied();
+        let more = forces.chain(record.probes.iter().copied()).map(Entry::from);
+        self.history.push(row.into_iter().chain(more));
+        Ok(())
+    }
+}
