@@ -5,6 +5,7 @@ mod completions;
 mod explain;
 mod inspect;
 mod mesh;
+mod new;
 mod run;
 mod schema;
 mod verify;
@@ -21,6 +22,7 @@ pub use completions::CompletionsArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
 pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
+pub use new::NewArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use verify::VerifyArgs;
@@ -42,6 +44,7 @@ const OVERVIEW: &str = "\
 Examples:
   ligament mesh disk.geo                    mesh a Gmsh geometry: writes disk.msh
   ligament inspect disk.msh                 its groups, for the case file to name
+  ligament new disk.msh                     a case to start from: writes case.toml
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
   ligament explain results/disk --point 12  why its bonds broke, or did not
@@ -78,6 +81,13 @@ pub enum Command {
     /// replaced only by one that could be read.
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(MeshArgs),
+    /// Write a commented case to start from, for a mesh or a lattice
+    ///
+    /// Picks what to hold and what to load by the names of the groups, or by where they lie, and writes a
+    /// case that runs as it is: material and loading are marked as examples, what else a case may have
+    /// stands beside them as comments.
+    #[command(after_help = new::EXAMPLES)]
+    New(NewArgs),
     /// When bonds yield first, and how the directions of the bonds distort that
     ///
     /// Turns a uniform strain through all orientations to a family of bonds and finds the load at which
@@ -141,6 +151,7 @@ impl Cli {
             Command::Explain(args) => args.execute(),
             Command::Inspect(args) => args.execute(),
             Command::Mesh(args) => args.execute(),
+            Command::New(args) => args.execute(),
             Command::Yield(args) => args.execute(),
             Command::Verify(args) => args.execute(),
             Command::Schema(args) => args.execute(),

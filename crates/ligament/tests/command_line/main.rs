@@ -45,8 +45,10 @@ fn help_teaches_every_command() {
         "explain",
         "inspect",
         "mesh",
+        "new",
         "yield",
         "verify",
+        "schema",
         "completions",
         "Examples:",
         "SI units",
@@ -59,8 +61,10 @@ fn help_teaches_every_command() {
         "explain",
         "inspect",
         "mesh",
+        "new",
         "yield",
         "verify",
+        "schema",
         "completions",
     ] {
         let output = ligament([command, "--help"]);
