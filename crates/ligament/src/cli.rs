@@ -6,6 +6,7 @@ mod completions;
 mod explain;
 mod inspect;
 mod mesh;
+mod new;
 mod plot;
 mod run;
 mod schema;
@@ -25,6 +26,7 @@ pub use completions::CompletionsArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
 pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
+pub use new::NewArgs;
 pub use plot::PlotArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
@@ -49,6 +51,7 @@ Examples:
   ligament mesh disk.geo                    mesh a Gmsh geometry: writes disk.msh
   ligament mesh --via-meshio disk.inp       convert a mesh of another program: writes disk.msh
   ligament inspect disk.msh                 its groups, for the case file to name
+  ligament new disk.msh                     a case to start from: writes case.toml
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
   ligament sweep study.toml                 a case over horizons, meshes, strengths
@@ -108,6 +111,13 @@ pub enum Command {
     /// for Gmsh with its groups. An existing mesh is replaced only by one that could be read.
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(MeshArgs),
+    /// Write a commented case to start from, for a mesh or a lattice
+    ///
+    /// Picks what to hold and what to load by the names of the groups, or by where they lie, and writes a
+    /// case that runs as it is: material and loading are marked as examples, what else a case may have
+    /// stands beside them as comments.
+    #[command(after_help = new::EXAMPLES)]
+    New(NewArgs),
     /// When bonds yield first, and how the directions of the bonds distort that
     ///
     /// Turns a uniform strain through all orientations to a family of bonds and finds the load at which
@@ -174,6 +184,7 @@ impl Cli {
             Command::Plot(args) => args.execute(),
             Command::Inspect(args) => args.execute(),
             Command::Mesh(args) => args.execute(),
+            Command::New(args) => args.execute(),
             Command::Yield(args) => args.execute(),
             Command::Verify(args) => args.execute(),
             Command::Schema(args) => args.execute(),

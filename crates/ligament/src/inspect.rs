@@ -141,7 +141,7 @@ fn kind_and_size(group: &Group, mesh: &Mesh) -> (&'static str, String) {
 }
 
 /// Lower left and upper right corner.
-fn bounding_box(positions: &[[f64; 2]]) -> [[f64; 2]; 2] {
+pub(crate) fn bounding_box(positions: &[[f64; 2]]) -> [[f64; 2]; 2] {
     let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     positions.iter().fold(start, |[low, high], [x, y]| {
         [

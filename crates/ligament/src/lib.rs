@@ -28,6 +28,7 @@ pub mod resolve;
 pub mod run;
 pub mod solve;
 pub mod stages;
+pub mod starter;
 mod suggestion;
 pub mod summary;
 pub mod sweep;

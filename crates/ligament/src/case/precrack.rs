@@ -206,11 +206,15 @@ mod tests {
 
     use super::*;
 
+    fn rounded(value: f64, digits: i32) -> f64 {
+        (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits)
+    }
+
     /// On an axis and halfway between two a direction is exact, for angles of all sizes and for pi with ten digits.
     #[test]
     fn eighths_of_a_turn_are_exact() {
         assert_eq!(direction(0.0), [1.0, 0.0]);
-        for angle in [PI / 2.0, 1.570_796_326_8, 2.5 * PI, -1.5 * PI] {
+        for angle in [PI / 2.0, rounded(PI / 2.0, 10), 2.5 * PI, -1.5 * PI] {
             assert_eq!(direction(angle), [0.0, 1.0], "{angle}");
         }
         assert_eq!(direction(-PI / 4.0), [FRAC_1_SQRT_2, -FRAC_1_SQRT_2]);
@@ -221,7 +225,8 @@ mod tests {
     /// Any other angle is taken as it is, also 1.5708, which is 3.7e-6 more than a quarter turn.
     #[test]
     fn other_angles_are_not_rounded() {
-        assert_eq!(direction(1.5708), [1.5708_f64.cos(), 1.5708_f64.sin()]);
+        let given = rounded(PI / 2.0, 4);
+        assert_eq!(direction(given), [given.cos(), given.sin()]);
         let [x, y] = direction(PI / 6.0);
         assert!((x - 0.75_f64.sqrt()).abs() < 1e-15 && (y - 0.5).abs() < 1e-15);
     }

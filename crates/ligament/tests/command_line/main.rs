@@ -46,8 +46,10 @@ fn help_teaches_every_command() {
         "explain",
         "inspect",
         "mesh",
+        "new",
         "yield",
         "verify",
+        "schema",
         "completions",
         "Examples:",
         "SI units",
@@ -61,8 +63,10 @@ fn help_teaches_every_command() {
         "explain",
         "inspect",
         "mesh",
+        "new",
         "yield",
         "verify",
+        "schema",
         "completions",
     ] {
         let output = ligament([command, "--help"]);
