@@ -44,6 +44,11 @@ impl ResultFolder {
         Ok(Self { path })
     }
 
+    /// A folder that is there already, with what it holds: for work that is taken up again.
+    pub fn existing(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
     /// Fails as [`ResultFolder::create`] would, and touches nothing: for a run to ask before its work begins.
     pub fn check(path: &Path, replace: bool) -> Result<(), Error> {
         Self::admit(path, RESOLVED_CASE, replace).map(|_| ())

@@ -13,6 +13,7 @@ pub mod explain;
 pub mod failure;
 pub mod formulation;
 pub mod gauges;
+pub mod inputs;
 pub mod inspect;
 pub mod line_fit;
 mod loading;

@@ -141,9 +141,14 @@ fn limits_out_of_reach_keep_the_record() {
         .map(|run| run["key"].as_f64().unwrap())
         .collect();
     assert!(keys.contains(&2e11) && keys.contains(&1e10), "{keys:?}");
-    // An earlier calibration is replaced on demand alone.
-    let again = calibrate(parent.path(), PLATE, &[&of[..], &goal].concat());
-    assert!(text(&again.stderr).contains("--force"));
+    // A calibration of something else is replaced on demand alone.
+    let other = ["--key", "material.poisson", "--of", "elastic_stiffness"];
+    let again = calibrate(parent.path(), PLATE, &[&other[..], &goal].concat());
+    assert!(text(&again.stderr).contains("is one of material.young"));
+    let set = ["--set", "material.poisson=0.25"];
+    let again = calibrate(parent.path(), PLATE, &[&of[..], &goal, &set].concat());
+    let error = text(&again.stderr);
+    assert!(error.contains("another case: now poisson = 0.25; --force"), "{error}");
 }
 
 #[test]
@@ -223,4 +228,32 @@ fn a_line_of_a_table_takes_the_place_of_runs() {
         stray.contains("--at goes with the folder or the table of a sweep"),
         "{stray}"
     );
+}
+
+#[test]
+fn a_calibration_goes_on_with_the_runs_that_it_has() {
+    let parent = tempfile::tempdir().unwrap();
+    let of = ["--key", "material.young", "--of", "elastic_stiffness"];
+    let goal = ["--target", "1e8", "--within", "1e-6"];
+    let first = calibrate(parent.path(), PLATE, &[of, goal].concat());
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    let whole = record(parent.path());
+    // As if it had been killed in the second run: no end of it, and a folder that is begun.
+    let mut cut = whole.clone();
+    cut["runs"].as_array_mut().unwrap().truncate(1);
+    fs::write(parent.path().join("out/calibration.json"), cut.to_string()).unwrap();
+    fs::remove_file(parent.path().join("out/run-02/summary.json")).unwrap();
+    let of_first = || fs::metadata(parent.path().join("out/run-01/summary.json"));
+    let written = of_first().unwrap().modified().unwrap();
+    let again = calibrate(parent.path(), PLATE, &[of, goal].concat());
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    assert!(text(&again.stderr).contains("(from an earlier calibration)"));
+    assert_eq!(of_first().unwrap().modified().unwrap(), written, "not run again");
+    let after = record(parent.path());
+    assert_eq!(after["value"], whole["value"]);
+    assert_eq!(after["runs"].as_array().unwrap().len(), 2);
+    // Another target takes the runs as trials.
+    let other = calibrate(parent.path(), PLATE, &[of, ["--target", "9e7", "--within", "1e-6"]].concat());
+    assert!(other.status.success(), "{}", text(&other.stderr));
+    assert_eq!(record(parent.path())["runs"].as_array().unwrap().len(), 3);
 }

@@ -8,12 +8,13 @@ pub mod line;
 mod record;
 pub mod search;
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use anyhow::Context;
 
 use crate::case::{CaseError, CaseFile, Fault};
+use crate::inputs::{Contents, Inputs};
 use crate::progress::ProgressMode;
 use crate::quantities::{Quantities, QuantityError};
 use crate::run::run;
@@ -43,7 +44,7 @@ pub struct Request {
     pub most_runs: usize,
     /// Folder for the record and the runs.
     pub out: PathBuf,
-    /// Whether an earlier calibration in the folder is replaced.
+    /// Whether an earlier calibration in the folder is replaced; it is continued otherwise.
     pub force: bool,
 }
 
@@ -77,6 +78,25 @@ pub enum CalibrationError {
         /// Why.
         source: QuantityError,
     },
+    /// A file of the case cannot be read.
+    #[error("cannot read {}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The folder has a calibration of something else.
+    #[error(
+        "the calibration in {} {difference}; --force replaces it, --out takes another folder",
+        folder.display()
+    )]
+    Other {
+        /// The folder.
+        folder: PathBuf,
+        /// In what it differs.
+        difference: String,
+    },
     /// The search ended without an answer.
     #[error("{0}")]
     NotMet(String),
@@ -108,9 +128,14 @@ pub fn calibrate(
 ) -> anyhow::Result<()> {
     let search = search_of(request)?;
     // Faults of the case and of the key come before anything is written.
-    case_with(request, search.start)?;
-    let mut record = Record::create(request)?;
+    let case = case_with(request, search.start)?;
+    let inputs = Inputs::of(&case, None, &mut Contents::default())
+        .map_err(|(path, source)| CalibrationError::Unreadable { path, source })?;
+    let mut record = Record::open(request, &inputs)?;
     writeln!(progress, "{}", record.heading())?;
+    for run in record.runs() {
+        writeln!(progress, "{} (from an earlier calibration)", record.line(run))?;
+    }
     let verdict = loop {
         let trials: Vec<Trial> = record.runs().iter().map(|run| run.trial).collect();
         match search.next(&trials) {
@@ -198,7 +223,8 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
     let number = record.runs().len() + 1;
     let folder = record.run_folder(number);
     let setting = setting(&request.key, key);
-    run(&case, &folder, false, ProgressMode::Quiet)
+    // Where an earlier one was killed its folder is still there.
+    run(&case, &folder, true, ProgressMode::Quiet)
         .with_context(|| format!("run {number} ({setting}) failed"))?;
     let results = Quantities::read(&folder)?;
     let result = results.number(&request.of);

@@ -1,14 +1,16 @@
 //! The record of a calibration: `calibration.json` and `calibration.csv`, and the lines that a user sees.
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::search::{Trial, Verdict};
-use super::{CUT_SHORT, Request, setting};
+use super::{CUT_SHORT, CalibrationError, Request, setting};
+use crate::inputs::Inputs;
 use crate::quantities::Quantities;
 
 /// The file by which the folder of a calibration is recognised.
@@ -17,13 +19,14 @@ const RECORD: &str = "calibration.json";
 /// The runs so far, on disk and in memory.
 pub(super) struct Record {
     request: Request,
+    inputs: String,
     folder: ResultFolder,
     table: Table,
     runs: Vec<Run>,
 }
 
 /// A run of a calibration.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Run {
     /// Its number, from 1.
     number: usize,
@@ -37,7 +40,6 @@ pub(super) struct Run {
     /// Wall time, s.
     seconds: f64,
     /// Units of displacement and force.
-    #[serde(skip)]
     units: [String; 2],
 }
 
@@ -58,7 +60,18 @@ struct Whole<'a> {
     outcome: &'static str,
     /// The value that meets the target.
     value: Option<f64>,
+    /// The inputs of the case with the first value of the key.
+    inputs: &'a str,
     runs: &'a [Run],
+}
+
+/// What is read back of it.
+#[derive(Deserialize)]
+struct Earlier {
+    key: String,
+    of: String,
+    inputs: String,
+    runs: Vec<Run>,
 }
 
 impl Run {
@@ -82,10 +95,17 @@ impl Run {
 }
 
 impl Record {
-    /// Begins a record in a new folder.
-    pub(super) fn create(request: &Request) -> anyhow::Result<Self> {
-        let folder = ResultFolder::create_marked(&request.out, RECORD, request.force)?;
-        write_whole(&folder, request, "running", None, &[])?;
+    /// Begins a record in a new folder, or goes on with that of an earlier calibration of the same key and result of the
+    /// same case: its runs are trials whatever the target.
+    pub(super) fn open(request: &Request, inputs: &Inputs) -> anyhow::Result<Self> {
+        let earlier = match request.force {
+            true => None,
+            false => earlier_runs(request, inputs)?,
+        };
+        let folder = match earlier {
+            None => ResultFolder::create_marked(&request.out, RECORD, request.force)?,
+            Some(_) => ResultFolder::existing(&request.out),
+        };
         let columns = [
             "run",
             &request.key,
@@ -97,12 +117,18 @@ impl Record {
             "folder",
         ];
         let table = Table::create(folder.file("calibration.csv"), &columns)?;
-        Ok(Self {
+        let mut record = Self {
             request: request.clone(),
+            inputs: inputs.text().to_owned(),
             folder,
             table,
             runs: Vec::new(),
-        })
+        };
+        for run in earlier.unwrap_or_default() {
+            record.append(run)?;
+        }
+        record.save("running", None)?;
+        Ok(record)
     }
 
     pub(super) fn runs(&self) -> &[Run] {
@@ -128,7 +154,7 @@ impl Record {
             Value::Text(&name),
         ])?;
         self.runs.push(run);
-        write_whole(&self.folder, &self.request, "running", None, &self.runs)
+        self.save("running", None)
     }
 
     /// Notes how it ended.
@@ -139,7 +165,29 @@ impl Record {
             Verdict::OutOfReach => ("out-of-reach", None),
             Verdict::OutOfTrials => ("out-of-runs", None),
         };
-        write_whole(&self.folder, &self.request, outcome, value, &self.runs)
+        self.save(outcome, value)
+    }
+
+    fn save(&self, outcome: &'static str, value: Option<f64>) -> anyhow::Result<()> {
+        let request = &self.request;
+        let whole = Whole {
+            version: env!("CARGO_PKG_VERSION"),
+            case: &request.case,
+            overrides: &request.overrides,
+            key: &request.key,
+            of: &request.of,
+            target: request.target,
+            within: request.within,
+            from: request.limits[0],
+            to: request.limits[1],
+            most_runs: request.most_runs,
+            outcome,
+            value,
+            inputs: &self.inputs,
+            runs: &self.runs,
+        };
+        let text = serde_json::to_string_pretty(&whole)?;
+        Ok(self.folder.write_text(RECORD, &(text + "\n"))?)
     }
 
     /// Difference from the target, relative to it.
@@ -239,28 +287,26 @@ fn run_name(number: usize) -> String {
     format!("run-{number:02}")
 }
 
-fn write_whole(
-    folder: &ResultFolder,
-    request: &Request,
-    outcome: &'static str,
-    value: Option<f64>,
-    runs: &[Run],
-) -> anyhow::Result<()> {
-    let whole = Whole {
-        version: env!("CARGO_PKG_VERSION"),
-        case: &request.case,
-        overrides: &request.overrides,
-        key: &request.key,
-        of: &request.of,
-        target: request.target,
-        within: request.within,
-        from: request.limits[0],
-        to: request.limits[1],
-        most_runs: request.most_runs,
-        outcome,
-        value,
-        runs,
+/// The runs of an earlier calibration in the folder; none where there is no such folder.
+fn earlier_runs(request: &Request, inputs: &Inputs) -> anyhow::Result<Option<Vec<Run>>> {
+    let path = request.out.join(RECORD);
+    let Ok(text) = fs::read_to_string(&path) else {
+        return Ok(None);
     };
-    let text = serde_json::to_string_pretty(&whole)?;
-    Ok(folder.write_text(RECORD, &(text + "\n"))?)
+    let other = |difference: String| CalibrationError::Other {
+        folder: request.out.clone(),
+        difference,
+    };
+    let earlier: Earlier =
+        serde_json::from_str(&text).map_err(|error| other(format!("cannot be read: {error}")))?;
+    let [key, of] = [&request.key, &request.of];
+    if earlier.key != *key || earlier.of != *of {
+        let (key, of) = (earlier.key, earlier.of);
+        return Err(other(format!("is one of {key} by {of}")).into());
+    }
+    if earlier.inputs != inputs.text() {
+        let difference = inputs.difference(&earlier.inputs);
+        return Err(other(format!("is one of another case: {difference}")).into());
+    }
+    Ok(Some(earlier.runs))
 }

@@ -6,7 +6,7 @@
 //! does not halve) closes in between them. Results of fracture jump: where the bracket is as narrow as the resolution and
 //! neither end meets the target, that is the answer.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Search {
 }
 
 /// A value of the key and the result that it led to.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// Value of the key.
     pub key: f64,

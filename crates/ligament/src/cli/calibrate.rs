@@ -73,7 +73,7 @@ pub struct RunsArgs {
     /// Folder for the record and the runs [default: results/NAME-calibration with the name of the case's folder]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Replace an earlier calibration in the folder
+    /// Replace an earlier calibration in the folder instead of going on with it
     #[arg(long)]
     pub force: bool,
 }

@@ -10,7 +10,6 @@ pub mod curves;
 mod error;
 mod estimate;
 pub mod folder;
-pub mod inputs;
 mod launch;
 pub mod meshes;
 pub mod parquet;

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use super::axis::{Axis, AxisPoint, Setting, short_words};
 use super::error::StudyError;
-use super::inputs::{Contents, Inputs};
 use super::meshes::MeshPlan;
 use super::study::Study;
 use super::written::quoted;
 use crate::case::key_path::KeyPath;
+use crate::inputs::{Contents, Inputs};
 use crate::case::{CaseError, CaseFile, Location};
 
 /// Runs that a study may have.
@@ -175,7 +175,8 @@ fn run(
     let overrides: Vec<String> = settings.iter().map(|it| it.given.clone()).collect();
     let case = CaseFile::parse(&study.case, text.to_owned(), &overrides)
         .map_err(|error| blame(study, &name, &settings, error))?;
-    let inputs = Inputs::of(&case, mesh.as_ref(), contents).map_err(|(path, source)| {
+    let content = mesh.as_ref().map(|plan| plan.content.as_str());
+    let inputs = Inputs::of(&case, content, contents).map_err(|(path, source)| {
         let names_it = |it: &&Setting| {
             let stem = path.file_name().unwrap_or_default().to_string_lossy();
             it.given.contains(&*stem)

@@ -5,7 +5,6 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::meshes::MeshPlan;
 use crate::case::{BodySection, CaseFile, TemperatureChange};
 
 /// All inputs of a run as text, the same wherever its files lie and however many threads it has.
@@ -14,11 +13,11 @@ pub struct Inputs(String);
 
 /// Contents of files by their path, each read once.
 #[derive(Debug, Default)]
-pub(super) struct Contents(HashMap<PathBuf, String>);
+pub(crate) struct Contents(HashMap<PathBuf, String>);
 
 impl Contents {
     /// What tells the content of a file: its size and a digest of its bytes.
-    pub(super) fn of(&mut self, path: &Path) -> io::Result<String> {
+    pub(crate) fn of(&mut self, path: &Path) -> io::Result<String> {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
@@ -31,14 +30,14 @@ impl Contents {
 }
 
 impl Inputs {
-    /// Those of a case. A mesh that is made for the study stands for the geometry and the numbers that it is made from.
+    /// Those of a case; `mesh` is what stands for the content of its mesh file where that is not there yet.
     ///
     /// # Errors
     ///
     /// If a file cannot be read, with its path.
-    pub(super) fn of(
+    pub(crate) fn of(
         case: &CaseFile,
-        mesh: Option<&MeshPlan>,
+        mesh: Option<&str>,
         contents: &mut Contents,
     ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
@@ -46,7 +45,7 @@ impl Inputs {
         let mut content = |path: &PathBuf| contents.of(path).map_err(|error| (path.clone(), error));
         if let BodySection::Mesh(section) = &mut plain.case.body {
             let content = match mesh {
-                Some(plan) => plan.content.clone(),
+                Some(content) => content.to_owned(),
                 None => content(&section.file)?,
             };
             section.file = content.into();
