@@ -148,7 +148,10 @@ fn limits_out_of_reach_keep_the_record() {
     let set = ["--set", "material.poisson=0.25"];
     let again = calibrate(parent.path(), PLATE, &[&of[..], &goal, &set].concat());
     let error = text(&again.stderr);
-    assert!(error.contains("another case: now poisson = 0.25; --force"), "{error}");
+    assert!(
+        error.contains("another case: now poisson = 0.25; --force"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -248,12 +251,20 @@ fn a_calibration_goes_on_with_the_runs_that_it_has() {
     let again = calibrate(parent.path(), PLATE, &[of, goal].concat());
     assert!(again.status.success(), "{}", text(&again.stderr));
     assert!(text(&again.stderr).contains("(from an earlier calibration)"));
-    assert_eq!(of_first().unwrap().modified().unwrap(), written, "not run again");
+    assert_eq!(
+        of_first().unwrap().modified().unwrap(),
+        written,
+        "not run again"
+    );
     let after = record(parent.path());
     assert_eq!(after["value"], whole["value"]);
     assert_eq!(after["runs"].as_array().unwrap().len(), 2);
     // Another target takes the runs as trials.
-    let other = calibrate(parent.path(), PLATE, &[of, ["--target", "9e7", "--within", "1e-6"]].concat());
+    let other = calibrate(
+        parent.path(),
+        PLATE,
+        &[of, ["--target", "9e7", "--within", "1e-6"]].concat(),
+    );
     assert!(other.status.success(), "{}", text(&other.stderr));
     assert_eq!(record(parent.path())["runs"].as_array().unwrap().len(), 3);
 }

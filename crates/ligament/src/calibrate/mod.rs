@@ -134,7 +134,11 @@ pub fn calibrate(
     let mut record = Record::open(request, &inputs)?;
     writeln!(progress, "{}", record.heading())?;
     for run in record.runs() {
-        writeln!(progress, "{} (from an earlier calibration)", record.line(run))?;
+        writeln!(
+            progress,
+            "{} (from an earlier calibration)",
+            record.line(run)
+        )?;
     }
     let verdict = loop {
         let trials: Vec<Trial> = record.runs().iter().map(|run| run.trial).collect();

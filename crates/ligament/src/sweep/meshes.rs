@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::plan::Run;
-use crate::mesh_command::{MeshRequest, MeshingError, make_mesh};
+use crate::mesh_command::gmsh_program::{MeshRequest, MeshingError, make_mesh};
 
 /// A mesh to be made.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,8 @@ use super::meshes::MeshPlan;
 use super::study::Study;
 use super::written::quoted;
 use crate::case::key_path::KeyPath;
-use crate::inputs::{Contents, Inputs};
 use crate::case::{CaseError, CaseFile, Location};
+use crate::inputs::{Contents, Inputs};
 
 /// Runs that a study may have.
 const MOST_RUNS: usize = 100_000;
