@@ -3,12 +3,13 @@
 DefineConstant[ size = 0.002 ];      // mesh size
 DefineConstant[ platen = 0.003 ];    // half-width of a platen: the rim where |x| <= platen
 DefineConstant[ diameter = 0.1 ];
+DefineConstant[ seed = 0 ];          // 0 to 10: where the rim is cut, for other meshes of the same size
 
 R = diameter / 2;
 y = Sqrt(R * R - platen * platen);
 // The rim is cut off the axes, at angles of no symmetry, so that the mesh has none.
-a = 11 * Pi / 180;
-b = 197 * Pi / 180;
+a = (11 + 5 * seed) * Pi / 180;
+b = (197 + 3 * seed) * Pi / 180;
 
 Point(1) = {0, 0, 0, size};          // centre of the arcs, no node of the mesh
 Point(2) = {0, R, 0, size};

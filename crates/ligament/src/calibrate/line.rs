@@ -163,11 +163,9 @@ fn runs(sheet: &Sheet, request: &Request) -> Result<Vec<Run>, LineError> {
         })
     };
     let (names, status) = (column("run")?, column("status")?);
-    let (x, of, key) = (
-        column(&request.x)?,
-        column(&request.of)?,
-        column(&request.key)?,
-    );
+    // A key is an axis of the sweep, or one of the other inputs of its cases.
+    let key = column(&request.key).or_else(|_| column(&format!("case.{}", request.key)))?;
+    let (x, of) = (column(&request.x)?, column(&request.of)?);
     let by: Vec<Vec<&str>> = (request.by.iter())
         .map(|name| column(name))
         .collect::<Result<_, _>>()?;
@@ -287,7 +285,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    const TABLE: &str = "run,status,mesh.file,model.horizon_factor,material.tensile_strength,first_peak.reaction\n\
+    const TABLE: &str = "run,status,mesh.file,model.horizon_factor,case.material.tensile_strength,first_peak.reaction\n\
         a,done,fine,2.0,3.81e6,62.5\n\
         b,done,fine,3.0,3.81e6,100\n\
         c,done,fine,4.0,3.81e6,137.5\n\
