@@ -1,7 +1,7 @@
 //! `ligament plot`: pictures of the results of runs, as SVG or PNG.
 //!
-//! Outputs are chosen ([`select`]), read ([`body`], [`field`], [`crack`]), moved by the displacement, cut into bands of colour
-//! ([`levels`], [`contour`], [`joined`]) and arranged ([`strip`]) in one SVG document ([`svg`]), from which a PNG is made
+//! Outputs are chosen ([`select`]), read (`body`, `field`, `crack`), moved by the displacement, cut into bands of colour
+//! (`levels`, `contour`, `joined`) and arranged (`strip`) in one SVG document (`svg`), from which a PNG is made
 //! ([`plots::png`](crate::plots::png)). Force-displacement curves are plots ([`curve`]).
 
 mod body;
