@@ -365,4 +365,7 @@ fn cases_are_not_overwritten() {
             .success()
     );
     assert_eq!(ligament(&["new"], folder.path()).status.code(), Some(2));
+    let elsewhere = ligament(&["new", mesh, "--out", "a/b/case.toml"], folder.path());
+    assert!(elsewhere.status.success(), "{elsewhere:?}");
+    assert!(CaseFile::load(&folder.path().join("a/b/case.toml"), &[]).is_ok());
 }

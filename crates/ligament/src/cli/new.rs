@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use anyhow::Context;
 use clap::Args;
-use clap::builder::PossibleValuesParser;
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament_output::replace_file;
 
 use crate::case::{Law, MOST_CELLS};
@@ -15,7 +15,7 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament new plate.msh                             writes case.toml, for plate.msh
   ligament new meshes/disk.msh --out disk/case.toml --law bbpd
-  ligament new --lattice 60,120,0.001                a lattice of cells of 1 mm in the place of a mesh
+  ligament new --lattice 60,120,0.001                a lattice in place of a mesh
 
 The case runs as it is; its material and loading are examples to replace by your own.";
 
@@ -49,8 +49,13 @@ impl NewArgs {
                 out.display()
             );
         }
+        let folder = out.parent().unwrap_or(Path::new(""));
+        if self.mesh.as_ref().is_none_or(|mesh| mesh.is_file()) {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        }
         let starter = match (&self.mesh, self.lattice) {
-            (Some(mesh), _) => of_mesh(mesh, out.parent().unwrap_or(Path::new("")), self.law)?,
+            (Some(mesh), _) => of_mesh(mesh, folder, self.law)?,
             (None, Some((cells, spacing))) => of_lattice(cells, spacing, self.law),
             (None, None) => anyhow::bail!("there is no mesh: give one, or --lattice NX,NY,SPACING"),
         };

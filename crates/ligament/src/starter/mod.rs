@@ -149,12 +149,12 @@ pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
 
 fn starter(body: &Body, ends: &Ends, law: Law, warnings: Vec<String>) -> Starter {
     let spot = |spot: &Spot| match spot {
-        Spot::Group(name) => format!("group `{name}`"),
-        Spot::Box(_) => "box".to_owned(),
+        Spot::Group(name) => format!("at group `{name}`"),
+        Spot::Box(_) => "in a box".to_owned(),
     };
     let direction = if ends.presses { "pressed" } else { "pulled" };
     let choice = format!(
-        "held at the {}, {direction} along {} at the {} ({})",
+        "held {}, {direction} along {} {} (chosen {})",
         spot(&ends.support),
         ["x", "y"][ends.axis],
         spot(&ends.load),
