@@ -14,7 +14,15 @@ use super::table::{NoColumn, Row, StudyTable};
 use super::{parquet, table};
 use crate::case::key_path::KeyPath;
 use crate::case::{CaseError, Fault};
+use crate::plots::Paper;
+use crate::plots::png::to_png;
 use crate::quantities::{Quantities, QuantityError};
+
+/// Width of a plot, mm, ...
+const WIDTH: f64 = 160.0;
+
+/// ... and dots per inch of its PNG.
+const DPI: f64 = 300.0;
 
 /// Runs that are listed by name at the end where they lack.
 const LISTED: usize = 20;
@@ -93,11 +101,13 @@ pub(super) fn write(
     for curves in &drawn {
         write_pivot(study, curves, out)?;
         write_fits(curves, out)?;
-        match curves.drawn(&title).to_svg() {
-            Ok(svg) => replace_file(
-                &folder.path().join(format!("{}.svg", curves.name)),
-                svg.as_bytes(),
-            )?,
+        let plot = curves.drawn(&title);
+        match plot.on(Paper::new(WIDTH, &plot.series)) {
+            Ok(svg) => {
+                let file = |ending| folder.path().join(format!("{}.{ending}", curves.name));
+                replace_file(&file("svg"), svg.as_bytes())?;
+                replace_file(&file("png"), &to_png(&svg, DPI)?)?;
+            }
             Err(error) => problems.push(error.to_string()),
         }
     }
