@@ -123,6 +123,12 @@ fn fits_and_plots_are_those_of_the_table() {
     assert!(plot.contains("known, from a paper") && plot.contains("1.2e6"));
     // Three open circles for each curve, and one in the legend.
     assert_eq!(plot.matches("<circle").count(), 8);
+    assert!(plot.contains("width=\"160.000mm\""), "for a page");
+    // The same as a picture: 160 mm at 300 dots per inch, by the width in the header of a PNG.
+    let picture = place.path("out/relative_peak-over-model.horizon_factor.png");
+    let picture = fs::read(picture).unwrap();
+    let width = u32::from_be_bytes(picture[16..20].try_into().unwrap());
+    assert_eq!(width, (160.0f64 / 25.4 * 300.0).round() as u32);
 }
 
 /// Paired keys are one axis; labels name folders, columns and curves; a setting holds for all; lists are values.
