@@ -172,27 +172,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
     let start = match (case.number(&request.key)?, limits) {
         (Some(start), _) if start != 0.0 => start,
         (_, [Some(low), Some(high)]) => 0.5 * (low + high),
-        _ => {
-            // A key that no case has is told as such.
-            match case_with(request, 1.0) {
-                Err(CaseError::Key {
-                    fault,
-                    location,
-                    key,
-                }) if matches!(*fault, Fault::UnknownKey { .. }) => {
-                    return Err(CaseError::Key {
-                        fault,
-                        location,
-                        key,
-                    }
-                    .into());
-                }
-                Err(error @ CaseError::Override { .. }) => return Err(error.into()),
-                _ => {}
-            }
-            let key = request.key.clone();
-            return Err(CalibrationError::NoStart { key }.into());
-        }
+        _ => return Err(no_start(request)),
     };
     Ok(Search {
         start,
@@ -205,6 +185,22 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
         resolution: RESOLUTION,
         most_trials: request.most_runs,
     })
+}
+
+/// Why there is nothing to begin with: a key that no case has is told as such.
+fn no_start(request: &Request) -> anyhow::Error {
+    let is_about_key = |error: &CaseError| match error {
+        CaseError::Key { fault, .. } => matches!(**fault, Fault::UnknownKey { .. }),
+        CaseError::Override { .. } => true,
+        _ => false,
+    };
+    match case_with(request, 1.0) {
+        Err(error) if is_about_key(&error) => error.into(),
+        _ => CalibrationError::NoStart {
+            key: request.key.clone(),
+        }
+        .into(),
+    }
 }
 
 /// The case with a value of the key.
