@@ -234,5 +234,5 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
         folder,
         source,
     })?;
-    Ok(Run::new(number, Trial { key, result }, &results))
+    Ok(Run::new(number, Trial { key, result }, &results)?)
 }

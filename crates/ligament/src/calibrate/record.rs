@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::search::{Trial, Verdict};
 use super::{CUT_SHORT, CalibrationError, Request, setting};
 use crate::inputs::Inputs;
-use crate::quantities::Quantities;
+use crate::quantities::{Quantities, QuantityError};
 
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
@@ -75,7 +75,11 @@ struct Earlier {
 }
 
 impl Run {
-    pub(super) fn new(number: usize, trial: Trial, results: &Quantities) -> Self {
+    pub(super) fn new(
+        number: usize,
+        trial: Trial,
+        results: &Quantities,
+    ) -> Result<Self, QuantityError> {
         let word = |name: &str| {
             let value = results.get(name).and_then(serde_json::Value::as_str);
             value.unwrap_or_default().to_owned()
@@ -83,14 +87,14 @@ impl Run {
         let count = results
             .get("broken_bonds")
             .and_then(serde_json::Value::as_u64);
-        Self {
+        Ok(Self {
             number,
             trial,
             termination: word("termination"),
             broken_bonds: count.unwrap_or_default(),
-            seconds: results.number("seconds").unwrap_or(f64::NAN),
+            seconds: results.number("seconds")?,
             units: [word("units.displacement"), word("units.force")],
-        }
+        })
     }
 }
 
@@ -124,8 +128,9 @@ impl Record {
             table,
             runs: Vec::new(),
         };
+        // Saved once all are there, so that a kill on the way leaves the earlier record.
         for run in earlier.unwrap_or_default() {
-            record.append(run)?;
+            record.note(run)?;
         }
         record.save("running", None)?;
         Ok(record)
@@ -140,8 +145,13 @@ impl Record {
         self.folder.file(&run_name(number))
     }
 
-    /// Adds a run that is done.
+    /// Adds a run that is done, and saves the record.
     pub(super) fn append(&mut self, run: Run) -> anyhow::Result<()> {
+        self.note(run)?;
+        self.save("running", None)
+    }
+
+    fn note(&mut self, run: Run) -> anyhow::Result<()> {
         let name = run_name(run.number);
         self.table.append(&[
             run.number.into(),
@@ -154,7 +164,7 @@ impl Record {
             Value::Text(&name),
         ])?;
         self.runs.push(run);
-        self.save("running", None)
+        Ok(())
     }
 
     /// Notes how it ended.

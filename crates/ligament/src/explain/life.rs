@@ -12,7 +12,7 @@ use ligament_output::results::stored::{
 
 use super::strains::Strains;
 use crate::case::Units;
-use crate::loading::Loading;
+use crate::stored_loading::StoredLoading;
 
 /// The lives of some bonds, over the same moments.
 #[derive(Debug)]
@@ -86,7 +86,11 @@ pub(super) fn pair_of(run: &StoredRun, ends: [u32; 2]) -> Option<usize> {
 
 impl Lives {
     /// Reads each file of fields once.
-    pub(super) fn of(run: &StoredRun, pairs: Vec<usize>, loading: Loading) -> Result<Self, Error> {
+    pub(super) fn of(
+        run: &StoredRun,
+        pairs: Vec<usize>,
+        loading: StoredLoading,
+    ) -> Result<Self, Error> {
         let is_absent = |pair: &usize| run.model.bonds.absence[*pair].is_some();
         let (absent, bonds): (Vec<usize>, Vec<usize>) = pairs.into_iter().partition(is_absent);
         let mut lives = Self {

@@ -17,7 +17,7 @@ use ligament_output::results::stored::StoredRun;
 use thiserror::Error;
 
 use self::life::{Lives, bonds_of, pair_of};
-use crate::loading::loading;
+use crate::stored_loading::stored_loading;
 
 /// What to explain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +83,7 @@ fn nearest_words(nearest: &[i64]) -> String {
 /// If the folder has no results that tell, there is no such point, or a file cannot be written.
 pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
-    let loading = loading(&request.folder)?;
+    let loading = stored_loading(&request.folder)?;
     let (text, lives) = match request.subject {
         Subject::Point(tag) => {
             let point = point_of(&run, tag)?;

@@ -7,9 +7,9 @@ use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
-use crate::loading::loading;
 use crate::plots::{Colour, Mark, Paper, Plot, Series};
 use crate::quantities::Quantities;
+use crate::stored_loading::stored_loading;
 use crate::suggestion::hint;
 
 /// Rows up to which each of them is marked by a dot.
@@ -133,7 +133,7 @@ impl Curve {
             })
         };
         let (x, y) = (column(&columns[0])?, column(&columns[1])?);
-        let of_load = loading(folder).ok().map(|it| it.units);
+        let of_load = stored_loading(folder).ok().map(|it| it.units);
         let unit = |column: &String| match (column.as_str(), of_load) {
             ("displacement", Some(units)) => units.displacement.to_owned(),
             ("reaction", Some(units)) => units.force.to_owned(),

@@ -19,7 +19,7 @@ use super::strip::{Entry, Strip};
 use super::svg::PIXELS_PER_MM;
 use super::units::{Shown, four_digits};
 use super::{PictureError, Target, labels_of};
-use crate::loading::loading;
+use crate::stored_loading::stored_loading;
 
 /// Width of a column and of a page of a paper, mm.
 const WIDTHS: [f64; 2] = [90.0, 180.0];
@@ -188,7 +188,7 @@ impl Source {
             });
         }
         let moments = moments(folder)?;
-        let loading = loading(folder).ok();
+        let loading = stored_loading(folder).ok();
         let largest =
             |of: fn(&Moment) -> f64| moments.values().map(|it| of(it).abs()).fold(0.0, f64::max);
         let shown = loading.map(|it| {

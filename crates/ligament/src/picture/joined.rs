@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use ligament_output::vtu::Cell;
 
-/// Share of the side of a cell beyond which corners are apart.
+/// Share of the shorter side of a cell beyond which corners are apart.
 const NEAR: f64 = 0.25;
 
 /// Corners drawn as one, and where.
@@ -23,21 +23,22 @@ pub(super) struct Joined {
 impl Joined {
     /// Joins the corners of cells, by their positions without load and as they are drawn, both of shape (n_corners).
     pub(super) fn new(cells: &[Cell], reference: &[[f64; 2]], positions: &[[f64; 2]]) -> Self {
-        let side = side(cells, reference);
+        let Grid { origin, sides } = Grid::of(cells, reference);
+        let near = NEAR * sides[0].min(sides[1]);
         let mut meeting: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
         let mut place_of = Vec::with_capacity(reference.len());
         // Sums of the positions at a place, and their number.
         let mut sums: Vec<([f64; 2], f64)> = Vec::new();
         for (at, drawn) in reference.iter().zip(positions) {
-            // Half a cell is far from any other corner, and rounding far from half a cell.
-            let key = at.map(|it| (2.0 * it / side).round() as i64);
+            // Corners are whole sides away from the first one, and rounding is far from half a side.
+            let key = [0, 1].map(|axis| ((at[axis] - origin[axis]) / sides[axis]).round() as i64);
             let known = meeting.entry(key).or_default();
             let is_near = |place: &u32| {
                 let (sum, count) = sums[*place as usize];
-                (sum[0] / count - drawn[0]).hypot(sum[1] / count - drawn[1]) <= NEAR * side
+                (sum[0] / count - drawn[0]).hypot(sum[1] / count - drawn[1]) <= near
             };
-            let near = known.iter().copied().find(is_near);
-            let place = near.unwrap_or_else(|| {
+            let place = known.iter().copied().find(is_near);
+            let place = place.unwrap_or_else(|| {
                 known.push(sums.len() as u32);
                 sums.push(([0.0; 2], 0.0));
                 sums.len() as u32 - 1
@@ -55,15 +56,31 @@ impl Joined {
     }
 }
 
-/// Side of a cell: those of a lattice are equal.
-fn side(cells: &[Cell], reference: &[[f64; 2]]) -> f64 {
-    let first = cells.first().map_or(&[][..], Cell::points);
-    match *first {
-        [a, b, ..] => {
-            let [a, b] = [a, b].map(|it| reference[it as usize]);
-            (b[0] - a[0]).hypot(b[1] - a[1])
+/// The grid of a lattice's corners without load.
+struct Grid {
+    /// One of them, m.
+    origin: [f64; 2],
+    /// Sides of the cells along x and y, which all of them share, m.
+    sides: [f64; 2],
+}
+
+impl Grid {
+    fn of(cells: &[Cell], reference: &[[f64; 2]]) -> Self {
+        let corners = cells.first().map_or(&[][..], Cell::points);
+        let corners = corners.iter().map(|it| reference[*it as usize]);
+        let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let [low, high] = corners.fold(empty, |[low, high], it| {
+            [0, 1].map(|end| {
+                [0, 1].map(|axis| match end {
+                    0 => low[axis].min(it[axis]),
+                    _ => high[axis].max(it[axis]),
+                })
+            })
+        });
+        Self {
+            origin: low,
+            sides: [high[0] - low[0], high[1] - low[1]],
         }
-        _ => 1.0,
     }
 }
 
@@ -91,5 +108,28 @@ mod tests {
             apart.places[apart.place_of[4] as usize],
             [0.15000000000000002, 0.0]
         );
+    }
+    /// Flat cells above each other, on a grid whose corners are no multiples of their sides: each corner of the grid is one place.
+    #[test]
+    fn cells_of_any_shape_and_place_are_told_apart() {
+        let rows = 7;
+        let row = |row: u32| {
+            let (low, high) = (
+                0.0125 + 0.01 * f64::from(row),
+                0.0125 + 0.01 * f64::from(row + 1),
+            );
+            [[0.025, low], [0.125, low], [0.125, high], [0.025, high]]
+        };
+        let reference: Vec<[f64; 2]> = (0..rows).flat_map(row).collect();
+        let cells: Vec<Cell> = (0..rows)
+            .map(|row| Cell::Quad([0, 1, 2, 3].map(|corner| 4 * row + corner)))
+            .collect();
+        let joined = Joined::new(&cells, &reference, &reference);
+        assert_eq!(joined.places.len(), 2 * (rows as usize + 1));
+        for (place, at) in joined.place_of.iter().zip(&reference) {
+            let drawn = joined.places[*place as usize];
+            // Rounding of the mean of two numbers of this size.
+            assert!((0..2).all(|axis| (drawn[axis] - at[axis]).abs() < 1e-15));
+        }
     }
 }

@@ -28,13 +28,13 @@ pub(super) struct Estimates(BTreeMap<String, Option<u64>>);
 impl Estimates {
     /// Bytes that a case will take at most; `None` where its model cannot be built, which its run will say.
     pub(super) fn of(&mut self, case: &CaseFile) -> Option<u64> {
-        let case_ = &case.case;
+        let given = &case.case;
         let key = serde_json::to_string(&(
-            &case_.body,
-            &case_.model,
-            &case_.precracks,
-            &case_.supports,
-            case_.solver.ordering,
+            &given.body,
+            &given.model,
+            &given.precracks,
+            &given.supports,
+            given.solver.ordering,
         ));
         // What cannot be written as text is not shared.
         let Ok(key) = key else {

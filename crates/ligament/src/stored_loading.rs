@@ -9,7 +9,7 @@ use crate::case::Units;
 
 /// What the loading of the run was like.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Loading {
+pub(crate) struct StoredLoading {
     /// Whether the rows of the history are events, each just before its bonds break.
     pub(crate) follows_path: bool,
     /// Units of the first load.
@@ -21,7 +21,7 @@ pub(crate) struct Loading {
 /// # Errors
 ///
 /// If the case cannot be read.
-pub(crate) fn loading(folder: &Path) -> anyhow::Result<Loading> {
+pub(crate) fn stored_loading(folder: &Path) -> anyhow::Result<StoredLoading> {
     let path = folder.join(RESOLVED_CASE);
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;
@@ -42,7 +42,7 @@ pub(crate) fn loading(folder: &Path) -> anyhow::Result<Loading> {
     } else {
         Units::FORCE
     };
-    Ok(Loading {
+    Ok(StoredLoading {
         follows_path: control.and_then(toml::Value::as_str) == Some("event"),
         units,
     })
