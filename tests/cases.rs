@@ -3,10 +3,10 @@
 
 use std::path::PathBuf;
 
-use ligament::case::{BodySection, CaseFile, Surface};
-use ligament::check::{Extent, check};
-use ligament::sweep::plan;
-use ligament::sweep::study::Study;
+use ligament_case::case::{BodySection, CaseFile, Surface};
+use ligament_case::check::{Extent, check};
+use ligament_case::sweep::plan;
+use ligament_case::sweep::study::Study;
 use verification::repository;
 
 /// What studies are called.

@@ -4,7 +4,7 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::model::Model;
+use ligament_case::model::Model;
 use ligament_mesh::Mesh;
 use ligament_model::BondSet;
 use ligament_model::Horizons;

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
-use ligament::check::{Extent, check};
+use ligament_case::check::{Extent, check};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
@@ -292,9 +292,9 @@ fn frictional_bars_yield_as_calibrated() {
 /// the reason.
 #[test]
 fn two_points_without_a_friction_angle_are_refused() {
-    use ligament::model::build_model;
-    use ligament::progress::{Progress, ProgressMode};
-    use ligament::stages::Stages;
+    use ligament_case::model::build_model;
+    use ligament_case::progress::{Progress, ProgressMode};
+    use ligament_case::stages::Stages;
     let settings = [
         "fracture.criterion.0.kind=frictional",
         "fracture.criterion.0.calibration=two-point",

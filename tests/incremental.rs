@@ -7,7 +7,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ligament::run;
+use ligament_case::run;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::equilibrium::{Balanced, Unbalanced};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};

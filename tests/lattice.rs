@@ -320,7 +320,7 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
         .map(|&point| run.displacement()[3 * point as usize])
         .collect();
     assert!(largest(at_right) > 0.0);
-    let error = ligament::resolve::Loading::of(
+    let error = ligament_case::resolve::Loading::of(
         &verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]),
         &*bench.model.body,
         &bench.model.system,

@@ -2,8 +2,8 @@
 //! program: plates under load, natural frequencies, and the elastic constants of infinite lattices.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::progress::ProgressMode;
-use ligament::run;
+use ligament_case::progress::ProgressMode;
+use ligament_case::run;
 use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;

@@ -2,7 +2,7 @@
 //! are one.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::case::Law;
+use ligament_case::case::Law;
 use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;

@@ -1,8 +1,8 @@
 //! Loads that vary linearly, couples, and bodies that only gauges hold, against closed forms and statics.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::check::{Extent, check};
-use ligament::progress::ProgressMode;
+use ligament_case::check::{Extent, check};
+use ligament_case::progress::ProgressMode;
 use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
@@ -399,7 +399,7 @@ fn loads_that_do_nothing_are_refused() {
         let case = bench::case(&format!("{PLATE}{load}\n"), &settings);
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out");
-        let run = ligament::run::run(&case, &out, false, ProgressMode::Quiet)
+        let run = ligament_case::run::run(&case, &out, false, ProgressMode::Quiet)
             .unwrap_err()
             .to_string();
         let checked = check(&case, Extent::Model, None, &mut Vec::new())

@@ -1,7 +1,7 @@
 //! The printed form of MBB-PD, true strains, and failure by mixed modes.
 #![allow(clippy::unwrap_used)]
 
-use ligament::case::CaseFile;
+use ligament_case::case::CaseFile;
 use ligament_analysis::history::BreakRecord;
 use ligament_model::element::ElementKind;
 use tempfile::TempDir;

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use ligament::resolve::Loading;
+use ligament_case::resolve::Loading;
 use ligament_mesh::Group;
 use verification::bench::{self, Bench};
 use verification::meshes;

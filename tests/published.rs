@@ -1,11 +1,11 @@
 //! The fast subset of `ligament verify`: values of the papers, computed by the functions of `ligament run`.
 #![allow(clippy::unwrap_used)]
 
-use ligament::verify::entry::Verdict;
-use ligament::verify::published::cells;
-use ligament::verify::table::{Extent, Table};
-use ligament::verify::tally::Tally;
-use ligament::verify::{EXPERIMENTS, Experiment};
+use ligament_case::verify::entry::Verdict;
+use ligament_case::verify::published::cells;
+use ligament_case::verify::table::{Extent, Table};
+use ligament_case::verify::tally::Tally;
+use ligament_case::verify::{EXPERIMENTS, Experiment};
 use verification::numbers::largest;
 use verification::repository;
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use ligament::body::Body;
-use ligament::model::Model;
+use ligament_case::body::Body;
+use ligament_case::model::Model;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_output::results::Canvas as Drawn;
 use verification::meshes;

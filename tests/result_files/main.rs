@@ -13,15 +13,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use ligament::case::CaseFile;
-use ligament::check::{self, Extent};
-use ligament::model::{Model, build_model};
-use ligament::progress::{Progress, ProgressMode};
-use ligament::resolve::Loading;
-use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE};
-use ligament::stages::Stages;
-use ligament::yielding::subject::Strain;
-use ligament::yielding::{self, Families, Request};
+use ligament_case::case::CaseFile;
+use ligament_case::check::{self, Extent};
+use ligament_case::model::{Model, build_model};
+use ligament_case::progress::{Progress, ProgressMode};
+use ligament_case::resolve::Loading;
+use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE};
+use ligament_case::stages::Stages;
+use ligament_case::yielding::subject::Strain;
+use ligament_case::yielding::{self, Families, Request};
 use ligament_analysis::driver;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
@@ -84,7 +84,7 @@ impl Case {
     fn vibrate(&self) {
         run::run(&self.file, &self.results(), false, ProgressMode::Quiet).unwrap();
         let (model, canvas) = self.model();
-        let outcome = ligament::solve::modes(&self.file).unwrap();
+        let outcome = ligament_case::solve::modes(&self.file).unwrap();
         let mut expected = Expected::default();
         let mut table = Rows::new([
             "mode",

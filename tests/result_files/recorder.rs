@@ -1,7 +1,7 @@
 //! An observer that keeps what a run has in memory, apart from the writer of the results.
 
-use ligament::case::{Control, StressField};
-use ligament::model::Model;
+use ligament_case::case::{Control, StressField};
+use ligament_case::model::Model;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::stress::{traction, virial};
@@ -75,7 +75,7 @@ fn component(name: &str, deformation: &ligament_analysis::BondDeformation) -> f6
 
 impl<'a> Recorder<'a> {
     pub(crate) fn new(
-        case: &ligament::case::Case,
+        case: &ligament_case::case::Case,
         model: &'a Model,
         canvas: &'a Canvas,
         problem: Problem<'a>,

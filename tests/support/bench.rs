@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use ligament::case::CaseFile;
-use ligament::model::{Model, build_model};
-use ligament::progress::{Progress, ProgressMode};
-use ligament::resolve::{self, Loading};
-use ligament::run::{self, ELASTIC_ENERGY_TOLERANCE, Report};
-use ligament::stages::Stages;
-use ligament::summary::Summary;
+use ligament_case::case::CaseFile;
+use ligament_case::model::{Model, build_model};
+use ligament_case::progress::{Progress, ProgressMode};
+use ligament_case::resolve::{self, Loading};
+use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE, Report};
+use ligament_case::stages::Stages;
+use ligament_case::summary::Summary;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;

@@ -1,10 +1,10 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
-use ligament::case::CaseFile;
-use ligament::model::{Model, build_model};
-use ligament::progress::{Progress, ProgressMode};
-use ligament::resolve::{self, Vibration};
-use ligament::stages::Stages;
+use ligament_case::case::CaseFile;
+use ligament_case::model::{Model, build_model};
+use ligament_case::progress::{Progress, ProgressMode};
+use ligament_case::resolve::{self, Vibration};
+use ligament_case::stages::Stages;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
 use ligament_mesh::Mesh;

@@ -11,7 +11,7 @@ use super::plan::{Run, short_keys};
 use super::record::Status;
 use super::study::Study;
 use super::table::{NoColumn, Row, StudyTable};
-use super::{parquet, table};
+use super::table;
 use crate::case::key_path::KeyPath;
 use crate::case::{CaseError, Fault};
 use crate::plots::Paper;
@@ -43,7 +43,7 @@ const FIT_COLUMNS: [&str; 12] = [
     "remark",
 ];
 
-/// Writes `table.csv`, `table.parquet`, `fits.csv` and the plots into the study's folder, and what people want to see of them;
+/// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and what people want to see of them;
 /// gives what could not be made.
 pub(super) fn write(
     study: &Study,
@@ -54,10 +54,6 @@ pub(super) fn write(
 ) -> anyhow::Result<Vec<String>> {
     let table = StudyTable::of(study, rows);
     table.write_csv(&folder.path().join("table.csv"))?;
-    replace_file(
-        &folder.path().join("table.parquet"),
-        &parquet::bytes(&table)?,
-    )?;
 
     let title = if study.title.is_empty() {
         study.name()

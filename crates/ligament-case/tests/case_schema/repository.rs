@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament::case::CaseFile;
+use ligament_case::case::CaseFile;
 
 use super::documents::all_of_schema;
 use super::{document, objection};

@@ -5,9 +5,9 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use ligament::case::{CaseFile, Law, Place, schema};
-use ligament::check::{Extent, check};
-use ligament::starter::{Starter, StarterError, of_lattice, of_mesh};
+use ligament_case::case::{CaseFile, Law, Place, schema};
+use ligament_case::check::{Extent, check};
+use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -91,7 +91,7 @@ fn groups_are_found_by_their_names() {
             Some(Place::Group(loaded.to_owned())),
             "{mesh}"
         );
-        let ligament::case::Action::Displacement(moved) = case.loads[0].action else {
+        let ligament_case::case::Action::Displacement(moved) = case.loads[0].action else {
             panic!("{:?}", case.loads[0].action)
         };
         let components = [moved.x, moved.y];

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament::case::{
+use ligament_case::case::{
     Action, CaseFile, Control, CorrectionRule, CrackLine, Displacement, Ends, Place, Plane,
     Precrack, Region, Steps, Vector,
 };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use ligament::case::Fault;
+use ligament_case::case::Fault;
 use serde_json::{Value, json};
 
 use super::documents::{all_of_schema, documents, tables};

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use ligament::case::{CaseError, CaseFile, Fault, Law, Location};
+use ligament_case::case::{CaseError, CaseFile, Fault, Law, Location};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use ligament::case::{Analysis, CaseFile, Modal, Rotations};
+use ligament_case::case::{Analysis, CaseFile, Modal, Rotations};
 
 const MODAL: &str = r#"analysis = "modal"
 mesh = { file = "plate.msh" }

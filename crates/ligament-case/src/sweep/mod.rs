@@ -12,7 +12,6 @@ mod estimate;
 pub mod folder;
 mod launch;
 pub mod meshes;
-pub mod parquet;
 pub mod plan;
 mod progress;
 pub mod record;

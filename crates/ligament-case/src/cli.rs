@@ -71,7 +71,7 @@ pub enum Command {
     ///
     /// A study file names a case and axes: keys of the case with their values. Runs all combinations in
     /// parallel, as cores and memory allow, each in a process of its own; one that fails harms no other.
-    /// Writes a table of all runs (CSV, Parquet), plots (SVG) and lines of least squares.
+    /// Writes a table of all runs (CSV), plots (SVG) and lines of least squares.
     #[command(after_help = sweep::EXAMPLES)]
     Sweep(SweepArgs),
     /// Check a case and its mesh without running it

@@ -5,11 +5,11 @@
 use std::fs;
 use std::path::Path;
 
-use ligament::case::{CaseFile, Expansion, Region, TemperatureChange};
-use ligament::model::build_model;
-use ligament::progress::{Progress, ProgressMode};
-use ligament::resolve::Loading;
-use ligament::stages::Stages;
+use ligament_case::case::{CaseFile, Expansion, Region, TemperatureChange};
+use ligament_case::model::build_model;
+use ligament_case::progress::{Progress, ProgressMode};
+use ligament_case::resolve::Loading;
+use ligament_case::stages::Stages;
 use ligament_analysis::ControlKind;
 use tempfile::TempDir;
 

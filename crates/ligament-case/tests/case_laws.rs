@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use ligament::case::CaseFile;
+use ligament_case::case::CaseFile;
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 

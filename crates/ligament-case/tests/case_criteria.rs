@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use ligament::case::{
+use ligament_case::case::{
     After, CaseError, CaseFile, Criterion, CriterionKind as Kind, FrictionCalibration,
     MixedModeLimits,
 };

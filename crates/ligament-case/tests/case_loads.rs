@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use ligament::case::{Action, Axis, CaseFile, Field, Profile, Reading, StressField};
+use ligament_case::case::{Action, Axis, CaseFile, Field, Profile, Reading, StressField};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 

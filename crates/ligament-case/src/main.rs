@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
-use ligament::cli::Cli;
+use ligament_case::cli::Cli;
 
 fn main() -> ExitCode {
     match Cli::parse().execute() {

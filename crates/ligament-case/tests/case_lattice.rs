@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
-use ligament::case::{
+use ligament_case::case::{
     BodySection, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection, Plane,
 };
 

@@ -4,10 +4,10 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament::case::{CaseFile, CrackLine, Precrack};
-use ligament::model::build_model;
-use ligament::progress::{Progress, ProgressMode};
-use ligament::stages::Stages;
+use ligament_case::case::{CaseFile, CrackLine, Precrack};
+use ligament_case::model::build_model;
+use ligament_case::progress::{Progress, ProgressMode};
+use ligament_case::stages::Stages;
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 const POINTS: &str = "points = [[-0.015, 0.0], [0.015, 0.0]]";

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use boon::{Compiler, SchemaIndex, Schemas};
-use ligament::case::{CaseError, CaseFile, Fault, schema};
+use ligament_case::case::{CaseError, CaseFile, Fault, schema};
 use serde_json::Value;
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
