@@ -6,12 +6,12 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
-use ligament_case::check::{Extent, check};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
+use ligament_case::check::{Extent, check};
 use ligament_model::element::BondElement;
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use tempfile::TempDir;

@@ -7,7 +7,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ligament_case::run;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::equilibrium::{Balanced, Unbalanced};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
@@ -15,6 +14,7 @@ use ligament_analysis::stiffness::{FactorKind, Ordering, Update};
 use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
 };
+use ligament_case::run;
 use ligament_linalg::{Elimination, Symbolic};
 use ligament_model::BondSystem;
 use tempfile::TempDir;

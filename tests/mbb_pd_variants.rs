@@ -1,8 +1,8 @@
 //! The printed form of MBB-PD, true strains, and failure by mixed modes.
 #![allow(clippy::unwrap_used)]
 
-use ligament_case::case::CaseFile;
 use ligament_analysis::history::BreakRecord;
+use ligament_case::case::CaseFile;
 use ligament_model::element::ElementKind;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};

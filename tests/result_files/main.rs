@@ -13,6 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use ligament_analysis::driver;
 use ligament_case::case::CaseFile;
 use ligament_case::check::{self, Extent};
 use ligament_case::model::{Model, build_model};
@@ -22,7 +23,6 @@ use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE};
 use ligament_case::stages::Stages;
 use ligament_case::yielding::subject::Strain;
 use ligament_case::yielding::{self, Families, Request};
-use ligament_analysis::driver;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{families, interior};

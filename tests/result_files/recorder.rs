@@ -1,11 +1,11 @@
 //! An observer that keeps what a run has in memory, apart from the writer of the results.
 
-use ligament_case::case::{Control, StressField};
-use ligament_case::model::Model;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::stress::{traction, virial};
 use ligament_analysis::{ControlKind, fields};
+use ligament_case::case::{Control, StressField};
+use ligament_case::model::Model;
 use ligament_model::failure::AfterLimit;
 use ligament_output::results::Absence;
 

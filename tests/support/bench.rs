@@ -2,6 +2,10 @@
 
 use std::path::Path;
 
+use ligament_analysis::driver::{self, Outcome, Problem};
+use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::probe::Probe;
+use ligament_analysis::{Boundary, State};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
@@ -9,10 +13,6 @@ use ligament_case::resolve::{self, Loading};
 use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE, Report};
 use ligament_case::stages::Stages;
 use ligament_case::summary::Summary;
-use ligament_analysis::driver::{self, Outcome, Problem};
-use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::probe::Probe;
-use ligament_analysis::{Boundary, State};
 use ligament_mesh::Mesh;
 use tempfile::TempDir;
 

@@ -1,12 +1,12 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
+use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
+use ligament_analysis::{Supports, Unknowns};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
 use ligament_case::resolve::{self, Vibration};
 use ligament_case::stages::Stages;
-use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
-use ligament_analysis::{Supports, Unknowns};
 use ligament_mesh::Mesh;
 use ligament_model::LumpedMass;
 use tempfile::TempDir;

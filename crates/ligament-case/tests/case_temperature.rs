@@ -5,12 +5,12 @@
 use std::fs;
 use std::path::Path;
 
+use ligament_analysis::ControlKind;
 use ligament_case::case::{CaseFile, Expansion, Region, TemperatureChange};
 use ligament_case::model::build_model;
 use ligament_case::progress::{Progress, ProgressMode};
 use ligament_case::resolve::Loading;
 use ligament_case::stages::Stages;
-use ligament_analysis::ControlKind;
 use tempfile::TempDir;
 
 /// Two cells of 1 m beside each other, and two above them.
