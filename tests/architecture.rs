@@ -14,7 +14,7 @@ const ARROWS: [(&str, &[&str]); 6] = [
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
     ("ligament-analysis", &["ligament-linalg", "ligament-model"]),
-    ("ligament-output", &["ligament-analysis"]),
+    ("ligament-output", &["ligament-analysis", "ligament-mesh", "ligament-model"]),
     (
         "ligament",
         &[

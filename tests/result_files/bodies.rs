@@ -5,7 +5,7 @@ use std::path::Path;
 use ligament_case::body::Body;
 use ligament_case::model::Model;
 use ligament_mesh::{Cell, Group, Mesh};
-use ligament_output::results::Canvas as Drawn;
+use ligament_model::Canvas as Drawn;
 use verification::meshes;
 
 use crate::expected::{Expected, Place};

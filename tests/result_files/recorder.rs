@@ -7,7 +7,7 @@ use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
 use ligament_case::model::Model;
 use ligament_model::failure::AfterLimit;
-use ligament_output::results::Absence;
+use ligament_model::Absence;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};

@@ -2,7 +2,7 @@
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Measure, Softened};
-use ligament_output::results::Absence;
+use ligament_model::Absence;
 use ligament_output::results::stored::StoredRun;
 
 use super::life::{Life, Limit, Lives, Nearest};

@@ -24,6 +24,7 @@ mod tables;
 use ligament_analysis::ControlKind;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_model::{BodyGrid, FixedFields};
 
 use crate::Error;
 use crate::folder::ResultFolder;
@@ -31,9 +32,8 @@ use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
 use largest::Largest;
-pub use model_file::{Absence, AbsentBond};
 pub use modes::write_modes;
-pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
+pub use point_fields::{point_grid, write_points};
 use tables::{Tables, deformation_names};
 
 /// What to write, and how often.

@@ -15,9 +15,9 @@
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
 
 use ligament_analysis::driver::Problem;
+use ligament_model::{Absence, BodyGrid, FixedFields};
 
 use super::largest::Largest;
-use super::point_fields::{BodyGrid, FixedFields};
 use super::tables::labels;
 use crate::Error;
 use crate::folder::ResultFolder;
@@ -26,40 +26,18 @@ use crate::vtu::{self, Field, UnstructuredGrid};
 /// Name of the file.
 pub(super) const MODEL: &str = "model.vtu";
 
-/// A pair of points, one in the horizon of the other, that is no bond.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AbsentBond {
-    /// Points A < B.
-    pub ends: [u32; 2],
-    /// Bond horizon H, m.
-    pub horizon: f64,
-    /// What separates them.
-    pub absence: Absence,
+/// The absence with a number in a file; none for a bond.
+pub(super) fn absence_with_number(wanted: i64) -> Option<Absence> {
+    [Absence::PreCrack, Absence::Hole]
+        .into_iter()
+        .find(|it| number(*it) == wanted)
 }
 
-/// Why two points within a horizon are not bonded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Absence {
-    /// A pre-crack cut the bond.
-    PreCrack,
-    /// A hole lies between them.
-    Hole,
-}
-
-impl Absence {
-    /// Its number in files.
-    pub(super) fn number(self) -> i64 {
-        match self {
-            Self::PreCrack => 1,
-            Self::Hole => 2,
-        }
-    }
-
-    /// That of a number in a file; None for a bond.
-    pub(super) fn from_number(number: i64) -> Option<Self> {
-        [Self::PreCrack, Self::Hole]
-            .into_iter()
-            .find(|it| it.number() == number)
+/// Number of an absence in files.
+fn number(absence: Absence) -> i64 {
+    match absence {
+        Absence::PreCrack => 1,
+        Absence::Hole => 2,
     }
 }
 
@@ -83,7 +61,7 @@ pub(super) fn write(
         .collect();
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let absence: Vec<i64> = std::iter::repeat_n(0, system.bonds.len())
-        .chain(absent.iter().map(|it| it.absence.number()))
+        .chain(absent.iter().map(|it| number(it.absence)))
         .collect();
     let horizon: Vec<f32> = (system.bonds.horizon.iter())
         .chain(absent.iter().map(|it| &it.horizon))

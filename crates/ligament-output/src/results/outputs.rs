@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::model_file::{Absence, MODEL};
+use ligament_model::Absence;
+
+use super::model_file::{MODEL, absence_with_number};
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
@@ -116,7 +118,7 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     let tags = tags.ok_or_else(|| file.strange("its points have no tags"))?;
     let absent = file.integers(FieldLocation::Cell, "absent")?;
     let absent = absent.ok_or_else(|| file.strange("it has no cell field absent"))?;
-    let is_cut = |number: &i64| Absence::from_number(*number) == Some(Absence::PreCrack);
+    let is_cut = |number: &i64| absence_with_number(*number) == Some(Absence::PreCrack);
     if !absent.iter().any(is_cut) {
         return Ok(Some(Vec::new()));
     }

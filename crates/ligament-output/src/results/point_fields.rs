@@ -6,68 +6,33 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::stress::{traction, virial};
+use ligament_mesh::Cell;
+use ligament_model::{BodyGrid, Canvas, FixedFields};
 
-use super::{AbsentBond, WriteRule};
+use super::WriteRule;
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
 /// Field of the strain (eps_xx, eps_yy, gamma_xy) that the temperature would make without stress.
 pub(super) const THERMAL_STRAIN: &str = "thermal_strain";
 
-/// The body as output files show it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodyGrid {
-    /// Positions of the points, shape (n_points), m.
-    pub positions: Vec<[f64; 2]>,
-    /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
-    pub tags: Vec<i64>,
-    /// What a tag is one of: `node` or `cell`.
-    pub tagged: &'static str,
-    /// What the fields of the points are drawn on.
-    pub canvas: Canvas,
-}
-
-/// What the fields of the points are drawn on.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Canvas {
-    /// Cells between the points, whose fields are point data.
-    Between(Vec<vtu::Cell>),
-    /// A cell of its own for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to
-    /// no other cell: they move with the point, and cracks open.
-    Around(Vec<[[f64; 2]; 4]>),
-}
-
-/// Fields that do not change during a run, beside those of the bond system.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FixedFields {
-    /// Horizons, shape (n_points), m.
-    pub horizon: Vec<f64>,
-    /// Share of its bonds that pre-cracks cut, shape (n_points).
-    pub precrack_share: Vec<f64>,
-    /// Energy density over the continuum's for uniaxial x, uniaxial y, biaxial and shear strain, shape (4, n_points).
-    pub energy_ratios: [Vec<f64>; 4],
-    /// Omega of each bond, shape (n_bonds).
-    pub domain_factor: Vec<f64>,
-    /// Points whose bonds never fail, shape (n_points).
-    pub no_fail: Vec<bool>,
-    /// Pairs within a horizon that are no bonds, in the order of their ends.
-    pub absent: Vec<AbsentBond>,
-}
-
-impl FixedFields {
-    pub(super) fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
-        let [uniaxial_x, uniaxial_y, biaxial, shear] = &self.energy_ratios;
-        vec![
-            Field::scalar("volume", volumes),
-            Field::scalar("horizon", &self.horizon),
-            Field::scalar("nearest_distance", spacing),
-            Field::scalar("precrack_share", &self.precrack_share),
-            Field::scalar("energy_ratio_x", uniaxial_x),
-            Field::scalar("energy_ratio_y", uniaxial_y),
-            Field::scalar("energy_ratio_biaxial", biaxial),
-            Field::scalar("energy_ratio_shear", shear),
-        ]
-    }
+/// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
+pub(super) fn fixed_fields<'a>(
+    fixed: &'a FixedFields,
+    volumes: &'a [f64],
+    spacing: &'a [f64],
+) -> Vec<Field<'a>> {
+    let [uniaxial_x, uniaxial_y, biaxial, shear] = &fixed.energy_ratios;
+    vec![
+        Field::scalar("volume", volumes),
+        Field::scalar("horizon", &fixed.horizon),
+        Field::scalar("nearest_distance", spacing),
+        Field::scalar("precrack_share", &fixed.precrack_share),
+        Field::scalar("energy_ratio_x", uniaxial_x),
+        Field::scalar("energy_ratio_y", uniaxial_y),
+        Field::scalar("energy_ratio_biaxial", biaxial),
+        Field::scalar("energy_ratio_shear", shear),
+    ]
 }
 
 /// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.
@@ -78,16 +43,16 @@ pub fn point_grid(
     spacing: &[f64],
     fixed: &FixedFields,
 ) -> Result<(), Error> {
-    let mut fields = fixed.fields(volumes, spacing);
+    let mut fields = fixed_fields(fixed, volumes, spacing);
     fields.push(Field::integer(grid.tagged, &grid.tags));
-    grid.write(path, None, &fields)
+    write_grid(path, grid, None, &fields)
 }
 
 /// Writes fields of the points (n_points) of a body at rest, with the tags of the points.
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    grid.write(path, None, &all)
+    write_grid(path, grid, None, &all)
 }
 
 /// Writes the fields of a state.
@@ -180,8 +145,8 @@ pub(super) fn write(
         ));
     }
     let cloud = &system.cloud;
-    fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
-    grid.write(path, Some(&displacement), &fields)
+    fields.extend(fixed_fields(fixed, &cloud.volumes, &cloud.spacing));
+    write_grid(path, grid, Some(&displacement), &fields)
 }
 
 /// Displacements of the points.
@@ -197,44 +162,48 @@ pub(super) fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-impl BodyGrid {
-    /// Writes fields of the points, the displacement first so that readers warp by it.
-    pub(super) fn write(
-        &self,
-        path: &Path,
-        displacement: Option<&[[f64; 3]]>,
-        fields: &[Field<'_>],
-    ) -> Result<(), Error> {
-        let vector = |values| Field::vector("displacement", values);
-        let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
-        all.extend(fields);
-        match &self.canvas {
-            Canvas::Between(cells) => {
-                let grid = UnstructuredGrid {
-                    points: &self.positions,
-                    cells,
-                    point_fields: &all,
-                    cell_fields: &[],
-                };
-                vtu::write_vtu(path, &grid)
-            }
-            Canvas::Around(corners) => {
-                let cells: Vec<vtu::Cell> = (0..corners.len() as u32)
-                    .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
-                    .collect();
-                let of_corners: Option<Vec<[f64; 3]>> = displacement
-                    .map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
-                let of_corners: Vec<Field<'_>> =
-                    of_corners.as_deref().map(vector).into_iter().collect();
-                let grid = UnstructuredGrid {
-                    points: corners.as_flattened(),
-                    cells: &cells,
-                    point_fields: &of_corners,
-                    cell_fields: &all,
-                };
-                vtu::write_vtu(path, &grid)
-            }
-        }
+/// Writes fields of the points of a body, the displacement first so that readers warp by it.
+pub(super) fn write_grid(
+    path: &Path,
+    body: &BodyGrid,
+    displacement: Option<&[[f64; 3]]>,
+    fields: &[Field<'_>],
+) -> Result<(), Error> {
+    let vector = |values| Field::vector("displacement", values);
+    let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
+    all.extend(fields);
+    let cells: Vec<vtu::Cell> = match &body.canvas {
+        Canvas::Between(cells) => cells.iter().map(drawn).collect(),
+        Canvas::Around(corners) => (0..corners.len() as u32)
+            .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
+            .collect(),
+    };
+    let Canvas::Around(corners) = &body.canvas else {
+        let grid = UnstructuredGrid {
+            points: &body.positions,
+            cells: &cells,
+            point_fields: &all,
+            cell_fields: &[],
+        };
+        return vtu::write_vtu(path, &grid);
+    };
+    let of_corners: Option<Vec<[f64; 3]>> =
+        displacement.map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
+    let of_corners: Vec<Field<'_>> = of_corners.as_deref().map(vector).into_iter().collect();
+    let grid = UnstructuredGrid {
+        points: corners.as_flattened(),
+        cells: &cells,
+        point_fields: &of_corners,
+        cell_fields: &all,
+    };
+    vtu::write_vtu(path, &grid)
+}
+
+/// A cell of a mesh as files draw it.
+fn drawn(cell: &Cell) -> vtu::Cell {
+    match *cell {
+        Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
+        Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
     }
 }
 
@@ -265,7 +234,7 @@ mod tests {
             Field::scalar("damage", &damage),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        grid.write(&path, Some(&moved), &fields).unwrap();
+        write_grid(&path, &grid, Some(&moved), &fields).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use ligament_model::Absence;
+
 use ligament_analysis::{BondDeformation, ElementKind};
 
-use super::model_file::{Absence, COEFFICIENTS, MODEL};
+use super::model_file::{COEFFICIENTS, MODEL, absence_with_number};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
 use super::tables::deformation_names;
@@ -322,7 +324,7 @@ impl StoredBonds {
         let absent = required(file, FieldLocation::Cell, "absent", VtuFile::integers)?;
         Ok(Self {
             ends: ends.ok_or_else(|| file.strange("its cells are no pairs of its points"))?,
-            absence: absent.into_iter().map(Absence::from_number).collect(),
+            absence: absent.into_iter().map(absence_with_number).collect(),
             horizon: numbers("horizon")?,
             length_factor: numbers("length_factor")?,
             domain_factor: numbers("domain_factor")?,

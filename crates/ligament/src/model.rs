@@ -5,27 +5,27 @@ use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::law::mbb_pd;
-use ligament_model::{BondSet, BondStiffness, BondSystem, ElementKind, Horizons, PointCloud};
-use ligament_output::results::{Absence, AbsentBond, FixedFields};
+use ligament_model::{
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ElementKind, FixedFields, Horizons,
+    PointCloud,
+};
 
-use crate::body::{self, Body};
-use crate::case::{CaseError, CaseFile, CorrectionDomain};
-use crate::failure;
+use crate::body::Body;
+use crate::error::{Fault, Field, SetupError};
 use crate::formulation;
-use crate::progress::Progress;
-use crate::resolve;
-use crate::stages::Stages;
-use crate::summary;
-use crate::warnings;
+use crate::loading;
+use crate::setup::{CorrectionDomain, Setup};
+use crate::stage::{Finding, StageWatcher, stage};
+use crate::warning::{self, Warning};
 
-/// The discrete model of a case: all that comes before the first equation.
+/// The discrete model: all that comes before the first equation.
 #[derive(Debug)]
 pub struct Model {
-    /// The body.
-    pub body: Box<dyn Body>,
+    /// What it was built from.
+    pub setup: Setup,
     /// Points and corrected bonds.
     pub system: BondSystem,
-    /// Fields that a run does not change.
+    /// Fields that an analysis does not change.
     pub fixed: FixedFields,
     /// How the domain correction went, where there was one.
     pub correction: Option<CorrectionReport>,
@@ -40,102 +40,105 @@ pub struct Model {
     /// Number of points whose bonds never break.
     pub no_fail_points: usize,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
-/// Mesh or lattice in, bond system out.
-pub fn build_model(
-    case: &CaseFile,
-    stages: &mut Stages,
-    progress: &Progress,
-) -> anyhow::Result<Model> {
-    let body = body::of_case(case, stages)?;
-    model_of(case, body, stages, progress)
-}
-
-/// A body in, bond system out.
-pub(crate) fn model_of(
-    case: &CaseFile,
-    body: Box<dyn Body>,
-    stages: &mut Stages,
-    progress: &Progress,
-) -> anyhow::Result<Model> {
-    let material_of_cell = resolve::material_of_cell(case, &*body)?;
-    let thickness = case.case.body.thickness();
-    let cloud = stages.time("points", || {
-        body.cloud(thickness, &material_of_cell, case.case.materials.len())
+impl Model {
+    /// Builds the model of a setup, on the threads of the caller.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong.
+    pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    setup.check()?;
+    let body = &*setup.body;
+    let material_of_cell = loading::material_of_cell(&setup)?;
+    let (thickness, n_materials) = (setup.thickness(), setup.materials.len());
+    let cloud = stage(watcher, "points", || {
+        body.cloud(thickness, &material_of_cell, n_materials)
     });
-    let horizons = resolve::horizons(case, &cloud);
-    let (bonds, mut absent) = stages.time("bonds", || {
-        around_holes(BondSet::search(&cloud, &horizons), &*body, &cloud)
+    let horizons = setup.horizon.of_points(&cloud);
+    let (bonds, mut absent) = stage(watcher, "bonds", || {
+        around_holes(BondSet::search(&cloud, &horizons), body, &cloud)
     });
     let across_holes = absent.len();
-    require_neighbours(case, &*body, &bonds)?;
-    progress.stage(&format!("{} points, {} bonds", cloud.len(), bonds.len()));
-    let precracks = resolve::precracks(case);
-    let (is_cut, touched, precrack_share) = stages.time("pre-cracks", || {
-        let is_cut = cut_bonds(&precracks, &bonds, &cloud);
-        let touched = count_touched_bonds(&precracks, &bonds, &cloud, &is_cut);
+    require_neighbours(body, &bonds)?;
+    watcher.found(&Finding::Bonds {
+        points: cloud.len(),
+        bonds: bonds.len(),
+    });
+    let precracks = &setup.precracks;
+    let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
+        let is_cut = cut_bonds(precracks, &bonds, &cloud);
+        let touched = count_touched_bonds(precracks, &bonds, &cloud, &is_cut);
         let precrack_share = precrack_share(&bonds, &is_cut);
         (is_cut, touched, precrack_share)
     });
     absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
     absent.sort_unstable_by_key(|it| it.ends);
-    let corrected = stages.time("correction", || {
-        correct(case, &cloud, &horizons, bonds, &is_cut)
-    });
     let Corrected {
         bonds,
         stiffness,
         correction,
         energy_ratios,
-    } = corrected;
-    let report = correction.report;
-    progress.stage(&summary::correction_line(case, report.as_ref()));
+    } = stage(watcher, "correction", || {
+        correct(&setup, &cloud, &horizons, bonds, &is_cut)
+    });
+    watcher.found(&Finding::Correction(correction.report.as_ref()));
 
-    let no_fail = resolve::no_fail(case, &*body, &cloud)?;
-    let correction_range = correction.domain_factor_range();
+    let no_fail = loading::no_fail(&setup, &cloud)?;
     let fixed = FixedFields {
         horizon: horizons.radius,
         precrack_share,
         energy_ratios,
-        domain_factor: correction.domain_factor,
+        domain_factor: correction.domain_factor.clone(),
         no_fail,
         absent,
     };
-    let (alpha, omega) = (correction.length_factor, &fixed.domain_factor);
-    let system = stages.time("rigidities", || {
-        let element = formulation::element(&case.case.model);
-        let mut system = BondSystem::new(cloud, bonds, element, stiffness, alpha, omega);
-        if element == ElementKind::Pairwise
-            && let Some(elements) = &mut system.imaginary
-        {
-            elements.row_factors = mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud);
-        }
-        system
+    let system = stage(watcher, "rigidities", || {
+        bond_system(&setup, cloud, bonds, stiffness, &correction)
     });
-    let criteria = stages.time("criteria", || {
-        failure::criteria(case, &system, &fixed.no_fail)
+    let criteria = stage(watcher, "criteria", || {
+        formulation::criteria(&setup, &system, &fixed.no_fail)
     })?;
-    Ok(Model {
-        warnings: warnings::of_model(
-            case,
-            &*body,
-            &system.cloud.spacing,
-            report.as_ref(),
-            &fixed,
-            touched,
-        ),
-        correction: report,
-        correction_range,
+    let spacing = &system.cloud.spacing;
+        Ok(Self {
+        warnings: warning::of_model(&setup, spacing, correction.report.as_ref(), &fixed, touched),
+        correction_range: correction.domain_factor_range(),
+        correction: correction.report,
         across_holes,
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
         no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
-        body,
+        setup,
         system,
         fixed,
         criteria,
     })
+    }
+
+    /// The body.
+    pub fn body(&self) -> &dyn Body {
+        &*self.setup.body
+    }
+}
+
+/// Points and corrected bonds with the rigidities of their elements.
+fn bond_system(
+    setup: &Setup,
+    cloud: PointCloud,
+    bonds: BondSet,
+    stiffness: BondStiffness,
+    correction: &Correction,
+) -> BondSystem {
+    let element = setup.law.element();
+    let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
+    let mut system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
+    if element == ElementKind::Pairwise
+        && let Some(elements) = &mut system.imaginary
+    {
+        elements.row_factors = mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud);
+    }
+    system
 }
 
 /// The bonds without those across holes of the body, and those.
@@ -163,18 +166,17 @@ fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<Ab
 }
 
 /// The error of points that have no neighbour at all: no correction gives them a stiffness.
-fn require_neighbours(case: &CaseFile, body: &dyn Body, bonds: &BondSet) -> Result<(), CaseError> {
+fn require_neighbours(body: &dyn Body, bonds: &BondSet) -> Result<(), SetupError> {
     let lone = bonds.lone_points();
     let Some(&first) = lone.first() else {
         return Ok(());
     };
-    let reason = format!(
-        "{} of {} points have no neighbour in their horizon (the first is {}): they need a larger horizon, or must go",
-        lone.len(),
-        bonds.incidence.n_points(),
-        body.place(first)
-    );
-    Err(case.error("model", reason))
+    let fault = Fault::LonePoints {
+        count: lone.len(),
+        n_points: bonds.incidence.n_points(),
+        first: body.place(first),
+    };
+    Err(Field::whole("horizon").error(fault))
 }
 
 /// Bonds that pre-cracks leave, with their stiffness and correction.
@@ -186,9 +188,9 @@ struct Corrected {
 }
 
 /// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
-/// way round if the case says so.
+/// way round if the setup says so.
 fn correct(
-    case: &CaseFile,
+    setup: &Setup,
     cloud: &PointCloud,
     horizons: &Horizons,
     bonds: BondSet,
@@ -196,16 +198,16 @@ fn correct(
 ) -> Corrected {
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     let any_is_cut = is_cut.contains(&true);
-    let cut_first = case.case.correction.domain == CorrectionDomain::Cracked;
+    let cut_first = setup.correction.domain == CorrectionDomain::Cracked;
     let bonds = if cut_first && any_is_cut {
         bonds.retained(&survives)
     } else {
         bonds
     };
-    let alpha = formulation::alpha(case, &bonds, cloud);
-    let stiffness = formulation::stiffness(case, &bonds, cloud, &alpha);
-    let correction = formulation::correction(case, &bonds, cloud, horizons, &stiffness, alpha);
-    let (materials, plane) = (resolve::materials(case), resolve::plane(case));
+    let alpha = formulation::alpha(setup, &bonds, cloud);
+    let stiffness = formulation::stiffness(setup, &bonds, cloud, &alpha);
+    let correction = formulation::correction(setup, &bonds, cloud, horizons, &stiffness, alpha);
+    let (materials, plane) = (setup.materials(), setup.plane());
     let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, &materials, plane);
     let corrected = Corrected {
         bonds,

@@ -1,4 +1,9 @@
-//! Supports, loads and probes of a case on its model.
+//! Supports, loads and probes of a setup on its model.
+
+mod boundary;
+mod places;
+mod temperature;
+mod vibration;
 
 use ligament_analysis::Boundary;
 use ligament_analysis::driver::Problem;
@@ -7,12 +12,14 @@ use ligament_analysis::stiffness::SolverSettings;
 use ligament_model::BondSystem;
 use ligament_model::failure::Criteria;
 
-use super::boundary::{boundary, couples_have_stiffness};
-use super::{probes, solver};
-use crate::body::Body;
-use crate::case::{CaseError, CaseFile};
+pub use places::{material_of_cell, no_fail};
+pub use vibration::Vibration;
 
-/// What a case does to its model, and what it reads off.
+use crate::error::SetupError;
+use crate::model::Model;
+use boundary::{boundary, couples_have_stiffness};
+
+/// What a setup does to its model, and what it reads off.
 #[derive(Debug)]
 pub struct Loading {
     /// Supports and loads.
@@ -24,18 +31,19 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// That of a case on the points and bonds of its body.
+    /// The loading of a setup on the points and bonds of its model.
     ///
     /// # Errors
     ///
-    /// If a name of the case is not in the body, supports and loads contradict each other, or a couple acts on nothing.
-    pub fn of(case: &CaseFile, body: &dyn Body, system: &BondSystem) -> Result<Self, CaseError> {
-        let boundary = boundary(case, body, &system.cloud)?;
-        couples_have_stiffness(case, &boundary, system)?;
+    /// If a name of the setup is not in the body, supports and loads contradict each other, or a couple acts on nothing.
+    pub fn new(model: &Model) -> Result<Self, SetupError> {
+        let (setup, system) = (&model.setup, &model.system);
+        let boundary = boundary(setup, &system.cloud)?;
+        couples_have_stiffness(setup, &boundary, system)?;
         Ok(Self {
             boundary,
-            probes: probes(case, system),
-            solver: solver(case),
+            probes: setup.probes.iter().map(|it| it.on(system)).collect(),
+            solver: setup.solver,
         })
     }
 

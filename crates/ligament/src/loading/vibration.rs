@@ -1,0 +1,60 @@
+//! What an analysis of natural modes makes of its model.
+
+use ligament_analysis::modal::ModalProblem;
+use ligament_analysis::stiffness::SolverSettings;
+use ligament_analysis::{Component, Supports};
+use ligament_model::{BondSystem, LumpedMass};
+
+use super::places::Places;
+use crate::error::{Field, SetupError};
+use crate::model::Model;
+
+/// Supports and masses of a model.
+#[derive(Debug)]
+pub struct Vibration {
+    /// Supports.
+    pub supports: Supports,
+    /// Masses of the points.
+    pub mass: LumpedMass,
+    /// How the equations are solved.
+    pub solver: SolverSettings,
+}
+
+impl Vibration {
+    /// Supports and masses of the setup on the points of its model.
+    ///
+    /// # Errors
+    ///
+    /// If a name of the setup is not in the body.
+    pub fn new(model: &Model) -> Result<Self, SetupError> {
+        let (setup, cloud) = (&model.setup, &model.system.cloud);
+        let materials = setup.materials.iter();
+        let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
+        Ok(Self {
+            supports: supports(&Places { setup, cloud })?,
+            mass: LumpedMass::new(cloud, &densities),
+            solver: setup.solver,
+        })
+    }
+
+    /// The problem that it makes of the bonds.
+    pub fn problem<'a>(&'a self, system: &'a BondSystem) -> ModalProblem<'a> {
+        ModalProblem {
+            system,
+            mass: &self.mass,
+            supports: &self.supports,
+            solver: self.solver,
+        }
+    }
+}
+
+/// The supports on the points.
+fn supports(places: &Places<'_>) -> Result<Supports, SetupError> {
+    let mut supports = Supports::none(places.cloud.len());
+    for (index, support) in places.setup.supports.iter().enumerate() {
+        let points = places.points(Field::element("supports", index), &support.place)?;
+        let components: Vec<Component> = support.components().collect();
+        supports.hold(&support.name(index), points, &components);
+    }
+    Ok(supports)
+}
