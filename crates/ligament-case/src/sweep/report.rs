@@ -14,8 +14,8 @@ use super::table;
 use super::table::{NoColumn, Row, StudyTable};
 use crate::case::key_path::KeyPath;
 use crate::case::{CaseError, Fault};
-use crate::plots::Paper;
-use crate::plots::png::to_png;
+use ligament_plot::plots::Paper;
+use ligament_plot::plots::png::to_png;
 use crate::quantities::{Quantities, QuantityError};
 
 /// Width of a plot, mm, ...

@@ -16,7 +16,7 @@ use super::subject::{Strain, Subject};
 use super::{Place, Request, SUMMARY, YieldError, console};
 use crate::case::{CaseFile, Law};
 use crate::model::{Model, build_model};
-use crate::plots::{Colour, Mark, Plot, Series};
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::stages::Stages;
