@@ -1,7 +1,7 @@
 //! `[[load]]`: what acts on the body.
 
-use schemars::JsonSchema;
 use ligament::units::Units;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::conditions::{Displacement, Vector};

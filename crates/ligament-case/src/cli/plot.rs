@@ -188,7 +188,9 @@ fn maps() -> impl TypedValueParser<Value = ColourMap> {
     let possible = ColourMap::ALL.map(ColourMap::words);
     let possible = possible.map(|[name, help]| PossibleValue::new(name).help(help));
     PossibleValuesParser::new(possible).try_map(|name| {
-        let map = ColourMap::ALL.into_iter().find(|map| map.words()[0] == name);
+        let map = ColourMap::ALL
+            .into_iter()
+            .find(|map| map.words()[0] == name);
         map.ok_or("no such map")
     })
 }
