@@ -16,11 +16,11 @@ use super::subject::{Strain, Subject};
 use super::{Place, Request, SUMMARY, YieldError, console};
 use crate::case::{CaseFile, Law};
 use crate::model::{Model, build_model};
-use crate::plots::{Colour, Mark, Plot, Series};
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::stages::Stages;
 use crate::summary::heading;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// Diagrams of one point.
 pub(super) fn point(
