@@ -155,7 +155,7 @@ fn a_small_part_comes_loose_at_its_own_cost() {
     let system = &bench.model.system;
     for point in 0..bench.points() as u32 {
         let mut connectivity = Connectivity::new(system);
-        let (last, others) = system.bonds.incidence.of(point).split_last().unwrap();
+        let (last, others) = system.bonds.incidence.at(point).split_last().unwrap();
         let mut intact = vec![true; system.bonds.len()];
         for &bond in others {
             intact[bond as usize] = false;
@@ -182,7 +182,7 @@ fn effort_of(
 
 /// The ends of a bond with all their neighbours, counted.
 fn families(system: &BondSystem, bond: u32) -> [usize; 2] {
-    system.bonds.ends[bond as usize].map(|end| 1 + system.bonds.incidence.of(end).len())
+    system.bonds.ends[bond as usize].map(|end| 1 + system.bonds.incidence.at(end).len())
 }
 
 /// Bonds that cross the y axis, from below upwards.

@@ -468,7 +468,7 @@ pub(crate) fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
     let mut largest = [0.0_f64; 2];
     for point in 0..system.cloud.len() as u32 {
         let mut sum = [0.0; 2];
-        for &bond in system.bonds.incidence.of(point) {
+        for &bond in system.bonds.incidence.at(point) {
             let bond = bond as usize;
             let (length, shear) = (system.bonds.length[bond], system.shear_rigidity[bond].abs());
             sum[0] += (system.axial_rigidity[bond].abs() + shear) / length.powi(2);

@@ -303,7 +303,7 @@ impl<'a> Stiffness<'a> {
                 .system
                 .bonds
                 .incidence
-                .of((dof / COMPONENTS) as u32)
+                .at((dof / COMPONENTS) as u32)
                 .iter();
             bonds.all(|&bond| !state.intact[bond as usize])
         };

@@ -232,7 +232,7 @@ fn precrack_share(bonds: &BondSet, is_cut: &[bool]) -> Vec<f64> {
     }
     (0..n_points as u32)
         .map(|point| {
-            let family = bonds.incidence.of(point);
+            let family = bonds.incidence.at(point);
             let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
             cut as f64 / family.len().max(1) as f64
         })

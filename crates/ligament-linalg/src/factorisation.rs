@@ -44,7 +44,7 @@ pub trait Factorisation {
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
     fn pivots(&self) -> Vec<f64>;
 
-    /// Numbers of positive and negative pivots, which are those of the eigenvalues (Sylvester's law of inertia).
+    /// Numbers of positive and negative pivots. The eigenvalues have the same signs (Sylvester's law of inertia).
     fn inertia(&self) -> Inertia;
 }
 
@@ -88,7 +88,7 @@ pub enum FactorError {
     /// The factor does not fit into memory.
     #[error("out of memory: the factor needs {bytes} bytes")]
     OutOfMemory {
-        /// What was asked for.
+        /// Bytes that were asked for.
         bytes: usize,
     },
     /// The matrix is too large for the index type.

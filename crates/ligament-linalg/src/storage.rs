@@ -11,7 +11,7 @@ use crate::modification::{DiagonalEntry, Modification, RankOne, Target, Vanishin
 use crate::substitution::{Backward, Forward};
 use crate::symbolic::Symbolic;
 
-/// How a factor stores its pivots.
+/// The two ways in which a factor stores its pivots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
     /// L L^T, with the square root of the pivot on the diagonal.

@@ -22,19 +22,19 @@ pub enum Plane {
 /// A linear elastic, brittle material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Name in the case file.
+    /// Name of the material in the case file.
     pub name: String,
-    /// Its elastic constants.
+    /// Elastic constants of the material.
     pub elasticity: Elasticity,
     /// Tensile strength F_t, Pa.
     pub tensile_strength: Option<f64>,
     /// Compressive strength F_c, Pa, positive.
     pub compressive_strength: Option<f64>,
-    /// Fracture energy G_c, J/m^2; where opening and sliding differ, that of opening G_Ic.
+    /// Fracture energy G_c, J/m^2; where opening and sliding differ, the fracture energy of opening, G_Ic.
     pub fracture_energy: Option<f64>,
-    /// Fracture energy of sliding, mode II, where it is another: G_IIc, J/m^2.
+    /// Fracture energy of sliding, mode II, G_IIc, J/m^2; None where it equals that of opening.
     pub fracture_energy_sliding: Option<f64>,
-    /// Exponent eta between the two (Benzeggagh and Kenane 1996).
+    /// Exponent eta of the interpolation between both fracture energies (Benzeggagh and Kenane 1996).
     pub mixed_mode_exponent: Option<f64>,
     /// Mass density, kg/m^3.
     pub density: Option<f64>,
@@ -45,11 +45,11 @@ pub struct Material {
 /// Elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Elasticity {
-    /// The same in all directions.
+    /// Constants that are the same in all directions.
     Isotropic(Isotropic),
-    /// With three planes of symmetry, one of them the plane of the body.
+    /// Constants of a material with three planes of symmetry, one of them the plane of the body.
     Orthotropic(Orthotropic),
-    /// With no symmetry in the plane.
+    /// Constants of a material without symmetry in the plane.
     Anisotropic(Anisotropic),
 }
 
@@ -71,7 +71,7 @@ pub struct Orthotropic {
     pub poisson: f64,
     /// Shear modulus G_12, Pa.
     pub shear_modulus: f64,
-    /// What plane strain needs besides.
+    /// Constants across the plane, which plane strain needs.
     pub out_of_plane: Option<OutOfPlane>,
     /// Angle zeta from the x axis to the axis 1, rad.
     pub angle: f64,
@@ -96,7 +96,7 @@ impl Elasticity {
         }
     }
 
-    /// The isotropic constants, if it is isotropic.
+    /// The isotropic constants, if the material is isotropic.
     pub fn isotropic(&self) -> Option<Isotropic> {
         match *self {
             Self::Isotropic(constants) => Some(constants),
@@ -126,7 +126,8 @@ impl Isotropic {
         )
     }
 
-    /// The constants that make the equations of plane stress those of this plane: E and nu, or E/(1 - nu^2) and nu/(1 - nu).
+    /// The constants with which the equations of plane stress describe the given plane: E and nu, or E/(1 - nu^2) and nu/(1
+    /// - nu) for plane strain.
     pub fn in_plane(&self, plane: Plane) -> Self {
         match plane {
             Plane::Stress => *self,
@@ -185,7 +186,7 @@ impl Orthotropic {
         turn.transpose() * self.principal_stiffness(plane) * turn
     }
 
-    /// Whether every strain costs energy: the compliance is positive definite.
+    /// Whether every strain costs energy, that is whether the compliance is positive definite.
     pub fn is_stable(&self) -> bool {
         let mut compliance = self.principal_compliance();
         let in_plane = compliance.cholesky().is_some();

@@ -121,7 +121,7 @@ impl Search {
                 return Some(side);
             };
             next[side] += 1;
-            for &bond in bonds.incidence.of(point) {
+            for &bond in bonds.incidence.at(point) {
                 if !intact[bond as usize] {
                     continue;
                 }

@@ -34,7 +34,7 @@ const TERMS_AT_ONCE: usize = 32;
 /// as zero: what downdates leave of a zero is rounding, some 1e-14 of that entry.
 pub const VANISHING_PIVOT: f64 = 1e-10;
 
-/// What changing a factor needs beside it. Rows are in the order of elimination.
+/// Working memory for changing a factor in place. Rows are in the order of elimination.
 pub(crate) struct Modification {
     supernode_of_row: Vec<u32>,
     /// Terms on their way, row by row, shape (n, TERMS_AT_ONCE); zero between two changes.
@@ -61,7 +61,7 @@ pub(crate) struct Target<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DiagonalEntry {
     value: f64,
-    /// Its largest size since the matrix was factorised, which is the measure of what rounding left in the factor.
+    /// Largest size of the entry since the matrix was factorised: the measure of what rounding left in the factor.
     largest: f64,
 }
 

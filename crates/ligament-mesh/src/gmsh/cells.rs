@@ -149,7 +149,7 @@ fn first_alike(
     };
     let mut sorted: Vec<([u32; 4], i32, usize)> = planar
         .iter()
-        .map(|it| (key(&it.cell), owner(it), it.element))
+        .map(|cell| (key(&cell.cell), owner(cell), cell.element))
         .collect();
     sorted.sort_unstable();
     let same = |pair: &&[([u32; 4], i32, usize)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);

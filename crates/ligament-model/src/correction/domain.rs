@@ -13,7 +13,7 @@ use crate::element::imaginary::matrix;
 use crate::law::BondStiffness;
 use crate::material::{Elasticity, Material, Plane};
 
-/// When the sweeps end.
+/// Condition at which the sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StopRule {
     /// The sum over the bonds of |change of Omega| falls below this (the paper's rule; asks more of larger meshes).
@@ -25,7 +25,7 @@ pub enum StopRule {
 /// Stop rule and limit of the sweeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sweeps {
-    /// When the sweeps end.
+    /// Condition at which the sweeps end.
     pub stop: StopRule,
     /// Sweeps after which the iteration is given up, with the factors reached.
     pub limit: usize,
@@ -128,7 +128,7 @@ pub fn energy_ratios(
 ) -> [Vec<f64>; 4] {
     let energies = cloud.over_points(|point| {
         let mut energies = [0.0; 4];
-        for &bond in bonds.incidence.of(point) {
+        for &bond in bonds.incidence.at(point) {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
             let share = share(stiffness, bonds, bond, point);
             let bond = bond as usize;
@@ -150,7 +150,7 @@ pub fn energy_ratios(
 /// Share of the energy of a bond that belongs to one of its ends.
 fn share(stiffness: &BondStiffness, bonds: &BondSet, bond: u32, point: u32) -> f64 {
     let of_first = stiffness.strain.get(bond as usize);
-    let first_share = of_first.map_or(0.5, |it| it.first_share);
+    let first_share = of_first.map_or(0.5, |stiffness| stiffness.first_share);
     if bonds.ends[bond as usize][0] == point {
         first_share
     } else {

@@ -36,7 +36,7 @@ pub use modes::write_modes;
 pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
 use tables::{Tables, deformation_names};
 
-/// What to write, and how often.
+/// Rules of what is written, and how often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WriteRule {
     /// Fields at every so many load steps, besides the first and the last; 0: only these two.
@@ -49,11 +49,11 @@ pub struct WriteRule {
     pub virial: bool,
     /// Whether the fields have the traction on planes through the points.
     pub traction: bool,
-    /// What the collections call time.
+    /// The quantity that stands for time in the collections.
     pub time: Time,
 }
 
-/// What the time of an output is.
+/// The quantity that stands for the time of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Time {
     /// The applied displacement, or the applied load where the load is given.
@@ -62,7 +62,7 @@ pub enum Time {
     Step,
 }
 
-/// Writes the results of a run as its observer.
+/// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
@@ -74,7 +74,7 @@ pub struct ResultWriter<'a> {
     bonds_collection: Collection,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
-    /// How near each bond came to its limits, where the model is written.
+    /// Largest utilisation of each bond so far, where the model is written.
     largest: Option<Largest>,
 }
 
@@ -116,7 +116,7 @@ impl<'a> ResultWriter<'a> {
             view,
         )?;
         self.fields_collection
-            .append(self.rule.time.of(record, view), name)
+            .append(self.rule.time.value(record, view), name)
     }
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
@@ -125,7 +125,9 @@ impl<'a> ResultWriter<'a> {
         let deformations: Vec<Vec<f64>> = (0..names.len())
             .map(|place| {
                 let deformations = balanced.deformations.iter();
-                deformations.map(|it| it.components()[place]).collect()
+                deformations
+                    .map(|deformation| deformation.components()[place])
+                    .collect()
             })
             .collect();
         let utilisation: Vec<f64> = (0..system.bonds.len())
@@ -161,12 +163,12 @@ impl<'a> ResultWriter<'a> {
         let name = format!("bonds_{:04}.vtu", record.step);
         vtu::write_vtu(self.folder.file(&name), &grid)?;
         self.bonds_collection
-            .append(self.rule.time.of(record, view), name)
+            .append(self.rule.time.value(record, view), name)
     }
 }
 
 impl Time {
-    fn of(self, record: &StepRecord, view: &View<'_>) -> f64 {
+    fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
         match (self, view.boundary.control.kind) {
             (Self::Step, _) => record.step as f64,
             (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {

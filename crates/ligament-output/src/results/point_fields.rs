@@ -21,13 +21,13 @@ pub struct BodyGrid {
     pub positions: Vec<[f64; 2]>,
     /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
     pub tags: Vec<i64>,
-    /// What a tag is one of: `node` or `cell`.
+    /// The noun that tags belong to: `node` or `cell`.
     pub tagged: &'static str,
-    /// What the fields of the points are drawn on.
+    /// The cells on which the fields of the points are drawn.
     pub canvas: Canvas,
 }
 
-/// What the fields of the points are drawn on.
+/// The cells on which the fields of the points are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Canvas {
     /// Cells between the points, whose fields are point data.
@@ -280,7 +280,9 @@ mod tests {
         let Attribute::DataArray(array) = &piece.data.point[0] else {
             panic!("no array");
         };
-        let expected: Vec<f64> = (moved.iter()).flat_map(|it| [*it; 4].concat()).collect();
+        let expected: Vec<f64> = (moved.iter())
+            .flat_map(|corner| [*corner; 4].concat())
+            .collect();
         assert_eq!(array.data.clone().into_vec::<f64>().unwrap(), expected);
     }
 }
