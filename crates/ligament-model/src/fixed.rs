@@ -36,3 +36,20 @@ pub enum Absence {
     /// A hole lies between them.
     Hole,
 }
+
+impl Absence {
+    /// The number that stands for the reason in files.
+    pub fn number(self) -> i64 {
+        match self {
+            Self::PreCrack => 1,
+            Self::Hole => 2,
+        }
+    }
+
+    /// The reason that a number in a file stands for; None for a bond.
+    pub fn from_number(number: i64) -> Option<Self> {
+        [Self::PreCrack, Self::Hole]
+            .into_iter()
+            .find(|absence| absence.number() == number)
+    }
+}

@@ -1,7 +1,7 @@
 //! The formulation that a setup chooses: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
-use ligament_model::correction::{Correction, domain, length, partial_volume, surface};
+use ligament_model::correction::{Continuum, Correction, domain, length, partial_volume, surface};
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
@@ -85,7 +85,11 @@ pub fn correction(
         Surface::Domain(iteration) => {
             let sweeps = iteration.sweeps(bonds.len());
             let (materials, plane) = (setup.materials(), setup.plane());
-            domain::iterate(bonds, cloud, stiffness, alpha, &materials, plane, sweeps)
+            let continuum = Continuum {
+                materials: &materials,
+                plane,
+            };
+            domain::iterate(bonds, cloud, stiffness, alpha, continuum, sweeps)
         }
         Surface::Volume => {
             let factors = surface::surface_factors(bonds, cloud, horizons, &alpha);

@@ -1,4 +1,8 @@
 //! Peridynamics in memory: a typed setup in, a broken body out.
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
+)]
 
 pub mod body;
 pub mod error;
@@ -9,6 +13,7 @@ pub mod run;
 pub mod setup;
 pub mod stage;
 pub mod suggestion;
+pub mod units;
 pub mod warning;
 
 pub use body::Body;

@@ -9,7 +9,8 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::modal::ModalOutcome;
 use ligament_model::{BodyGrid, FixedFields};
 
-use super::point_fields::{fixed_fields, in_plane, write_grid};
+use super::grid::{fixed_fields, write_grid};
+use super::point_fields::in_plane;
 use crate::Error;
 use crate::csv::Table;
 use crate::folder::ResultFolder;

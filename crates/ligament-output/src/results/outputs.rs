@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use ligament_model::Absence;
 
-use super::model_file::{MODEL, absence_with_number};
+use super::model_file::MODEL;
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
-/// What the outputs of a folder are.
+/// The kinds of outputs that a folder can hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
     /// States of a body at load steps or events: `fields_NNNN.vtu`.
@@ -25,9 +25,9 @@ pub enum OutputKind {
 pub struct Outputs {
     /// The folder.
     pub folder: PathBuf,
-    /// What they are.
+    /// The kind of all outputs in the folder.
     pub kind: OutputKind,
-    /// Their files by the number of the step or the mode; one or more.
+    /// Files of the outputs by the number of the step or the mode; one or more.
     pub files: BTreeMap<usize, PathBuf>,
 }
 
@@ -67,7 +67,7 @@ impl OutputKind {
     }
 }
 
-/// What the results in a folder are.
+/// The kind of the results in a folder.
 pub fn kind_of(folder: &Path) -> OutputKind {
     if folder.join("modes.csv").is_file() {
         OutputKind::Modes
@@ -76,7 +76,7 @@ pub fn kind_of(folder: &Path) -> OutputKind {
     }
 }
 
-/// Sees to it that a run has written to a folder.
+/// Makes sure that a run has written to a folder.
 ///
 /// # Errors
 ///
@@ -118,7 +118,7 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     let tags = tags.ok_or_else(|| file.strange("its points have no tags"))?;
     let absent = file.integers(FieldLocation::Cell, "absent")?;
     let absent = absent.ok_or_else(|| file.strange("it has no cell field absent"))?;
-    let is_cut = |number: &i64| absence_with_number(*number) == Some(Absence::PreCrack);
+    let is_cut = |number: &i64| Absence::from_number(*number) == Some(Absence::PreCrack);
     if !absent.iter().any(is_cut) {
         return Ok(Some(Vec::new()));
     }
@@ -145,8 +145,8 @@ pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize
     for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let name = path.file_name().and_then(|name| name.to_str());
-        let number = name.and_then(|it| {
-            it.strip_prefix(stem)?
+        let number = name.and_then(|name| {
+            name.strip_prefix(stem)?
                 .strip_prefix('_')?
                 .strip_suffix(".vtu")
         });
