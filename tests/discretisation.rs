@@ -114,7 +114,7 @@ fn the_horizon_is_inclusive_on_a_lattice() {
         let bonds = BondSet::search(&cloud, &Horizons::from_spacing(&cloud.spacing, 3.0));
         for j in 3..=n - 3 {
             for i in 3..=n - 3 {
-                let family = bonds.incidence.of(j * (n + 1) + i);
+                let family = bonds.incidence.at(j * (n + 1) + i);
                 assert_eq!(family.len(), 28, "side {side}, point ({i}, {j})");
             }
         }

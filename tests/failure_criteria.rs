@@ -347,7 +347,7 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                     let criteria = &bench.model.criteria;
                     criteria.utilisation(bond, &BondElement::of(system, &[], bond).deformation(&u))
                 };
-                let family = system.bonds.incidence.of(middle).iter();
+                let family = system.bonds.incidence.at(middle).iter();
                 100.0 * (1.0 / family.map(utilisation).fold(0.0, f64::max) - 1.0)
             };
             let worst = (0..=100).map(excess).fold(0.0, f64::max);

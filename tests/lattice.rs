@@ -52,7 +52,7 @@ fn families_and_bonds_are_counted_in_closed_form() {
             let offsets = half_of_offsets(spacing, m * nearest);
             let expected: usize = offsets.iter().map(|&offset| count(offset)).sum();
             assert_eq!(bonds.len(), expected, "m = {m}, {spacing:?}");
-            let middle = bonds.incidence.of(8 * 21 + 10).len();
+            let middle = bonds.incidence.at(8 * 21 + 10).len();
             assert_eq!(middle, 2 * offsets.len(), "m = {m}, {spacing:?}");
             assert!(dx != dy || middle == family, "m = {m}");
             let unified = Horizons::unified(m * nearest, cloud.len());

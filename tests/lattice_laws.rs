@@ -201,7 +201,8 @@ fn moduli_are_those_of_the_infinite_lattice() {
             .collect();
         let system = Bench::new(PLATE, &all).model.system;
         let middle = (cells * cells / 2) as u32;
-        let in_plane = EngineeringConstants::of(family_stiffness(&system, middle)).unwrap();
+        let in_plane =
+            EngineeringConstants::from_stiffness(family_stiffness(&system, middle)).unwrap();
         let found = as_plane(plane, in_plane);
         let shear = 70e9 / (2.0 * (1.0 + nu));
         let expected = ["young", "poisson", "shear"].map(|column| reference.number(row, column));

@@ -290,7 +290,8 @@ load = [{ group = "all", force = { x = 1.0 } }]
     let middle = 41 * 41 / 2;
     let young = [Law::Bbpd, Law::BbpdConical].map(|law| {
         let system = bench(law, lattice, &[]).model.system;
-        let constants = EngineeringConstants::of(family_stiffness(&system, middle)).unwrap();
+        let constants =
+            EngineeringConstants::from_stiffness(family_stiffness(&system, middle)).unwrap();
         constants.young[0] / 15e9
     });
     println!(

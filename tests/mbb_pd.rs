@@ -82,7 +82,7 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
     let bench = Bench::new(PLATE, &[]);
     let system = &bench.model.system;
     let lengths = |at: [f64; 2]| -> f64 {
-        let family = system.bonds.incidence.of(point_at(&bench, at) as u32);
+        let family = system.bonds.incidence.at(point_at(&bench, at) as u32);
         family
             .iter()
             .map(|&bond| system.bonds.length[bond as usize])
@@ -103,7 +103,7 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
         let mut family = system
             .bonds
             .incidence
-            .of(interior)
+            .at(interior)
             .iter()
             .map(|&bond| bond as usize);
         let bond = family.find(|&bond| offset(&bench, bond) == wanted).unwrap();

@@ -185,7 +185,7 @@ impl Case {
         }
         let inside = interior(system, &model.body.rim(), &model.fixed.precrack_share);
         fields.integers("interior", inside.iter().map(|&it| i64::from(it)));
-        let sizes = (0..system.cloud.len() as u32).map(|it| system.bonds.incidence.of(it).len());
+        let sizes = (0..system.cloud.len() as u32).map(|it| system.bonds.incidence.at(it).len());
         fields.integers("bonds", sizes.map(|it| it as i64));
         fields.tags(&model);
         expected.write(&self.folder);

@@ -3,7 +3,7 @@
 //! The tests lie beside this folder, one file for each question: do the numbers agree with an independent calculation
 //! (`reference_values`), does the method keep what it must keep (`discretisation`, `lattice`, `symmetry`, `equilibrium`,
 //! `breaking`, `connectivity`, `exact_path`), does it meet closed forms (`physics`, `loads`, `pressure`, `lame`, `exact_path`) and the
-//! values of the papers (`published`), are the crates arranged as they should be (`architecture`) and are the cases in order
+//! values of the papers (`published`), are the crates arranged as they should be (`architecture`, inside: `structure`) and are the cases in order
 //! (`cases`).
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 

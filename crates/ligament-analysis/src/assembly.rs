@@ -180,7 +180,7 @@ fn lower_neighbours(
     let bonds = system
         .bonds
         .incidence
-        .of(point as u32)
+        .at(point as u32)
         .iter()
         .map(|&bond| bond as usize);
     bonds
@@ -226,7 +226,7 @@ fn diagonal_block<B: PairKinematics>(
     point: usize,
 ) -> Matrix3<f64> {
     let mut block = Matrix3::zeros();
-    for &bond in system.bonds.incidence.of(point as u32) {
+    for &bond in system.bonds.incidence.at(point as u32) {
         let bond = bond as usize;
         let is_first_end = system.bonds.ends[bond][0] as usize == point;
         let offset = if is_first_end { 0 } else { COMPONENTS };

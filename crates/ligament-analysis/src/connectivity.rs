@@ -48,7 +48,7 @@ impl Fragments {
             while next < reached.len() {
                 let point = reached[next];
                 next += 1;
-                for &bond in system.bonds.incidence.of(point) {
+                for &bond in system.bonds.incidence.at(point) {
                     let neighbour = system.bonds.neighbour(bond, point);
                     if intact[bond as usize] && of_point[neighbour as usize] == u32::MAX {
                         of_point[neighbour as usize] = fragment;
@@ -127,7 +127,7 @@ impl Fragments {
 pub(crate) fn rigid_motions<'a>(system: &'a BondSystem, points: &[u32]) -> RigidMotions<'a> {
     let mut bonds = points
         .iter()
-        .flat_map(|&point| system.bonds.incidence.of(point));
+        .flat_map(|&point| system.bonds.incidence.at(point));
     let resists = |&bond: &u32| {
         let bond = bond as usize;
         system.shear_rigidity[bond] != 0.0 || system.rotational_rigidity[bond] != 0.0

@@ -17,7 +17,7 @@ pub fn damage(system: &BondSystem, intact: &[bool]) -> Vec<f64> {
 /// Damage of one point, see [`damage`].
 pub fn point_damage(system: &BondSystem, intact: &[bool], point: u32) -> f64 {
     let (mut broken, mut all) = (0.0, 0.0);
-    for &bond in system.bonds.incidence.of(point) {
+    for &bond in system.bonds.incidence.at(point) {
         let weight = system.weight[bond as usize];
         all += weight;
         if !intact[bond as usize] {
@@ -81,7 +81,7 @@ pub fn point_damage_by(
             .fold(1.0, f64::min)
     };
     let (mut lost, mut all) = (0.0, 0.0);
-    for &bond in system.bonds.incidence.of(point) {
+    for &bond in system.bonds.incidence.at(point) {
         let volume = system.cloud.volumes[system.bonds.neighbour(bond, point) as usize];
         let weight = system.weight[bond as usize] * volume;
         all += weight;
@@ -94,7 +94,7 @@ pub fn point_damage_by(
 /// volume.
 pub fn dissipated_energy_density(system: &BondSystem, dissipated: &[f64]) -> Vec<f64> {
     gather(system, |point| {
-        let bonds = system.bonds.incidence.of(point).iter();
+        let bonds = system.bonds.incidence.at(point).iter();
         let shares = bonds.map(|&bond| system.share(bond, point) * dissipated[bond as usize]);
         shares.sum::<f64>() / system.cloud.volumes[point as usize]
     })
@@ -119,7 +119,7 @@ pub fn point_energy_density(
     deformations: &[BondDeformation],
     point: u32,
 ) -> f64 {
-    let family = system.bonds.incidence.of(point).iter();
+    let family = system.bonds.incidence.at(point).iter();
     let energy: f64 = family
         .filter_map(|&bond| {
             let element = bonds.element(system, bond as usize)?;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
 const COUNTED: [&str; 1] = ["warnings"];

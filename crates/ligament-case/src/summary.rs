@@ -10,6 +10,7 @@ use ligament_analysis::Boundary;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::equilibrium::Stability;
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 
 use crate::case::{CaseFile, Units};
 use crate::model::Model;
@@ -31,6 +32,7 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_change: Option<Spread>,
     /// Units of the displacement and the force of the first load, or of the temperature where it is the load.
+    #[serde(serialize_with = "write_units")]
     pub units: Units,
     /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
@@ -93,6 +95,14 @@ impl From<LoadPoint> for PathPoint {
             load_factor,
         }
     }
+}
+
+/// Writes the units of displacement and force; that of their quotient follows.
+fn write_units<S: Serializer>(units: &Units, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(2))?;
+    map.serialize_entry("displacement", units.displacement)?;
+    map.serialize_entry("force", units.force)?;
+    map.end()
 }
 
 /// Why the run ended.

@@ -36,7 +36,7 @@ pub struct Eigenpairs {
     pub products: usize,
 }
 
-/// How to find them.
+/// Settings of the search for eigenvalues.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
     /// Number of pairs.

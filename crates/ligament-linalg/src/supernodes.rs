@@ -10,8 +10,8 @@ use faer::sparse::linalg::cholesky::{SymbolicCholesky, SymbolicCholeskyRaw};
 pub(crate) struct Supernodes<'a>(Option<&'a SymbolicSupernodalCholesky<usize>>);
 
 impl<'a> Supernodes<'a> {
-    /// Those of an analysis; a matrix without unknowns has none.
-    pub(crate) fn of(cholesky: &'a SymbolicCholesky<usize>) -> Self {
+    /// The supernodes of a symbolic analysis; a matrix without unknowns has none.
+    pub(crate) fn from_analysis(cholesky: &'a SymbolicCholesky<usize>) -> Self {
         match cholesky.raw() {
             SymbolicCholeskyRaw::Supernodal(structure) => Self(Some(structure)),
             SymbolicCholeskyRaw::Simplicial(_) => Self(None),

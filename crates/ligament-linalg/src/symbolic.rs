@@ -10,7 +10,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
-use crate::factorisation::FactorError;
+use crate::factor_error::FactorError;
 use crate::matrix::{Pattern, SymmetricMatrix};
 use crate::supernodes::Supernodes;
 
@@ -101,7 +101,7 @@ impl Symbolic {
 
     /// The panels of the factor.
     pub(crate) fn supernodes(&self) -> Supernodes<'_> {
-        Supernodes::of(&self.cholesky)
+        Supernodes::from_analysis(&self.cholesky)
     }
 
     /// Index in the matrix of each row of the factor, shape (n).

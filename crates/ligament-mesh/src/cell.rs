@@ -10,7 +10,7 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// Its corner nodes, in order around the cell.
+    /// The corner nodes of the cell, in order around it.
     pub fn corners(&self) -> &[u32] {
         match self {
             Cell::Triangle(corners) => corners,
@@ -18,7 +18,7 @@ impl Cell {
         }
     }
 
-    /// Its corner nodes, to be renumbered or turned around.
+    /// The corner nodes of the cell, to be renumbered or turned around.
     pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
         match self {
             Cell::Triangle(corners) => corners,
@@ -26,7 +26,7 @@ impl Cell {
         }
     }
 
-    /// Its area with the nodes at `positions`, m²; negative where its corners stand clockwise.
+    /// The area of the cell with the nodes at `positions`, m²; negative where the corners stand clockwise.
     ///
     /// # Panics
     /// If a corner is no index into `positions`.

@@ -3,7 +3,7 @@
 /// A physical group of the mesh file: a named set of nodes, with the edges or cells that made it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
-    /// Its name; where the file gives none, its number in decimal.
+    /// Name of the group; where the file gives none, the number of the group in decimal.
     pub name: String,
     /// Dimension: 0 points, 1 curves, 2 surfaces.
     pub dimension: u8,

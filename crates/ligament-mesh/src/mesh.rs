@@ -20,7 +20,7 @@ pub struct Mesh {
     pub groups: Vec<Group>,
     /// Values at the nodes, in the order of the file.
     pub fields: Vec<NodeField>,
-    /// What was read in another way than it stands in the file, for the user to know.
+    /// Remarks for the user on what was read otherwise than it stands in the file.
     pub remarks: Vec<Remark>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Something of the file that was read in another way than it stands there.
+/// A remark on something that was read otherwise than it stands in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Remark {
     /// Cells of second or higher order, of which only the corner nodes were taken.
@@ -19,7 +19,7 @@ pub enum Remark {
     },
     /// A physical group that the file names or uses, but in which no node of a cell is left.
     EmptyGroup {
-        /// Its name, or its number in decimal.
+        /// Name of the group, or its number in decimal.
         name: String,
         /// Dimension: 0 points, 1 curves, 2 surfaces, 3 volumes.
         dimension: u8,

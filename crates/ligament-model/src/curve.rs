@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-/// Steps of the curve: it tells places apart that differ by 2^-STEPS of the box around the points.
+/// Steps of the curve, which separates places that differ by 2^-STEPS of the box around the points.
 const STEPS: u32 = 31;
 
 /// All points, each once, in the order in which a Hilbert curve through the square around them meets them, shape
@@ -61,7 +61,7 @@ fn hilbert_index(mut x: u64, mut y: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// What makes the curve a Hilbert curve: it meets every cell of a grid, and each beside the last one.
+    /// A Hilbert curve meets every cell of a grid, and each beside the last one.
     #[test]
     fn the_curve_goes_from_cell_to_neighbouring_cell() {
         const SIDE: usize = 16;

@@ -21,14 +21,14 @@ impl Horizons {
         }
     }
 
-    /// The same radius (m) for each of `n_points` points.
+    /// Horizons of one radius (m) for all of `n_points` points.
     pub fn unified(radius: f64, n_points: usize) -> Self {
         Self {
             radius: vec![radius; n_points],
         }
     }
 
-    /// Whether something at this distance from the point lies in the point's horizon.
+    /// Whether the horizon of a point reaches to a given distance (m) from the point.
     pub fn contains(&self, point: u32, distance: f64) -> bool {
         distance <= self.radius[point as usize] * (1.0 + INCLUSION_TOLERANCE)
     }

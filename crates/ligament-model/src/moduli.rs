@@ -16,7 +16,7 @@ use crate::system::BondSystem;
 /// this is the stiffness of the body.
 pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
     if let Some(elements) = &system.imaginary {
-        let family = system.bonds.incidence.of(point).iter();
+        let family = system.bonds.incidence.at(point).iter();
         let sum = family.fold(Matrix3::zeros(), |sum, &bond| {
             let share = system.share(bond, point);
             sum + share * matrix(elements.stiffness[bond as usize].entries)
@@ -27,7 +27,7 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
     // Of the shear for a common rotation of size one, which is -1 for every bond.
     let mut coupling = Vector3::zeros();
     let mut rotation = 0.0;
-    for &bond in system.bonds.incidence.of(point) {
+    for &bond in system.bonds.incidence.at(point) {
         let bond = bond as usize;
         let [a, b] = system.bonds.direction[bond];
         let stretch = Vector3::new(a * a, b * b, a * b);
@@ -57,8 +57,9 @@ pub struct EngineeringConstants {
 }
 
 impl EngineeringConstants {
-    /// The constants of a stiffness (3, 3), Pa: reciprocals of the entries of its inverse. None where it has none.
-    pub fn of(stiffness: Matrix3<f64>) -> Option<Self> {
+    /// The constants that belong to a stiffness (3, 3), Pa: reciprocals of the entries of its inverse. None where the
+    /// stiffness has no inverse.
+    pub fn from_stiffness(stiffness: Matrix3<f64>) -> Option<Self> {
         let compliance = stiffness.try_inverse()?;
         Some(Self {
             young: [1.0 / compliance[(0, 0)], 1.0 / compliance[(1, 1)]],

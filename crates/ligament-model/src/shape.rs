@@ -29,7 +29,7 @@ impl Shape {
         Self::Polygon(vec![a, [b[0], a[1]], b, [a[0], b[1]]])
     }
 
-    /// The same shape elsewhere.
+    /// The shape moved by a vector, m.
     pub fn moved(&self, by: [f64; 2]) -> Self {
         let move_point = |p: &[f64; 2]| [p[0] + by[0], p[1] + by[1]];
         match self {

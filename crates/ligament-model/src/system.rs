@@ -114,8 +114,8 @@ impl BondSystem {
     pub fn coupled_points(&self, point: u32) -> impl Iterator<Item = u32> + '_ {
         // Of a pair a bond holds the other end, of other elements the list holds it as it is.
         let (entries, are_bonds) = match &self.imaginary {
-            None => (self.bonds.incidence.of(point), true),
-            Some(elements) => (elements.neighbours.of(point), false),
+            None => (self.bonds.incidence.at(point), true),
+            Some(elements) => (elements.neighbours.at(point), false),
         };
         entries.iter().map(move |&entry| {
             if are_bonds {
@@ -129,8 +129,8 @@ impl BondSystem {
     /// The bonds whose elements couple a point, ascending; with imaginary elements more than those that end there.
     pub fn elements_of(&self, point: u32) -> &[u32] {
         match &self.imaginary {
-            None => self.bonds.incidence.of(point),
-            Some(elements) => elements.couplings.of(point),
+            None => self.bonds.incidence.at(point),
+            Some(elements) => elements.couplings.at(point),
         }
     }
 }

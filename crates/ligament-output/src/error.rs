@@ -46,7 +46,7 @@ pub enum Error {
     Unreadable {
         /// The file meant.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason why the file cannot be used.
         reason: String,
     },
     /// A folder that should hold the results of a run and does not.
@@ -54,7 +54,7 @@ pub enum Error {
     NoResults {
         /// The folder meant.
         path: PathBuf,
-        /// Why not, and what to do.
+        /// The reason, and what to do.
         reason: String,
     },
     /// A grid without points or without cells, which VTU readers do not accept.
@@ -78,7 +78,7 @@ pub enum Error {
         path: PathBuf,
         /// Index of the cell.
         cell: usize,
-        /// The point it names.
+        /// The point that the cell names.
         point: u32,
         /// Points given.
         n_points: usize,

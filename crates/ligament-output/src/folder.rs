@@ -54,10 +54,10 @@ impl ResultFolder {
         Self::admit(path, RESOLVED_CASE, replace).map(|_| ())
     }
 
-    /// What is in the place of the folder, if a run may put its results there.
+    /// The occupant of the folder's place, if a run may put its results there.
     fn admit(path: &Path, marker: &'static str, replace: bool) -> Result<Occupant, Error> {
         let path_buf = || path.to_path_buf();
-        match Occupant::of(path, marker)? {
+        match Occupant::at_path(path, marker)? {
             Occupant::Results if !replace => Err(Error::ResultsExist { path: path_buf() }),
             Occupant::OtherFiles => Err(Error::NotAResultFolder {
                 path: path_buf(),
@@ -84,7 +84,7 @@ impl ResultFolder {
     }
 }
 
-/// What is in the place of a result folder.
+/// The occupant of the place of a result folder.
 enum Occupant {
     Nothing,
     EmptyFolder,
@@ -94,7 +94,7 @@ enum Occupant {
 }
 
 impl Occupant {
-    fn of(path: &Path, marker: &str) -> Result<Self, Error> {
+    fn at_path(path: &Path, marker: &str) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Nothing),

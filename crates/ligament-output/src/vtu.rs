@@ -76,7 +76,7 @@ pub enum FieldValues<'a> {
     Integer(&'a [i64]),
     /// Named components, such as those of a stress, one point or cell after the other.
     Components {
-        /// Their names, which readers show.
+        /// Names of the components, which readers show.
         names: &'a [&'a str],
         /// The values, shape (n, number of names).
         values: &'a [f64],

@@ -39,7 +39,7 @@ pub fn point_stress(
     point: u32,
 ) -> SymmetricStress {
     let mut sum = [0.0; 3];
-    for &bond in system.bonds.incidence.of(point) {
+    for &bond in system.bonds.incidence.at(point) {
         let Some(element) = bonds.element(system, bond as usize) else {
             continue;
         };

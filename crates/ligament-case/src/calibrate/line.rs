@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use ligament_output::csv::read::Sheet;
 
 use crate::line_fit::{FitError, LineFit};
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// What is to be read off a line.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::key_path::KeyPath;
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// What is wrong with a key or its value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

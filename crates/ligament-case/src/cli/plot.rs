@@ -4,11 +4,12 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::picture::colour_map::ColourMap;
-use crate::picture::curve::{CurveRequest, draw_curves};
-use crate::picture::select::Choice;
-use crate::picture::{FieldRequest, Magnification, Target, draw_fields};
+use ligament_plot::picture::colour_map::ColourMap;
+use ligament_plot::picture::curve::{CurveRequest, draw_curves};
+use ligament_plot::picture::select::Choice;
+use ligament_plot::picture::{FieldRequest, Magnification, Target, draw_fields};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -56,7 +57,7 @@ pub struct PlotArgs {
     #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = range)]
     pub range: Option<[f64; 2]>,
     /// Colours [default: viridis; diverging for values of both signs]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = maps())]
     pub map: Option<ColourMap>,
     /// Bodies in a row
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
@@ -180,6 +181,18 @@ fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
         .ok_or_else(|| {
             "expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()
         })
+}
+
+/// Colour maps by their names.
+fn maps() -> impl TypedValueParser<Value = ColourMap> {
+    let possible = ColourMap::ALL.map(ColourMap::words);
+    let possible = possible.map(|[name, help]| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(possible).try_map(|name| {
+        let map = ColourMap::ALL
+            .into_iter()
+            .find(|map| map.words()[0] == name);
+        map.ok_or("no such map")
+    })
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use ligament_output::results::stored::{
 
 use super::strains::Strains;
 use crate::case::Units;
-use crate::stored_loading::StoredLoading;
+use ligament_plot::stored_loading::StoredLoading;
 
 /// The lives of some bonds, over the same moments.
 #[derive(Debug)]

@@ -17,7 +17,7 @@ use ligament_output::results::stored::StoredRun;
 use thiserror::Error;
 
 use self::life::{Lives, bonds_of, pair_of};
-use crate::stored_loading::stored_loading;
+use ligament_plot::stored_loading::stored_loading;
 
 /// What to explain.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -39,7 +39,7 @@ impl Strains {
         let of_ends = (0..).zip(&ends);
         let of_ends = of_ends.flat_map(|(bond, ends)| ends.map(|end| (end, bond)));
         let bonds = BondSet {
-            incidence: Incidence::of_pairs(of_ends, model.positions.len()),
+            incidence: Incidence::from_pairs(of_ends, model.positions.len()),
             direction: (offsets.iter().zip(&length))
                 .map(|(offset, length)| offset.map(|it| it / length))
                 .collect(),

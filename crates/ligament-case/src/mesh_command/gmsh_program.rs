@@ -9,7 +9,7 @@ use ligament_mesh::Mesh;
 use ligament_mesh::gmsh::{self, GmshError};
 
 use super::{Unfinished, indented, is_same_file};
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// A mesh to be made.
 #[derive(Debug, Clone, PartialEq)]

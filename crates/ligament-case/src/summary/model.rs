@@ -118,7 +118,7 @@ fn formulation_words(case: &CaseFile, model: &Model) -> String {
 /// Numbers of bonds of the points.
 pub fn family(model: &Model) -> Spread {
     let incidence = &model.system.bonds.incidence;
-    Spread::of((0..incidence.n_points() as u32).map(|point| incidence.of(point).len() as f64))
+    Spread::of((0..incidence.n_points() as u32).map(|point| incidence.at(point).len() as f64))
 }
 
 impl CorrectionSummary {

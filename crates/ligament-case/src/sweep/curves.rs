@@ -6,7 +6,7 @@ use super::table::{NoColumn, StudyTable};
 use crate::case::key_path::KeyPath;
 use crate::case::units::unit_of;
 use crate::line_fit::{FitError, LineFit};
-use crate::plots::{Colour, Mark, Plot, Series};
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// Colours of curves, which begin anew where there are more; black is for what is known.
 const COLOURS: [Colour; 6] = [

@@ -14,9 +14,9 @@ use super::table;
 use super::table::{NoColumn, Row, StudyTable};
 use crate::case::key_path::KeyPath;
 use crate::case::{CaseError, Fault};
-use crate::plots::Paper;
-use crate::plots::png::to_png;
 use crate::quantities::{Quantities, QuantityError};
+use ligament_plot::plots::Paper;
+use ligament_plot::plots::png::to_png;
 
 /// Width of a plot, mm, ...
 const WIDTH: f64 = 160.0;

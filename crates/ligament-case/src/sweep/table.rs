@@ -11,7 +11,7 @@ use super::record::Status;
 use super::study::Study;
 use super::written::words;
 use crate::quantities::{Quantities, flatten};
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// What stands before the keys of inputs, so that they are told from results.
 pub(super) const INPUT: &str = "case.";

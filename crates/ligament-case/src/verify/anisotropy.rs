@@ -171,11 +171,11 @@ fn anisotropy(
         .collect();
     let sizes = inside
         .iter()
-        .map(|&point| system.bonds.incidence.of(point).len() as f64);
+        .map(|&point| system.bonds.incidence.at(point).len() as f64);
     let errors = inside
         .iter()
         .filter_map(|&point| Some(yields[point as usize]?.worst.error));
-    let errors = Distribution::of(errors.collect()).context("nothing yields")?;
+    let errors = Distribution::from_values(errors.collect()).context("nothing yields")?;
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0);
     for degrees in 0..180u32 {
         let orientation = f64::from(degrees).to_radians();

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use ligament_output::folder::ResultFolder;
 
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 mod anisotropy;
 mod cracks;
@@ -39,7 +39,7 @@ mod tension;
 mod trial;
 mod yielding;
 
-pub use crate::plots;
+pub use ligament_plot::plots;
 
 use entry::Verdict;
 use plots::Plot;

@@ -83,7 +83,7 @@ fn constants(
     memory.of(trial.command(), || {
         let system = trial.model()?.system;
         let middle = system.cloud.nearest_point([0.0, 0.0]);
-        EngineeringConstants::of(family_stiffness(&system, middle))
+        EngineeringConstants::from_stiffness(family_stiffness(&system, middle))
             .context("the family has no stiffness")
     })
 }

@@ -8,7 +8,7 @@ use ligament_model::yielding::{Family, PrincipalStretches, Worst, margin, printe
 use ligament_model::{Isotropic, Plane};
 
 use super::YieldError;
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// A criterion with one limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,9 +9,9 @@ use ligament_output::folder::ResultFolder;
 
 use super::SUMMARY;
 use super::subject::{Strain, Subject};
-use crate::plots::equal::EqualScales;
-use crate::plots::polar::PolarPlot;
-use crate::plots::{Colour, Mark, Plot, Series};
+use ligament_plot::plots::equal::EqualScales;
+use ligament_plot::plots::polar::PolarPlot;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// Families of bonds under one criterion, or several of which the first that is met decides.
 #[derive(Debug, Clone)]

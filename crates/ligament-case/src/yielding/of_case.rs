@@ -16,11 +16,11 @@ use super::subject::{Strain, Subject};
 use super::{Place, Request, SUMMARY, YieldError, console};
 use crate::case::{CaseFile, Law};
 use crate::model::{Model, build_model};
-use crate::plots::{Colour, Mark, Plot, Series};
 use crate::progress::{Progress, ProgressMode};
 use crate::resolve;
 use crate::stages::Stages;
 use crate::summary::heading;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// Diagrams of one point.
 pub(super) fn point(
@@ -96,7 +96,7 @@ fn field_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> any
     let poisson = poisson(request, case, &model)?;
     let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
     let sizes: Vec<i64> = (0..system.cloud.len() as u32)
-        .map(|point| system.bonds.incidence.of(point).len() as i64)
+        .map(|point| system.bonds.incidence.at(point).len() as i64)
         .collect();
     let size = mean_size(&sizes, &is_interior);
     let ratio = lattice::ratio_of_size(size);
@@ -255,7 +255,7 @@ impl Layer {
             }
         })?;
         Some(Summary {
-            errors: Distribution::of(errors)?,
+            errors: Distribution::from_values(errors)?,
             point: first.0 as u32,
             orientation: first.1.orientation,
         })

@@ -73,7 +73,7 @@ impl Subject {
 
     /// A point of a body; the criteria are those of the body's bonds.
     pub fn of_point(name: String, system: &BondSystem, criteria: &Criteria, point: u32) -> Self {
-        let bonds = system.bonds.incidence.of(point);
+        let bonds = system.bonds.incidence.at(point);
         let angle = |&bond: &u32| {
             let [a, b] = system.bonds.direction[bond as usize];
             b.atan2(a)

@@ -4,8 +4,11 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::{DiagonalEntry, TERMS_AT_ONCE, VANISHING_PIVOT};
-use crate::storage::Form;
+use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
+use crate::panels::Form;
+
+/// Terms that go through the factor at once: their part of a panel stays in the cache.
+pub(super) const TERMS_AT_ONCE: usize = 32;
 
 /// Columns of a panel that are changed together.
 const BLOCK: usize = 4;
@@ -17,14 +20,14 @@ pub(super) struct Terms {
     weights: Vec<f64>,
     /// The terms that are not zero in the columns of the panel.
     active: Vec<usize>,
-    /// Their rows of the panel, one term after another, shape (active, height).
+    /// Rows of the panel of the active terms, one term after another, shape (active, height).
     rows: Vec<f64>,
     height: usize,
-    /// For each active term what it does to the columns of a block.
+    /// For each active term, its action on the columns of a block.
     rotations: Vec<[Rotation; BLOCK]>,
 }
 
-/// What a term does to a column l of the factor, below the diagonal: w <- w - c l, then l <- p l + q w.
+/// The action of a term on a column l of the factor, below the diagonal: w <- w - c l, then l <- p l + q w.
 #[derive(Debug, Clone, Copy, Default)]
 struct Rotation {
     c: f64,
@@ -234,8 +237,8 @@ fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     (Rotation { c: w, p: 1.0, q }, new)
 }
 
-/// The same where the diagonal holds the square root of the pivot, and each column is that root times the one of a unit
-/// L. Worthless where the new pivot is not positive.
+/// One step as [`rotate`] does it where the diagonal holds the square root of the pivot, and each column is that root times
+/// the column of a unit L. The result is worthless where the new pivot is not positive.
 #[inline(always)]
 fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     let old = *root;

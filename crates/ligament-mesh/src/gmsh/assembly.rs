@@ -3,14 +3,11 @@
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{Element, Node, Records};
+use super::records::{Corners, Element, Node, Records};
 use super::tags::NodeIndices;
 use super::{cells, fields, groups, nodes};
 use crate::mesh::Mesh;
 use crate::remark::Remark;
-
-/// Indices of the corners of an element; none behind the last, and where the node was dropped.
-pub(super) type Corners = [Option<u32>; 4];
 
 /// What the planar cells use a node for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,12 +43,12 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
     let (planar, cell_of_element) = cells::merge_repeated(cursor, records, planar)?;
     let higher_order = planar
         .iter()
-        .filter(|it| records.elements[it.element].higher_order);
+        .filter(|cell| records.elements[cell.element].higher_order);
     let mut remarks = remarks(higher_order.count(), &uses);
     let groups = groups::collect(records, &corners, &cell_of_element, &mut remarks);
     let fields = fields::on_nodes(records, &by_tag, &numbers, kept.len());
     let node_tags = kept.iter().map(|node| node.tag).collect();
-    let cells = planar.into_iter().map(|it| it.cell).collect();
+    let cells = planar.into_iter().map(|planar| planar.cell).collect();
     Ok(Mesh {
         node_tags,
         positions,

@@ -1,10 +1,9 @@
 //! The planar cells: their shape, their orientation, and those that stand twice in the file.
 
-use super::assembly::Corners;
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{Element, Records};
+use super::records::{Corners, Element, Records};
 use crate::cell::Cell;
 
 /// Twice the area of a triangle, as a part of its longest side times the mesh size, that counts as none.
@@ -149,7 +148,7 @@ fn first_alike(
     };
     let mut sorted: Vec<([u32; 4], i32, usize)> = planar
         .iter()
-        .map(|it| (key(&it.cell), owner(it), it.element))
+        .map(|cell| (key(&cell.cell), owner(cell), cell.element))
         .collect();
     sorted.sort_unstable();
     let same = |pair: &&[([u32; 4], i32, usize)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);

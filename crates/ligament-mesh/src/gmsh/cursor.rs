@@ -5,11 +5,11 @@ use super::error::{GmshError, Place};
 /// How the numbers of the sections are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Encoding {
-    /// As text, one row of the format per line.
+    /// Numbers as text, one row of the format per line.
     Ascii,
-    /// As bytes, least significant first.
+    /// Numbers as bytes, the least significant first.
     LittleEndian,
-    /// As bytes, most significant first.
+    /// Numbers as bytes, the most significant first.
     BigEndian,
 }
 
@@ -18,7 +18,7 @@ pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     offset: usize,
     encoding: Encoding,
-    /// Name of the current section, and where it begins.
+    /// Name of the current section, and the offset at which it begins.
     section: (&'a str, usize),
 }
 

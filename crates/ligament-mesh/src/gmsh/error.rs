@@ -71,7 +71,7 @@ pub enum GmshError {
     UnknownSection {
         /// Where the section begins.
         place: Place,
-        /// Its name, without the dollar sign.
+        /// Name of the section, without the dollar sign.
         name: String,
     },
     /// The file ends within a section.
@@ -81,7 +81,7 @@ pub enum GmshError {
     TruncatedSection {
         /// Where the section begins.
         place: Place,
-        /// Its name, without the dollar sign.
+        /// Name of the section, without the dollar sign.
         name: String,
     },
     /// A section without which there is no mesh is not in the file.
@@ -89,17 +89,17 @@ pub enum GmshError {
         "the file has no section ${name}; was the geometry meshed (`gmsh -2`) before it was saved?"
     )]
     MissingSection {
-        /// Its name, without the dollar sign.
+        /// Name of the section, without the dollar sign.
         name: &'static str,
     },
     /// Something else stands where the format wants a certain value.
     #[error("{place}: expected {expected}, found {found}; the file is damaged, save it again")]
     Unexpected {
-        /// Where it stands.
+        /// Place of the value in the file.
         place: Place,
-        /// What the format wants here.
+        /// The value that the format wants here, in words.
         expected: &'static str,
-        /// What stands there.
+        /// The text that stands in the file instead.
         found: String,
     },
     /// More items are announced than the rest of the file has room for.
@@ -135,7 +135,7 @@ pub enum GmshError {
     UnknownElementType {
         /// Where the type stands.
         place: Place,
-        /// Its number.
+        /// Gmsh's number of the element type.
         code: i32,
     },
     /// A volume element.
@@ -146,7 +146,7 @@ pub enum GmshError {
     VolumeElement {
         /// Where the type stands.
         place: Place,
-        /// Its number.
+        /// Gmsh's number of the element type.
         code: i32,
     },
     /// A coordinate that is NaN, infinite or of absurd size.
@@ -164,11 +164,11 @@ pub enum GmshError {
     /// Two nodes of the same tag.
     #[error("{place}: the node tag {tag} was already given at {first}; renumber the mesh")]
     DuplicateNodeTag {
-        /// Where the second stands.
+        /// Place of the second of the two nodes.
         place: Place,
-        /// Their tag.
+        /// The tag that both nodes have.
         tag: u64,
-        /// Where the first stands.
+        /// Place of the first of the two nodes.
         first: Place,
     },
     /// An element names a node that the file does not have.
@@ -201,9 +201,9 @@ pub enum GmshError {
         place: Place,
         /// Tag of the node.
         tag: u64,
-        /// Its height, m.
+        /// Height z of the node, m.
         z: f64,
-        /// Height of the first node, m.
+        /// Height z of the first node, m.
         plane: f64,
     },
     /// Two nodes at one place.
@@ -212,15 +212,15 @@ pub enum GmshError {
          (`Coherence Mesh;` in the geometry, or Geometry.AutoCoherence)"
     )]
     CoincidentNodes {
-        /// Where the second stands.
+        /// Place of the second of the two nodes.
         place: Place,
         /// Tag of the second node.
         tag: u64,
         /// Tag of the first node.
         other: u64,
-        /// Their x, m.
+        /// Coordinate x of both nodes, m.
         x: f64,
-        /// Their y, m.
+        /// Coordinate y of both nodes, m.
         y: f64,
     },
     /// A cell that names a corner twice.

@@ -14,7 +14,7 @@ const LARGEST_COORDINATE: f64 = 1e100;
 pub(super) struct Node {
     pub(super) tag: u64,
     pub(super) position: [f64; 3],
-    /// Where it stands in the file.
+    /// Offset of the node in the file, bytes.
     pub(super) offset: usize,
 }
 
@@ -25,11 +25,11 @@ pub(super) struct Element {
     pub(super) shape: Shape,
     /// Tags of the corner nodes; as many count as the shape has corners.
     pub(super) nodes: [u64; 4],
-    /// Whether it has nodes beside its corners.
+    /// Whether the element has nodes beside its corners.
     pub(super) higher_order: bool,
-    /// What decides its groups: the number of the physical group (2.2) or of the entity (4.1).
+    /// Number of the physical group (2.2) or of the entity (4.1), which decides the groups of the element.
     pub(super) owner: i32,
-    /// Where it stands in the file.
+    /// Offset of the element in the file, bytes.
     pub(super) offset: usize,
 }
 
@@ -38,6 +38,9 @@ impl Element {
         &self.nodes[..self.shape.corners()]
     }
 }
+
+/// Indices of the corners of an element; none behind the last, and where the node was dropped.
+pub(super) type Corners = [Option<u32>; 4];
 
 /// The records of a section `$NodeData`.
 #[derive(Debug)]

@@ -5,8 +5,9 @@ use std::fmt::{self, Write};
 
 use crate::mesh::Mesh;
 
-/// The text of a Gmsh file (4.1, ASCII) of a mesh, from which [`parse`](super::parse) makes the same mesh: nodes with their tags and all
-/// digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is in several.
+/// The text of a Gmsh file (4.1, ASCII) of a mesh, from which [`parse`](super::parse) makes an equal mesh: nodes with their
+/// tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is
+/// in several.
 ///
 /// Elements that are in the same groups make an entity, as the format asks for. Fields and remarks are not written.
 ///
@@ -15,7 +16,7 @@ use crate::mesh::Mesh;
 /// If a cell or a group has a node, or a group a cell, that the mesh does not have.
 pub fn write(mesh: &Mesh) -> String {
     let mut text = String::new();
-    let entities = Entities::of(mesh);
+    let entities = Entities::from_mesh(mesh);
     // Writing to a string cannot fail.
     let _ = write_head(&mut text, mesh)
         .and_then(|()| entities.write(&mut text, mesh))
@@ -41,7 +42,7 @@ struct Entities {
 }
 
 impl Entities {
-    fn of(mesh: &Mesh) -> Self {
+    fn from_mesh(mesh: &Mesh) -> Self {
         let mut points: BTreeMap<u32, Memberships> = BTreeMap::new();
         let mut edges: BTreeMap<[u32; 2], Memberships> = BTreeMap::new();
         let mut cells = vec![Memberships::new(); mesh.cells.len()];

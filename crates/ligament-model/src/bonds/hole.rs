@@ -7,8 +7,8 @@ use crate::cloud::PointCloud;
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::Shape;
 
-/// Which bonds meet the inside of a hole (coordinates of the case), shape (n_bonds): by more than 1e-9 of the nearest
-/// distance of their ends, so that rounding does not decide about bonds along a rim.
+/// For each bond, whether it meets the inside of a hole (coordinates of the case) by more than 1e-9 of the nearest distance
+/// of its ends, shape (n_bonds). Without this slack rounding would decide about bonds along a rim.
 pub fn bonds_across(holes: &[Shape], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
     let to_local = cloud.origin.map(|coordinate| -coordinate);
     let holes: Vec<Shape> = holes.iter().map(|hole| hole.moved(to_local)).collect();

@@ -48,7 +48,7 @@ impl BondSet {
     /// Points without any bond, ascending.
     pub fn lone_points(&self) -> Vec<u32> {
         (0..self.incidence.n_points() as u32)
-            .filter(|&point| self.incidence.of(point).is_empty())
+            .filter(|&point| self.incidence.at(point).is_empty())
             .collect()
     }
 
@@ -79,11 +79,11 @@ impl Incidence {
     pub(crate) fn new(ends: &[[u32; 2]], n_points: usize) -> Self {
         let numbered = (0..).zip(ends);
         let pairs = numbered.flat_map(|(bond, ends)| ends.map(|end| (end, bond)));
-        Self::of_pairs(pairs, n_points)
+        Self::from_pairs(pairs, n_points)
     }
 
-    /// What belongs to each of `n_points`, from pairs of a point and what belongs to it, in the order of the pairs.
-    pub fn of_pairs(pairs: impl Iterator<Item = (u32, u32)> + Clone, n_points: usize) -> Self {
+    /// Lists of numbers for `n_points` points, from pairs of a point and a number, in the order of the pairs.
+    pub fn from_pairs(pairs: impl Iterator<Item = (u32, u32)> + Clone, n_points: usize) -> Self {
         let mut offsets = vec![0; n_points + 1];
         for (point, _) in pairs.clone() {
             offsets[point as usize + 1] += 1;
@@ -105,8 +105,8 @@ impl Incidence {
         self.offsets.len() - 1
     }
 
-    /// The bonds of a point, ascending.
-    pub fn of(&self, point: u32) -> &[u32] {
+    /// The list of a point: in [`BondSet::incidence`] its bonds, ascending.
+    pub fn at(&self, point: u32) -> &[u32] {
         &self.bonds[self.offsets[point as usize]..self.offsets[point as usize + 1]]
     }
 }

@@ -23,20 +23,20 @@ use crate::shape::{meet_within, orientation};
 pub struct PreCrack {
     /// Vertices in coordinates of the case, two or more, m.
     pub points: Vec<[f64; 2]>,
-    /// Whether it cuts bonds that only touch it.
+    /// Whether bonds that only touch the pre-crack are cut.
     pub ends: Ends,
 }
 
-/// Whether the ends of a pre-crack belong to it.
+/// Treatment of bonds that only touch a pre-crack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// It cuts bonds that pass through it.
+    /// Only bonds that pass through the pre-crack are cut.
     Excluded,
-    /// It cuts bonds that have a point in common with it.
+    /// Every bond that has a point in common with the pre-crack is cut.
     Included,
 }
 
-/// Which bonds the pre-cracks cut, shape (n_bonds).
+/// For each bond, whether a pre-crack cuts it, shape (n_bonds).
 pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
     if cracks.is_empty() {
         return vec![false; bonds.len()];
@@ -84,7 +84,7 @@ pub fn count_touched_bonds(
 }
 
 impl PreCrack {
-    /// The same polyline in the coordinates of the cloud.
+    /// The polyline in the coordinates of the cloud.
     pub fn in_local_coordinates(&self, cloud: &PointCloud) -> Self {
         Self {
             points: self.points.iter().map(|&p| cloud.local(p)).collect(),

@@ -39,7 +39,7 @@ impl BondSet {
         Self::from_ends(in_order(found, cloud.len()), cloud, horizons)
     }
 
-    /// Bonds the given pairs (A < B, ascending, each once) whatever their distance.
+    /// Bonds between the given pairs of points (A < B, ascending, each once), whatever their distance.
     fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud, horizons: &Horizons) -> Self {
         let mut length = vec![0.0; ends.len()];
         let mut direction = vec![[0.0; 2]; ends.len()];
@@ -64,7 +64,7 @@ impl BondSet {
     }
 }
 
-/// The pairs by their first, then by their second point.
+/// The pairs in ascending order of their first, then of their second point.
 fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
     let mut next = vec![0; n_points + 1];
     for [first, _] in found.iter().flatten() {

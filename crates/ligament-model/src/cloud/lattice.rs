@@ -29,7 +29,7 @@ pub struct Face {
     pub point: u32,
     /// Outward normal.
     pub normal: [i8; 2],
-    /// Whether it lies on the rectangle.
+    /// Whether the face lies on the outline of the rectangle.
     pub is_on_rectangle: bool,
     /// Number of the first hole in which the centre of the missing cell lies; the cells go on beyond the rectangle.
     pub hole: Option<usize>,
@@ -78,7 +78,7 @@ impl Lattice {
         self.centre(cell.map(i64::from))
     }
 
-    /// The same for a cell that may lie beyond the rectangle.
+    /// Centre of a cell that may lie beyond the rectangle, relative to the middle of the rectangle, m.
     fn centre(&self, cell: [i64; 2]) -> [f64; 2] {
         [0, 1].map(|axis| {
             let half_cells = 2 * cell[axis] + 1 - i64::from(self.size[axis]);

@@ -17,7 +17,7 @@ use crate::horizon::INCLUSION_TOLERANCE;
 pub struct PointCloud {
     /// Positions X_i relative to [`PointCloud::origin`], shape (n_points), m.
     pub positions: Vec<[f64; 2]>,
-    /// What was subtracted from the positions of the mesh file or the lattice, m.
+    /// Middle of the bounding box, which is subtracted from the positions of the mesh file or the lattice, m.
     pub origin: [f64; 2],
     /// Thickness t, m.
     pub thickness: f64,
@@ -135,8 +135,8 @@ impl PointCloud {
             .collect()
     }
 
-    /// What counts as nothing in a comparison of distances at a point, m: on a lattice points lie exactly on the rims of
-    /// boxes and halfway between others, and rounding must not decide about them.
+    /// Distance that counts as zero in comparisons at a point, m. On a lattice points lie exactly on the rims of boxes and
+    /// halfway between others, and rounding must not decide about them.
     fn slack(&self, point: usize) -> f64 {
         INCLUSION_TOLERANCE * self.spacing[point]
     }

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::domain::StrainMode;
+use super::strain_mode::StrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
@@ -27,13 +27,13 @@ pub(super) struct Families<'a> {
     target: Vec<[f64; 2]>,
     /// e_A/etil_A along x and y, by rank.
     ratios: Vec<[f64; 2]>,
-    /// The same before the last sweep.
+    /// The ratios before the last sweep, by rank.
     before: Vec<[f64; 2]>,
 }
 
-/// What sweeps do not change; all but `starts` are arrays over the members of the families, one after the other.
+/// Data that sweeps do not change; all but `starts` are arrays over the members of the families, one family after the other.
 struct Members {
-    /// Where the family of each rank starts, and where the last one ends.
+    /// Index of the first member of the family of each rank, and behind the last family the number of all members.
     starts: Vec<usize>,
     /// Rank of the other end B.
     neighbour: Vec<u32>,
@@ -114,7 +114,7 @@ impl<'a> Families<'a> {
         let mut factors = vec![0.0; self.bonds.len()];
         for (rank, &point) in self.cloud.curve.iter().enumerate() {
             // The bonds whose first end is the point follow one another, at the end of its family.
-            let family = self.bonds.incidence.of(point);
+            let family = self.bonds.incidence.at(point);
             let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
             let others = family.partition_point(is_second);
             if let Some(&bond) = family.get(others) {
@@ -137,7 +137,7 @@ impl Members {
         let mut size = 0;
         for (rank, &point) in cloud.curve.iter().enumerate() {
             ranks[point as usize] = rank as u32;
-            size += bonds.incidence.of(point).len();
+            size += bonds.incidence.at(point).len();
             starts.push(size);
         }
         let mut members = Self {
@@ -161,7 +161,7 @@ impl Members {
             .into_par_iter()
             .for_each(|(points, neighbour, along_x, along_y, energy)| {
                 let of_point =
-                    |&point: &u32| bonds.incidence.of(point).iter().map(move |&b| (point, b));
+                    |&point: &u32| bonds.incidence.at(point).iter().map(move |&b| (point, b));
                 for (k, (point, bond)) in points.iter().flat_map(of_point).enumerate() {
                     let other = bonds.neighbour(bond, point) as usize;
                     let bond = bond as usize;
@@ -218,7 +218,7 @@ impl Members {
         let (factors, last_factors) = factors.as_chunks_mut();
         let members = neighbours.iter().zip(along_x).zip(along_y).zip(factors);
         for (((neighbours, aa), bb), factors) in members {
-            update_members(own, ratios, neighbours, aa, bb, factors, change);
+            update_members(own, ratios, neighbours, [aa, bb], factors, change);
         }
         let members = (last_neighbours.iter().zip(last_along_x))
             .zip(last_along_y)
@@ -226,7 +226,7 @@ impl Members {
         for (((&neighbour, &aa), &bb), factor) in members {
             let (factor, [change, ..]) = (std::array::from_mut(factor), &mut *change);
             let change = std::array::from_mut(change);
-            update_members(own, ratios, &[neighbour], &[aa], &[bb], factor, change);
+            update_members(own, ratios, &[neighbour], [&[aa], &[bb]], factor, change);
         }
     }
 
@@ -249,8 +249,7 @@ fn update_members<const N: usize>(
     own: [f64; 2],
     ratios: &[[f64; 2]],
     neighbours: &[u32; N],
-    along_x: &[f64; N],
-    along_y: &[f64; N],
+    [along_x, along_y]: [&[f64; N]; 2],
     factors: &mut [f64; N],
     change: &mut [f64; N],
 ) {

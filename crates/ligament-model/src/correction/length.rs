@@ -12,7 +12,7 @@ use crate::cloud::PointCloud;
 /// with the shortest and longest bond of either end. An end whose bonds all have one length contributes exp(0) = 1.
 pub fn length_factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
     let ranges: Vec<(f64, f64)> = cloud.over_points(|point| {
-        let family = bonds.incidence.of(point).iter();
+        let family = bonds.incidence.at(point).iter();
         let lengths = family.map(|&bond| bonds.length[bond as usize]);
         lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), l| {
             (l.min(shortest), l.max(longest))

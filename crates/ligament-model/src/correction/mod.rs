@@ -11,9 +11,11 @@ pub mod domain;
 mod families;
 pub mod length;
 pub mod partial_volume;
+mod strain_mode;
 pub mod surface;
 
-pub use domain::{StopRule, Sweeps, energy_ratios};
+pub use domain::{Continuum, StopRule, Sweeps, energy_ratios};
+pub use strain_mode::StrainMode;
 
 use crate::bonds::retained;
 
@@ -24,11 +26,11 @@ pub struct Correction {
     pub length_factor: Vec<f64>,
     /// Domain-correction factors Omega, or the surface factors in their place, shape (n_bonds).
     pub domain_factor: Vec<f64>,
-    /// How the iteration for Omega went, where there was one.
+    /// Report on the iteration for Omega, where there was one.
     pub report: Option<CorrectionReport>,
 }
 
-/// How the domain correction went.
+/// Report on the iterations of the domain correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CorrectionReport {
     /// Sweeps done.

@@ -75,9 +75,9 @@ impl ImaginaryElements {
             let points = gradient.points.into_iter().take(gradient.count);
             points.map(move |point| (point, bond as u32))
         });
-        let couplings = Incidence::of_pairs(of_bonds, positions.len());
+        let couplings = Incidence::from_pairs(of_bonds, positions.len());
         let of_points = (0..positions.len() as u32).flat_map(|point| {
-            let bonds = couplings.of(point).iter();
+            let bonds = couplings.at(point).iter();
             let mut others: Vec<u32> = bonds
                 .flat_map(|&bond| gradient(bond as usize).points().to_vec())
                 .filter(|&other| other != point)
@@ -87,7 +87,7 @@ impl ImaginaryElements {
             others.into_iter().map(move |other| (point, other))
         });
         Self {
-            neighbours: Incidence::of_pairs(of_points, positions.len()),
+            neighbours: Incidence::from_pairs(of_points, positions.len()),
             couplings,
             stiffness,
             surroundings,

@@ -96,7 +96,7 @@ pub fn opening_modulus(material: &Isotropic, plane: Plane) -> f64 {
 pub fn mean_lengths(system: &BondSystem) -> Vec<f64> {
     let of_point = |point: u32| {
         let (mut sum, mut weights) = (0.0, 0.0);
-        for &bond in system.bonds.incidence.of(point) {
+        for &bond in system.bonds.incidence.at(point) {
             // The volume of the point itself is in all of them.
             let weight = system.axial_rigidity[bond as usize];
             sum += weight * system.bonds.length[bond as usize];

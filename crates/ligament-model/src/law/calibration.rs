@@ -35,7 +35,7 @@ pub fn calibrated(
     let targets: [Vec<f64>; 2] = {
         let stiffness: Vec<_> = materials
             .iter()
-            .map(|it| it.plane_stiffness(plane))
+            .map(|material| material.plane_stiffness(plane))
             .collect();
         let bulk = stiffness.iter().map(|c| 4.0 * (c[(0, 0)] + c[(0, 1)]));
         let bulk: Vec<f64> = bulk.collect();
@@ -51,7 +51,7 @@ pub fn calibrated(
     } = stiffness;
     let factors = cloud.over_points(|point| {
         let mut sums = [0.0; 2];
-        for &bond in bonds.incidence.of(point) {
+        for &bond in bonds.incidence.at(point) {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
             let bond = bond as usize;
             let weight = length_factor[bond] * volume * bonds.length[bond];

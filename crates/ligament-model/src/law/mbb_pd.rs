@@ -22,12 +22,12 @@ use crate::cloud::PointCloud;
 use crate::element::imaginary::{StrainStiffness, entries};
 use crate::material::{Elasticity, Plane};
 
-/// Factors psi of the points for their families in `bonds`, shape (n_points), 1/m^4.
+/// Factors psi of the points, from the families in `bonds`, shape (n_points), 1/m^4.
 pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
     (0..cloud.len())
         .into_par_iter()
         .map(|point| {
-            let family = bonds.incidence.of(point as u32).iter();
+            let family = bonds.incidence.at(point as u32).iter();
             let lengths: f64 = family.map(|&bond| bonds.length[bond as usize]).sum();
             2.0 / (cloud.volumes[point] * lengths)
         })

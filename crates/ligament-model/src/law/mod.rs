@@ -52,7 +52,7 @@ struct Densities {
     rotational: f64,
 }
 
-/// What a law sees of a bond.
+/// Geometry of a bond as a law needs it.
 struct BondGeometry {
     /// Length l, m.
     length: f64,

@@ -8,9 +8,9 @@ pub enum RotationalStiffness {
     Decaying,
     /// k_t l/4: the moment at an end does not depend on the rotation of the other.
     Quarter,
-    /// k_t l/12: that of a beam (Gerstle; OMPPD eq. 22).
+    /// Rotational stiffness k_t l/12 of a beam (Gerstle; OMPPD eq. 22).
     Beam,
-    /// None: relative rotations cost nothing.
+    /// No rotational stiffness: relative rotations cost nothing.
     Zero,
 }
 

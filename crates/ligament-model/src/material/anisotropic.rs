@@ -18,7 +18,7 @@ impl Anisotropic {
         }
     }
 
-    /// Whether every strain costs energy: C is positive definite.
+    /// Whether every strain costs energy, that is whether C is positive definite.
     pub fn is_stable(&self) -> bool {
         self.stiffness.cholesky().is_some()
     }

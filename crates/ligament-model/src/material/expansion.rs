@@ -1,6 +1,6 @@
 //! Thermal expansion.
 
-use super::{Elasticity, Plane};
+use super::elasticity::{Elasticity, Plane};
 
 /// Coefficients of linear thermal expansion, 1/K.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// The same in all directions.
+    /// An expansion that is the same in all directions, with the coefficient alpha, 1/K.
     pub fn uniform(coefficient: f64) -> Self {
         Self {
             in_plane: [coefficient; 2],

@@ -11,7 +11,7 @@ use crate::system::BondSystem;
 /// Orientations at which the search for the worst one begins: one in two degrees.
 const FIRST_ORIENTATIONS: usize = 90;
 
-/// What the least utilisation may be too large by, over that of the theory.
+/// Relative accuracy of the least utilisation, over the utilisation of the theory.
 const LEAST_UTILISATION_TOLERANCE: f64 = 1e-9;
 
 /// Orientations at which the search ends at the latest: only families in which a single bond decides over a wide
@@ -70,7 +70,7 @@ impl<'a> Family<'a> {
         };
         Self {
             criteria,
-            bonds: system.bonds.incidence.of(point).iter().map(bond).collect(),
+            bonds: system.bonds.incidence.at(point).iter().map(bond).collect(),
         }
     }
 
@@ -96,7 +96,7 @@ impl<'a> Family<'a> {
         self.bonds.iter().map(of_bond).fold(0.0, f64::max)
     }
 
-    /// U_th: the same if each bond lay in its worst direction.
+    /// Utilisation U_th of a strain if each bond lay in its worst direction.
     pub fn theoretical_utilisation(&self, strains: PrincipalStretches) -> f64 {
         self.critical(strains).1
     }
@@ -141,8 +141,8 @@ impl<'a> Family<'a> {
         orientations: impl Iterator<Item = f64>,
     ) -> Option<Worst> {
         let theory = self.theoretical_utilisation(strains);
-        let sampled = orientations.map(|it| (it, self.utilisation(strains, it)));
-        let least = sampled.reduce(|best, it| if it.1 < best.1 { it } else { best })?;
+        let sampled = orientations.map(|angle| (angle, self.utilisation(strains, angle)));
+        let least = sampled.reduce(|best, next| if next.1 < best.1 { next } else { best })?;
         (theory > 0.0).then(|| Worst {
             orientation: least.0,
             error: error_of(theory, least.1),
@@ -164,7 +164,7 @@ impl<'a> Family<'a> {
         let step = PI / FIRST_ORIENTATIONS as f64;
         let sampled: Vec<(f64, f64)> = (0..=FIRST_ORIENTATIONS)
             .map(|k| k as f64 * step)
-            .map(|it| (it, self.utilisation(strains, it)))
+            .map(|angle| (angle, self.utilisation(strains, angle)))
             .collect();
         let mut least = sampled[0];
         for &it in &sampled {

@@ -6,12 +6,12 @@ use super::{Family, PrincipalStretches, Worst};
 use crate::failure::Criteria;
 use crate::system::BondSystem;
 
-/// What directions and limits of the bonds of a point make of a strain.
+/// First yield of the family of a point under a strain: the effect of the directions and limits of its bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FamilyYield {
-    /// The worst orientation, with its error.
+    /// The worst orientation of the strain, with the error there.
     pub worst: Worst,
-    /// Load factor of the strain at first yield in theory, 1/U_th: that of the orientation that yields first.
+    /// Load factor of the strain at first yield in theory, 1/U_th, for the orientation that yields first.
     pub least_load: f64,
 }
 
@@ -53,12 +53,14 @@ pub fn mean_error(
 /// marked in `on_rim` (n_points), and pre-cracks cut none of their bonds (`cut_share`, n_points).
 pub fn interior(system: &BondSystem, on_rim: &[bool], cut_share: &[f64]) -> Vec<bool> {
     let is_whole = |point: u32| {
-        let bonds = system.bonds.incidence.of(point);
+        let bonds = system.bonds.incidence.at(point);
         let mut neighbours = bonds
             .iter()
             .map(|&bond| system.bonds.neighbour(bond, point));
         let place = point as usize;
-        !on_rim[place] && cut_share[place] == 0.0 && !neighbours.any(|it| on_rim[it as usize])
+        !on_rim[place]
+            && cut_share[place] == 0.0
+            && !neighbours.any(|neighbour| on_rim[neighbour as usize])
     };
     (0..system.cloud.len() as u32).map(is_whole).collect()
 }
@@ -68,20 +70,20 @@ pub fn interior(system: &BondSystem, on_rim: &[bool], cut_share: &[f64]) -> Vec<
 pub struct Distribution {
     /// Number of values.
     pub count: usize,
-    /// Mean.
+    /// Mean of the values.
     pub mean: f64,
     /// Value below which 5 % lie.
     pub percentile_5: f64,
     /// Value below which 95 % lie.
     pub percentile_95: f64,
-    /// Largest.
+    /// Largest value.
     pub worst: f64,
 }
 
 impl Distribution {
-    /// Of values in any order; none without values. Percentiles are linear between the values, the first at 0 and the
-    /// last at 100 %.
-    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+    /// The distribution of values given in any order; None without values. Percentiles are linear between the values, the
+    /// first at 0 and the last at 100 %.
+    pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let (&worst, count) = (values.last()?, values.len());
         let at = |share: f64| {
@@ -113,7 +115,7 @@ mod tests {
     #[test]
     fn a_distribution_by_hand() {
         let values = (0..=100).rev().map(f64::from).collect();
-        let found = Distribution::of(values).unwrap();
+        let found = Distribution::from_values(values).unwrap();
         let expected = Distribution {
             count: 101,
             mean: 50.0,
@@ -122,13 +124,13 @@ mod tests {
             worst: 100.0,
         };
         assert_eq!(found, expected);
-        assert_eq!(Distribution::of(Vec::new()), None);
-        let pair = Distribution::of(vec![1.0, 3.0]).unwrap();
+        assert_eq!(Distribution::from_values(Vec::new()), None);
+        let pair = Distribution::from_values(vec![1.0, 3.0]).unwrap();
         assert!(
             (pair.percentile_5 - 1.1).abs() < 1e-15,
             "linear between values"
         );
-        let open = Distribution::of(vec![1.0, f64::INFINITY]).unwrap();
+        let open = Distribution::from_values(vec![1.0, f64::INFINITY]).unwrap();
         assert_eq!(open.worst, f64::INFINITY);
     }
 }

@@ -86,7 +86,10 @@ mod tests {
     #[test]
     fn directions_are_there_once() {
         // Rows, diagonals and knight's moves.
-        let degrees: Vec<f64> = directions(3.0).iter().map(|it| it.to_degrees()).collect();
+        let degrees: Vec<f64> = directions(3.0)
+            .iter()
+            .map(|angle| angle.to_degrees())
+            .collect();
         let knight = 0.5f64.atan().to_degrees();
         let quarter = [0.0, knight, 45.0, 90.0 - knight];
         let expected = quarter

@@ -65,7 +65,7 @@ pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
 /// The points where the locus is not open.
 fn closed<T>(mut points: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
     let nearest = points.iter().map(&size).fold(f64::INFINITY, f64::min);
-    points.retain(|it| size(it) <= OPEN * nearest);
+    points.retain(|point| size(point) <= OPEN * nearest);
     points
 }
 
@@ -80,10 +80,10 @@ pub fn bond_locus(family: &Family<'_>, count: u32) -> Vec<[f64; 2]> {
             rotation: 0.0,
         };
         let utilisation = family.utilisation_by(&deformation);
-        (utilisation > 0.0).then(|| [angle.cos(), angle.sin()].map(|it| it / utilisation))
+        (utilisation > 0.0).then(|| [angle.cos(), angle.sin()].map(|part| part / utilisation))
     };
-    closed((0..count).filter_map(point).collect(), |it| {
-        it[0].hypot(it[1])
+    closed((0..count).filter_map(point).collect(), |point| {
+        point[0].hypot(point[1])
     })
 }
 
@@ -118,7 +118,7 @@ mod tests {
             (Measure::Compression, 3.0, 0.0),
         ]);
         assert_eq!(square.len(), 360);
-        for PrincipalStretches { first, second } in square.iter().map(|it| it.theoretical) {
+        for PrincipalStretches { first, second } in square.iter().map(|limit| limit.theoretical) {
             let (high, low) = (first.max(second), first.min(second));
             assert!((high - 1.0).abs().min((low + 3.0).abs()) < 1e-12);
             assert!(high < 1.0 + 1e-12 && low > -3.0 - 1e-12);

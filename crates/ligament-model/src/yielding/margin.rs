@@ -14,7 +14,7 @@ use crate::failure::frictional::Friction;
 /// The strain s_0t of the paper's tables; the measure depends on it.
 pub const PAPER_STRAIN: f64 = 0.1;
 
-/// What counts as no room for sliding, over the cohesion: at the apex of the criterion rounding leaves so much.
+/// Room for sliding, over the cohesion, that counts as none: at the apex of the criterion rounding leaves so much.
 const NO_ROOM: f64 = 1e-12;
 
 /// The worst of the printed orientations for a condition and strains on its theoretical locus, both in units of s_0t.

@@ -54,7 +54,7 @@ impl PrincipalStretches {
         0.5 * (self.first - self.second).abs()
     }
 
-    /// The same strain so many times.
+    /// The strain multiplied by a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         Self::new(factor * self.first, factor * self.second)
     }
@@ -73,7 +73,7 @@ impl PrincipalStretches {
     }
 }
 
-/// The orientations at which MPPD samples: 0 to 90 degrees in steps of 0.9, 101 of them, rad.
+/// The 101 orientations at which MPPD samples, 0 to 90 degrees in steps of 0.9, rad.
 pub fn printed_orientations() -> impl Iterator<Item = f64> + Clone {
     (0..=100u32).map(|k| (0.9 * f64::from(k)).to_radians())
 }

@@ -50,7 +50,7 @@ pub fn critical_deformation(
                 mean / (deviator * (coefficient - 1.0)),
             ];
             let finite = candidates.into_iter().filter(|cosine| cosine.is_finite());
-            let value = |it: &BondDeformation| measure.of(it, &[coefficient]);
+            let value = |deformation: &BondDeformation| measure.of(deformation, &[coefficient]);
             finite.map(at).fold(
                 at(1.0),
                 |best, it| {
@@ -113,7 +113,7 @@ mod tests {
                     let sampled = (0..20_000)
                         .map(|k| PI * f64::from(k) / 20_000.0)
                         .map(|x| strains.along([(2.0 * x).cos(), (2.0 * x).sin()]))
-                        .map(|it| measure.of(&it, &[q]))
+                        .map(|deformation| measure.of(&deformation, &[q]))
                         .fold(f64::NEG_INFINITY, f64::max);
                     let place = format!("{measure:?} {q} {first} {second}: {sampled} {largest}");
                     assert!(sampled <= largest + 1e-14, "{place}");

@@ -8,7 +8,7 @@ use crate::vtu::Field;
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
-/// What is not larger by more than this factor is the same: seven digits are kept, and the first of several counts.
+/// Factor up to which two utilisations count as equal: seven digits are kept, and the first of several counts.
 const SAME: f64 = 1.0 + 2e-7;
 
 /// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
@@ -67,7 +67,7 @@ impl Largest {
         });
     }
 
-    /// As arrays, with `n_absent` entries for what is no bond at their end.
+    /// The largest utilisations as arrays, with `n_absent` entries at their end for pairs that are no bonds.
     pub(super) fn columns(&self, n_absent: usize) -> Columns {
         let nothing = Seen {
             utilisation: f32::NAN,
@@ -79,9 +79,9 @@ impl Largest {
                 .chain(std::iter::repeat_n(&nothing, n_absent))
         };
         Columns {
-            utilisation: all().map(|it| it.utilisation).collect(),
-            step: all().map(|it| i64::from(it.step)).collect(),
-            criterion: all().map(|it| i64::from(it.criterion)).collect(),
+            utilisation: all().map(|largest| largest.utilisation).collect(),
+            step: all().map(|largest| i64::from(largest.step)).collect(),
+            criterion: all().map(|largest| i64::from(largest.criterion)).collect(),
         }
     }
 }

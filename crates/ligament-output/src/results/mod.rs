@@ -13,15 +13,17 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+mod absence;
+mod grid;
 mod largest;
 mod model_file;
 mod modes;
 pub mod outputs;
 mod point_fields;
+mod rule;
 pub mod stored;
 mod tables;
 
-use ligament_analysis::ControlKind;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 
@@ -30,39 +32,14 @@ use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+pub use absence::{Absence, AbsentBond};
+pub use grid::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
 use largest::Largest;
-pub use model_file::{Absence, AbsentBond};
 pub use modes::write_modes;
-pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
+pub use rule::{Time, WriteRule};
 use tables::{Tables, deformation_names};
 
-/// What to write, and how often.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WriteRule {
-    /// Fields at every so many load steps, besides the first and the last; 0: only these two.
-    pub fields_every: usize,
-    /// Whether to write the bonds as well.
-    pub bonds: bool,
-    /// Whether to write the model, by which a bond can be explained later.
-    pub model: bool,
-    /// Whether the fields have the virial stress.
-    pub virial: bool,
-    /// Whether the fields have the traction on planes through the points.
-    pub traction: bool,
-    /// What the collections call time.
-    pub time: Time,
-}
-
-/// What the time of an output is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Time {
-    /// The applied displacement, or the applied load where the load is given.
-    Load,
-    /// The number of the row of the history, for a path on which displacement and load go back.
-    Step,
-}
-
-/// Writes the results of a run as its observer.
+/// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
@@ -74,7 +51,7 @@ pub struct ResultWriter<'a> {
     bonds_collection: Collection,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
-    /// How near each bond came to its limits, where the model is written.
+    /// Largest utilisation of each bond so far, where the model is written.
     largest: Option<Largest>,
 }
 
@@ -116,7 +93,7 @@ impl<'a> ResultWriter<'a> {
             view,
         )?;
         self.fields_collection
-            .append(self.rule.time.of(record, view), name)
+            .append(self.rule.time.value(record, view), name)
     }
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
@@ -125,7 +102,9 @@ impl<'a> ResultWriter<'a> {
         let deformations: Vec<Vec<f64>> = (0..names.len())
             .map(|place| {
                 let deformations = balanced.deformations.iter();
-                deformations.map(|it| it.components()[place]).collect()
+                deformations
+                    .map(|deformation| deformation.components()[place])
+                    .collect()
             })
             .collect();
         let utilisation: Vec<f64> = (0..system.bonds.len())
@@ -161,19 +140,7 @@ impl<'a> ResultWriter<'a> {
         let name = format!("bonds_{:04}.vtu", record.step);
         vtu::write_vtu(self.folder.file(&name), &grid)?;
         self.bonds_collection
-            .append(self.rule.time.of(record, view), name)
-    }
-}
-
-impl Time {
-    fn of(self, record: &StepRecord, view: &View<'_>) -> f64 {
-        match (self, view.boundary.control.kind) {
-            (Self::Step, _) => record.step as f64,
-            (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {
-                record.displacement
-            }
-            (Self::Load, ControlKind::Force) => record.reaction,
-        }
+            .append(self.rule.time.value(record, view), name)
     }
 }
 

@@ -16,54 +16,17 @@
 
 use ligament_analysis::driver::Problem;
 
+use super::grid::{BodyGrid, FixedFields};
 use super::largest::Largest;
-use super::point_fields::{BodyGrid, FixedFields};
 use super::tables::labels;
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
-/// Name of the file.
+/// Name of the file with the model.
 pub(super) const MODEL: &str = "model.vtu";
 
-/// A pair of points, one in the horizon of the other, that is no bond.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AbsentBond {
-    /// Points A < B.
-    pub ends: [u32; 2],
-    /// Bond horizon H, m.
-    pub horizon: f64,
-    /// What separates them.
-    pub absence: Absence,
-}
-
-/// Why two points within a horizon are not bonded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Absence {
-    /// A pre-crack cut the bond.
-    PreCrack,
-    /// A hole lies between them.
-    Hole,
-}
-
-impl Absence {
-    /// Its number in files.
-    pub(super) fn number(self) -> i64 {
-        match self {
-            Self::PreCrack => 1,
-            Self::Hole => 2,
-        }
-    }
-
-    /// That of a number in a file; None for a bond.
-    pub(super) fn from_number(number: i64) -> Option<Self> {
-        [Self::PreCrack, Self::Hole]
-            .into_iter()
-            .find(|it| it.number() == number)
-    }
-}
-
-/// Names of the fields with the coefficients of a measure, in their order; most measures have none or one.
+/// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one.
 pub(super) const COEFFICIENTS: [&str; 3] =
     ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
 
@@ -78,15 +41,15 @@ pub(super) fn write(
     let (system, absent) = (problem.system, &fixed.absent);
     let n_absent = absent.len();
     let lines: Vec<vtu::Cell> = (system.bonds.ends.iter())
-        .chain(absent.iter().map(|it| &it.ends))
+        .chain(absent.iter().map(|pair| &pair.ends))
         .map(|&ends| vtu::Cell::Line(ends))
         .collect();
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let absence: Vec<i64> = std::iter::repeat_n(0, system.bonds.len())
-        .chain(absent.iter().map(|it| it.absence.number()))
+        .chain(absent.iter().map(|pair| pair.absence.number()))
         .collect();
     let horizon: Vec<f32> = (system.bonds.horizon.iter())
-        .chain(absent.iter().map(|it| &it.horizon))
+        .chain(absent.iter().map(|pair| &pair.horizon))
         .map(|&horizon| horizon as f32)
         .collect();
     let nothing = std::iter::repeat_n(f32::NAN, n_absent);
@@ -98,7 +61,7 @@ pub(super) fn write(
         .chain(nothing)
         .collect();
     let limits = limits(problem, n_absent);
-    let largest = largest.map(|it| it.columns(n_absent));
+    let largest = largest.map(|largest| largest.columns(n_absent));
 
     let mut cell_fields = vec![
         Field::integer("absent", &absence),
@@ -126,13 +89,13 @@ pub(super) fn write(
     vtu::write_vtu(folder.file(MODEL), &grid)
 }
 
-/// What the criteria have for each bond, with the names of the fields.
+/// The limits and coefficients that each criterion has for each bond, with the names of their fields.
 fn limits(problem: &Problem<'_>, n_absent: usize) -> Vec<(String, Vec<f64>)> {
     let criteria = &problem.criteria.list;
     let mut found = Vec::new();
     for (criterion, label) in criteria
         .iter()
-        .zip(labels(criteria.iter().map(|it| it.name)))
+        .zip(labels(criteria.iter().map(|criterion| criterion.name)))
     {
         let mut push = |what: &str, values: &mut dyn Iterator<Item = f64>| {
             let nothing = std::iter::repeat_n(f64::NAN, n_absent);

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::model_file::{Absence, MODEL};
+use super::absence::Absence;
+use super::model_file::MODEL;
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
-/// What the outputs of a folder are.
+/// The kinds of outputs that a folder can hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
     /// States of a body at load steps or events: `fields_NNNN.vtu`.
@@ -23,9 +24,9 @@ pub enum OutputKind {
 pub struct Outputs {
     /// The folder.
     pub folder: PathBuf,
-    /// What they are.
+    /// The kind of all outputs in the folder.
     pub kind: OutputKind,
-    /// Their files by the number of the step or the mode; one or more.
+    /// Files of the outputs by the number of the step or the mode; one or more.
     pub files: BTreeMap<usize, PathBuf>,
 }
 
@@ -65,7 +66,7 @@ impl OutputKind {
     }
 }
 
-/// What the results in a folder are.
+/// The kind of the results in a folder.
 pub fn kind_of(folder: &Path) -> OutputKind {
     if folder.join("modes.csv").is_file() {
         OutputKind::Modes
@@ -74,7 +75,7 @@ pub fn kind_of(folder: &Path) -> OutputKind {
     }
 }
 
-/// Sees to it that a run has written to a folder.
+/// Makes sure that a run has written to a folder.
 ///
 /// # Errors
 ///
@@ -143,8 +144,8 @@ pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize
     for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let name = path.file_name().and_then(|name| name.to_str());
-        let number = name.and_then(|it| {
-            it.strip_prefix(stem)?
+        let number = name.and_then(|name| {
+            name.strip_prefix(stem)?
                 .strip_prefix('_')?
                 .strip_suffix(".vtu")
         });

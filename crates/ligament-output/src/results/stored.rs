@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
 
-use super::model_file::{Absence, COEFFICIENTS, MODEL};
+use super::absence::Absence;
+use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
 use super::tables::deformation_names;
@@ -16,7 +17,7 @@ use crate::{Error, FieldLocation};
 /// The results of a run.
 #[derive(Debug)]
 pub struct StoredRun {
-    /// Where they are.
+    /// The folder of the results.
     pub folder: PathBuf,
     /// Points, bonds and limits.
     pub model: StoredModel,
@@ -24,7 +25,7 @@ pub struct StoredRun {
     pub history: Vec<StoredStep>,
     /// Broken bonds, in the order of breaking.
     pub breaks: Vec<StoredBreak>,
-    /// Names of the components of a deformation that are stored: two, or three of bonds with strains of their own.
+    /// Names of the stored components of a bond's deformation: two, or three for bonds with strains of their own.
     pub deformation_names: &'static [&'static str],
     /// Steps of which there are fields, with their files.
     fields: BTreeMap<usize, PathBuf>,
@@ -33,7 +34,7 @@ pub struct StoredRun {
 /// The model of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredModel {
-    /// What a tag is one of: `node` or `cell`.
+    /// The noun that tags belong to: `node` or `cell`.
     pub tagged: &'static str,
     /// Tags of the points, shape (n_points).
     pub tags: Vec<i64>,
@@ -49,7 +50,7 @@ pub struct StoredModel {
     pub bonds: StoredBonds,
     /// The failure criteria, in the order of the case.
     pub criteria: Vec<StoredCriterion>,
-    /// How near bonds came to their limits; None where the run did not get to its end.
+    /// Largest utilisations of the bonds over the run; None where the run did not get to its end.
     pub largest: Option<StoredLargest>,
 }
 
@@ -71,11 +72,11 @@ pub struct StoredBonds {
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredCriterion {
-    /// Its name.
+    /// Name of the criterion, as in the table of broken bonds.
     pub name: String,
     /// The word for its measure.
     pub measure: String,
-    /// The word for what happens after the limit.
+    /// The word for what a bond does after the limit.
     pub after: String,
     /// Limits, shape (n_bonds).
     pub limit: Vec<f64>,
@@ -105,7 +106,7 @@ pub struct StoredStep {
     pub load_factor: f64,
     /// Displacement of the first load, m.
     pub displacement: f64,
-    /// Its force, N.
+    /// Force of the first load, N.
     pub reaction: f64,
 }
 
@@ -118,17 +119,17 @@ pub struct StoredBreak {
     pub round: usize,
     /// Step and load at the breakage.
     pub at: StoredStep,
-    /// Tags of its ends.
+    /// Tags of the two ends of the bond.
     pub tags: [i64; 2],
-    /// Name of the criterion.
+    /// Name of the criterion that the bond failed by.
     pub criterion: String,
-    /// Its measure over the limit of breakage.
+    /// Measure of the deformation over the limit, at the breakage.
     pub utilisation: f64,
-    /// Its deformation then; the relative rotation of its ends decides nothing and is not stored.
+    /// Deformation of the bond at the breakage; the relative rotation of its ends decides nothing and is not stored.
     pub deformation: BondDeformation,
 }
 
-/// Where the points are in a step.
+/// The motions of the points in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motions {
     /// Displacements along x and y and rotation of each point, shape (n_points).
@@ -149,7 +150,7 @@ impl StoredRun {
         let model = StoredModel::read(folder)?;
         let broken = Sheet::read(folder.join("breaks.csv"))?;
         let strains = deformation_names(ElementKind::Imaginary);
-        let has_strains = broken.columns().iter().any(|it| it == strains[0]);
+        let has_strains = broken.columns().iter().any(|column| column == strains[0]);
         let kind = if has_strains {
             ElementKind::Imaginary
         } else {
@@ -263,7 +264,7 @@ impl StoredModel {
             positions: file.points()?,
             volumes: numbers("volume")?,
             horizon: numbers("horizon")?,
-            no_fail: no_fail.into_iter().map(|it| it != 0).collect(),
+            no_fail: no_fail.into_iter().map(|flag| flag != 0).collect(),
             bonds: StoredBonds::read(&file, tags.len())?,
             criteria: criteria(folder, &file)?,
             largest: StoredLargest::read(&file)?,
@@ -292,13 +293,18 @@ impl StoredModel {
             bonds.length_factor.len(),
             bonds.domain_factor.len(),
         ];
-        let of_criteria = self.criteria.iter().all(|it| {
-            let mut all = it.coefficients.iter().chain([&it.limit]);
-            let parameter = it.parameter.len();
+        let of_criteria = self.criteria.iter().all(|criterion| {
+            let mut all = criterion.coefficients.iter().chain([&criterion.limit]);
+            let parameter = criterion.parameter.len();
             all.all(|values| values.len() == n_bonds) && (parameter == 0 || parameter == n_bonds)
         });
-        let mut of_largest =
-            largest.flat_map(|it| [it.utilisation.len(), it.step.len(), it.criterion.len()]);
+        let mut of_largest = largest.flat_map(|largest| {
+            [
+                largest.utilisation.len(),
+                largest.step.len(),
+                largest.criterion.len(),
+            ]
+        });
         of_criteria
             && of_bonds.iter().all(|len| *len == n_bonds)
             && of_largest.all(|len| len == n_bonds)

@@ -58,13 +58,13 @@ const TIMINGS: [&str; 8] = [
 
 const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
 
-/// Names of the failure criteria in results: each its own, a second one of a name ends in -2.
+/// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
 pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     let mut seen: Vec<&str> = Vec::new();
     for name in names {
         seen.push(name);
-        labels.push(match seen.iter().filter(|it| **it == name).count() {
+        labels.push(match seen.iter().filter(|other| **other == name).count() {
             1 => name.to_owned(),
             count => format!("{name}-{count}"),
         });
@@ -72,7 +72,7 @@ pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     labels
 }
 
-/// What each criterion looks at and what happens after its limit.
+/// Writes the table of what each criterion looks at and what happens after its limit.
 fn write_criteria(
     folder: &ResultFolder,
     problem: &Problem<'_>,
@@ -105,7 +105,8 @@ pub(super) struct Tables {
     n_components: usize,
 }
 
-/// Names of the components of a deformation that results have: the relative rotation of two ends decides nothing.
+/// Names of the components of a bond's deformation in results. The relative rotation of the two ends is left out, because no
+/// criterion looks at it.
 pub(super) fn deformation_names(element: ElementKind) -> &'static [&'static str] {
     const PAIRS: [&str; 3] = ElementKind::Beam.deformation_names();
     const STRAINS: [&str; 3] = ElementKind::Imaginary.deformation_names();
@@ -123,7 +124,7 @@ impl Tables {
         problem: &Problem<'_>,
         tagged: &str,
     ) -> Result<Self, Error> {
-        let criteria = labels(problem.criteria.list.iter().map(|it| it.name));
+        let criteria = labels(problem.criteria.list.iter().map(|criterion| criterion.name));
         write_criteria(folder, problem, &criteria)?;
         let groups = problem.boundary.groups.iter();
         let group_columns = groups.flat_map(|group| {

@@ -27,7 +27,7 @@ pub struct VtuFile {
     arrays: Vec<Entry>,
 }
 
-/// What an array belongs to.
+/// The part of a file that an array belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Section {
     Fields(FieldLocation),
@@ -45,7 +45,7 @@ struct Entry {
     n_components: usize,
     /// Names of the components: all of them or none.
     components: Vec<String>,
-    /// Where its base64 text is.
+    /// Range of the base64 text of the array.
     content: Range<usize>,
 }
 
@@ -70,7 +70,7 @@ impl VtuFile {
         Ok(Self { path, text, arrays })
     }
 
-    /// Where it is.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -78,12 +78,15 @@ impl VtuFile {
     /// Names of the fields on the points or cells, in their order.
     pub fn fields(&self, location: FieldLocation) -> impl Iterator<Item = &str> {
         let section = Section::Fields(location);
-        let of_section = self.arrays.iter().filter(move |it| it.section == section);
-        of_section.map(|it| it.name.as_str())
+        let of_section = self
+            .arrays
+            .iter()
+            .filter(move |array| array.section == section);
+        of_section.map(|array| array.name.as_str())
     }
 
-    /// How many numbers a field has for each point or cell, and their names where they have names; None where there is no such
-    /// field.
+    /// The number of values that a field has for each point or cell, and the names of these components if they have any;
+    /// None where there is no such field.
     pub fn components(&self, location: FieldLocation, name: &str) -> Option<(usize, &[String])> {
         let entry = self.find(Section::Fields(location), name)?;
         Some((entry.n_components, &entry.components))
@@ -92,7 +95,7 @@ impl VtuFile {
     /// Whether a field holds integers.
     pub fn is_integer(&self, location: FieldLocation, name: &str) -> bool {
         let entry = self.find(Section::Fields(location), name);
-        entry.is_some_and(|it| it.vtk_type == "Int64")
+        entry.is_some_and(|array| array.vtk_type == "Int64")
     }
 
     /// The numbers of a field, point by point or cell by cell; None where there is no such field.
@@ -149,7 +152,7 @@ impl VtuFile {
         let n_points = self.points()?.len();
         let point = |number: &i64| {
             let number = u32::try_from(*number).ok();
-            number.filter(|it| (*it as usize) < n_points)
+            number.filter(|point| (*point as usize) < n_points)
         };
         let mut from = 0;
         let cell = |(vtk_type, to): (u8, i64)| {
@@ -237,7 +240,7 @@ fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
                     section: section.ok_or("an array is out of place")?,
                     name: unescape(of("Name")?),
                     vtk_type: of("type")?.to_owned(),
-                    n_components: (count.ok().filter(|it| *it > 0))
+                    n_components: (count.ok().filter(|count| *count > 0))
                         .ok_or("an array has no number of components")?,
                     components: (0..).map_while(component).map(unescape).collect(),
                     content: at..at + length,
@@ -314,7 +317,7 @@ mod tests {
     }
 
     fn bits(values: &[f64]) -> Vec<u64> {
-        values.iter().map(|it| it.to_bits()).collect()
+        values.iter().map(|value| value.to_bits()).collect()
     }
 
     proptest! {
@@ -328,13 +331,13 @@ mod tests {
             name: String,
         ) {
             let n_points = numbers.len();
-            let points: Vec<[f64; 2]> = numbers.iter().map(|it| [*it, -*it]).collect();
+            let points: Vec<[f64; 2]> = numbers.iter().map(|x| [*x, -*x]).collect();
             let cells: Vec<Cell> = (0..n_points as u32 - 1)
                 .map(|point| Cell::Line([point, point + 1]))
                 .chain([Cell::Vertex([0])])
                 .collect();
-            let single: Vec<f32> = (0..n_points).map(|it| it as f32 / 7.0).collect();
-            let vectors: Vec<[f64; 3]> = numbers.iter().map(|it| [*it, 0.0, -*it]).collect();
+            let single: Vec<f32> = (0..n_points).map(|point| point as f32 / 7.0).collect();
+            let vectors: Vec<[f64; 3]> = numbers.iter().map(|x| [*x, 0.0, -*x]).collect();
             let grid = UnstructuredGrid {
                 points: &points,
                 cells: &cells,

@@ -50,7 +50,7 @@ impl Surroundings {
                 .map(|cosine| (sign * cosine * bonds.length[bond] / spacing).round() as i32)
         };
         let link = |from: u32, wanted: [i32; 2]| {
-            let family = bonds.incidence.of(from).iter();
+            let family = bonds.incidence.at(from).iter();
             let mut found = family.filter(|&&bond| steps(bond, from) == wanted);
             found.next().map_or(NO_LINK, |&bond| Link {
                 bond,
@@ -114,7 +114,7 @@ impl Surroundings {
 
     /// The bonds whose elements may change when a bond breaks, itself left out, ascending.
     pub fn dependents(&self, bond: u32) -> &[u32] {
-        self.dependents.of(bond)
+        self.dependents.at(bond)
     }
 }
 
@@ -138,7 +138,7 @@ fn dependents(bonds: &BondSet, links: &[[[Link; 2]; 2]], edges: &[[[Link; 2]; 2]
             .filter(|&bond| bond != NONE)
             .collect()
     };
-    Incidence::of_pairs(
+    Incidence::from_pairs(
         (0..bonds.len() as u32).flat_map(|bond| {
             let supports = supports(bond);
             supports.into_iter().map(move |support| (support, bond))

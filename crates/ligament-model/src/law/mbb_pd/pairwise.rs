@@ -26,7 +26,7 @@ pub fn row_factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<[f64; 3]> {
 
 fn printed_factors(bonds: &BondSet, cloud: &PointCloud, point: u32) -> [f64; 3] {
     let mut sums = [0.0; 3];
-    for &bond in bonds.incidence.of(point) {
+    for &bond in bonds.incidence.at(point) {
         let (length, direction) = (bonds.length[bond as usize], bonds.direction[bond as usize]);
         match BondClass::of(direction) {
             BondClass::Horizontal => sums[0] += length,

@@ -53,7 +53,7 @@ pub fn stiffness(
 /// psi_1, psi_2 and psi_6 of a point, 1/m^4; infinite where it has no bond that resists the strain.
 fn factors(bonds: &BondSet, cloud: &PointCloud, point: u32) -> [f64; 3] {
     let mut sums = [0.0; 3];
-    for &bond in bonds.incidence.of(point) {
+    for &bond in bonds.incidence.at(point) {
         let (length, direction) = (bonds.length[bond as usize], bonds.direction[bond as usize]);
         let class = BondClass::of(direction);
         let resists = [

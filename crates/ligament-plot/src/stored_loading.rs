@@ -5,15 +5,15 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_output::folder::RESOLVED_CASE;
 
-use crate::case::Units;
+use ligament::units::Units;
 
 /// What the loading of the run was like.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct StoredLoading {
+pub struct StoredLoading {
     /// Whether the rows of the history are events, each just before its bonds break.
-    pub(crate) follows_path: bool,
+    pub follows_path: bool,
     /// Units of the first load.
-    pub(crate) units: Units,
+    pub units: Units,
 }
 
 /// The loading, from the resolved case beside the results.
@@ -21,7 +21,7 @@ pub(crate) struct StoredLoading {
 /// # Errors
 ///
 /// If the case cannot be read.
-pub(crate) fn stored_loading(folder: &Path) -> anyhow::Result<StoredLoading> {
+pub fn stored_loading(folder: &Path) -> anyhow::Result<StoredLoading> {
     let path = folder.join(RESOLVED_CASE);
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;

@@ -8,9 +8,8 @@ use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
 use crate::plots::{Colour, Mark, Paper, Plot, Series};
-use crate::quantities::Quantities;
 use crate::stored_loading::stored_loading;
-use crate::suggestion::hint;
+use ligament::suggestion::hint;
 
 /// Rows up to which each of them is marked by a dot.
 const DOTTED: usize = 100;
@@ -140,17 +139,20 @@ impl Curve {
             (name, _) => unit_of(name).to_owned(),
         };
         let is_of_load = columns[0] == "displacement" && columns[1] == "reaction";
-        let peak = || {
-            let results = Quantities::read(folder).ok()?;
-            let of = |name: &str| results.number(&format!("first_peak.{name}")).ok();
-            Some([of("displacement")?, of("reaction")?])
-        };
         Ok(Self {
             points: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(),
             units: [unit(&columns[0]), unit(&columns[1])],
-            first_peak: is_of_load.then(peak).flatten(),
+            first_peak: is_of_load.then(|| first_peak(folder)).flatten(),
         })
     }
+}
+
+/// The load before its first fall, from the summary; a run that was cut short has none.
+fn first_peak(folder: &Path) -> Option<[f64; 2]> {
+    let text = std::fs::read_to_string(folder.join("summary.json")).ok()?;
+    let summary: serde_json::Value = serde_json::from_str(&text).ok()?;
+    let peak = &summary["first_peak"];
+    Some([peak["displacement"].as_f64()?, peak["reaction"].as_f64()?])
 }
 
 fn known_columns(name: &str, columns: &[String]) -> String {

@@ -3,19 +3,32 @@
 use colorous::{CIVIDIS, Color, GREYS, RED_BLUE, VIRIDIS};
 
 /// A map from the shares of a scale to colours; all are told apart with any colour vision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
-    /// Dark blue over green to yellow
+    /// Dark blue over green to yellow.
     Viridis,
-    /// Dark blue over grey to yellow
+    /// Dark blue over grey to yellow.
     Cividis,
-    /// Light to dark grey
+    /// Light to dark grey.
     Grey,
-    /// Blue over white to red, with white at zero
+    /// Blue over white to red, with white at zero.
     Diverging,
 }
 
 impl ColourMap {
+    /// All maps.
+    pub const ALL: [Self; 4] = [Self::Viridis, Self::Cividis, Self::Grey, Self::Diverging];
+
+    /// Its name on the command line, and its colours in words.
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Viridis => ["viridis", "Dark blue over green to yellow"],
+            Self::Cividis => ["cividis", "Dark blue over grey to yellow"],
+            Self::Grey => ["grey", "Light to dark grey"],
+            Self::Diverging => ["diverging", "Blue over white to red, with white at zero"],
+        }
+    }
+
     /// The colour of a share from 0 to 1, as `#rrggbb`.
     pub(super) fn colour(self, share: f64) -> String {
         let Color { r, g, b } = match self {

@@ -4,7 +4,7 @@ use ligament_output::FieldLocation;
 use ligament_output::vtu::read::VtuFile;
 
 use super::PictureError;
-use crate::suggestion::nearest;
+use ligament::suggestion::nearest;
 
 /// The field of the names of an output that draws no field.
 pub(super) const NONE: &str = "none";

@@ -7,7 +7,7 @@ const SHORT_LIST: usize = 16;
 const LIKENESS: f64 = 0.8;
 
 /// The candidate most like `found`, if one is alike enough to be what was meant.
-pub(crate) fn nearest<'a>(found: &str, candidates: &'a [String]) -> Option<&'a str> {
+pub fn nearest<'a>(found: &str, candidates: &'a [String]) -> Option<&'a str> {
     let found = found.to_lowercase();
     candidates
         .iter()
@@ -25,7 +25,7 @@ pub(crate) fn nearest<'a>(found: &str, candidates: &'a [String]) -> Option<&'a s
 /// The tail of an error about a name: `; did you mean ...? valid keys: ...`.
 ///
 /// `noun` is what the candidates are called, in the plural; `quote` goes on both sides of a name.
-pub(crate) fn hint(found: &str, candidates: &[String], noun: &str, quote: char) -> String {
+pub fn hint(found: &str, candidates: &[String], noun: &str, quote: char) -> String {
     let quoted = |name: &str| format!("{quote}{name}{quote}");
     let suggestion =
         nearest(found, candidates).map(|name| format!("did you mean {}?", quoted(name)));

@@ -1,0 +1,31 @@
+//! Units of the force-displacement curve.
+
+/// Units of the axes of the force-displacement curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Units {
+    /// Of the displacement.
+    pub displacement: &'static str,
+    /// Of the force.
+    pub force: &'static str,
+    /// Of their quotient.
+    pub stiffness: &'static str,
+}
+
+impl Units {
+    /// A force and the displacement along it.
+    pub const FORCE: Self = Self::new("m", "N", "N/m");
+    /// A couple and its rotation.
+    pub const COUPLE: Self = Self::new("rad", "N m", "N m/rad");
+    /// A pressure and the volume that it sweeps.
+    pub const PRESSURE: Self = Self::new("m^3", "Pa", "Pa/m^3");
+    /// A change of temperature and what does work with it.
+    pub const TEMPERATURE: Self = Self::new("K", "J/K", "J/K^2");
+
+    const fn new(displacement: &'static str, force: &'static str, stiffness: &'static str) -> Self {
+        Self {
+            displacement,
+            force,
+            stiffness,
+        }
+    }
+}
