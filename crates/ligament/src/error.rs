@@ -133,7 +133,7 @@ pub enum Fault {
     )]
     PrescribedTwice {
         /// The component.
-        component: ligament_analysis::Component,
+        component: &'static str,
         /// The point, in words.
         place: String,
         /// The earlier value.

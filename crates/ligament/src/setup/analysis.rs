@@ -64,7 +64,7 @@ pub fn stepped(load_factors: Vec<f64>) -> SteppedSettings {
         },
         energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
         round_limit: 10_000,
-        stop: StopRules::default(),
+        stop: StopRules::NONE,
     }
 }
 
@@ -73,6 +73,6 @@ pub fn event() -> EventSettings {
     EventSettings {
         tie_tolerance: TIE_TOLERANCE,
         energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
-        stop: StopRules::default(),
+        stop: StopRules::NONE,
     }
 }
