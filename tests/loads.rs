@@ -6,7 +6,7 @@ use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, gauges};
-use ligament_case::check::{Extent, check};
+use ligament_cli::check::{Extent, check};
 use ligament_case::progress::ProgressMode;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
