@@ -27,7 +27,7 @@ fn stderr(output: &Output) -> String {
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
+        .join("../ligament-case/tests/data")
         .join(name)
 }
 
