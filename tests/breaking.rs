@@ -114,9 +114,9 @@ fn a_broken_bond_is_an_absent_bond() {
         .filter(|&bond| !present.contains(&system.bonds.ends[bond as usize]))
         .collect();
     let mut equilibrium = Equilibrium::of(&with.problem(), 1e-4).unwrap();
-    equilibrium.break_bonds(&mut state, &absent);
+    let breakage = equilibrium.break_bonds(&mut state, &absent);
     let balanced = equilibrium
-        .balance(&mut state, &mut Unobserved)
+        .balance(&mut state, &breakage, &mut Unobserved)
         .unwrap()
         .unwrap();
     let run = without.solve();

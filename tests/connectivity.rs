@@ -33,7 +33,7 @@ fn follow(
         for &bond in broken {
             intact[bond as usize] = false;
         }
-        connectivity.bonds_broke(system, broken);
+        connectivity.bonds_broke(system, &intact, broken);
         let found = Fragments::find(system, &intact);
         assert_eq!(connectivity.fragments(), &found);
         let all = 0..found.points.len() as u32;
@@ -136,13 +136,14 @@ fn an_ordinary_breakage_is_local() {
         let crossing = crossing_the_y_axis(system);
         let (last, others) = crossing.split_last().unwrap();
         assert!(others.len() > 600);
+        let mut intact = vec![true; system.bonds.len()];
         for bond in others {
-            let effort = effort_of(&mut connectivity, system, *bond);
+            let effort = effort_of(&mut connectivity, system, &mut intact, *bond);
             let families: usize = families(system, *bond).iter().sum();
             assert!(effort <= families, "{file}: {effort} of {families}");
         }
         assert_eq!(connectivity.fragments().points.len(), 1);
-        effort_of(&mut connectivity, system, *last);
+        effort_of(&mut connectivity, system, &mut intact, *last);
         assert_eq!(connectivity.fragments().points.len(), 2);
     }
 }
@@ -155,17 +156,27 @@ fn a_small_part_comes_loose_at_its_own_cost() {
     for point in 0..bench.points() as u32 {
         let mut connectivity = Connectivity::new(system);
         let (last, others) = system.bonds.incidence.at(point).split_last().unwrap();
-        connectivity.bonds_broke(system, others);
-        let effort = effort_of(&mut connectivity, system, *last);
+        let mut intact = vec![true; system.bonds.len()];
+        for &bond in others {
+            intact[bond as usize] = false;
+        }
+        connectivity.bonds_broke(system, &intact, others);
+        let effort = effort_of(&mut connectivity, system, &mut intact, *last);
         assert_eq!(connectivity.fragments().points.len(), 2);
         assert!(effort <= 1 + families(system, *last)[0].max(families(system, *last)[1]));
     }
 }
 
 /// Points that the searches reach when this bond breaks.
-fn effort_of(connectivity: &mut Connectivity, system: &BondSystem, bond: u32) -> usize {
+fn effort_of(
+    connectivity: &mut Connectivity,
+    system: &BondSystem,
+    intact: &mut [bool],
+    bond: u32,
+) -> usize {
     let before = connectivity.effort();
-    connectivity.bonds_broke(system, &[bond]);
+    intact[bond as usize] = false;
+    connectivity.bonds_broke(system, intact, &[bond]);
     connectivity.effort() - before
 }
 

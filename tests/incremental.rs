@@ -7,6 +7,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::equilibrium::{Balanced, Unbalanced};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
@@ -267,6 +268,7 @@ struct Tearing<'a> {
     problem: Problem<'a>,
     equilibrium: Equilibrium<'a>,
     state: State,
+    breakage: Breakage,
 }
 
 impl<'a> Tearing<'a> {
@@ -279,8 +281,9 @@ impl<'a> Tearing<'a> {
         let mut equilibrium = Equilibrium::of(&problem, 1e-4).unwrap();
         let bonds = 0..state.intact.len() as u32;
         let broken: Vec<u32> = bonds.filter(|&k| !state.intact[k as usize]).collect();
-        equilibrium.break_bonds(&mut state, &broken);
+        let breakage = equilibrium.break_bonds(&mut state, &broken);
         Self {
+            breakage,
             problem,
             equilibrium,
             state,
@@ -296,12 +299,14 @@ impl<'a> Tearing<'a> {
     }
 
     fn balance(&mut self) -> Balanced {
-        let balanced = self.equilibrium.balance(&mut self.state, &mut Unobserved);
+        let balanced = self
+            .equilibrium
+            .balance(&mut self.state, &self.breakage, &mut Unobserved);
         balanced.unwrap().unwrap()
     }
 
     fn tear(&mut self, bonds: &[u32]) -> Balanced {
-        self.equilibrium.break_bonds(&mut self.state, bonds);
+        self.breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
         self.balance()
     }
 }

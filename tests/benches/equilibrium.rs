@@ -77,11 +77,15 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
     });
     let whole = Connectivity::new(system);
     let broken = next(10);
+    let mut left = intact.clone();
+    for &bond in &broken {
+        left[bond as usize] = false;
+    }
     group.bench_function("connectivity, 10 bonds", |bencher| {
         bencher.iter_batched(
             || whole.clone(),
             |mut connectivity| {
-                connectivity.bonds_broke(system, black_box(&broken));
+                connectivity.bonds_broke(system, &left, black_box(&broken));
                 connectivity
             },
             BatchSize::LargeInput,
@@ -133,9 +137,9 @@ impl<'a> Body<'a> {
         let mut equilibrium = Equilibrium::of(problem, 1e-4).unwrap();
         let mut state = State::fresh(problem.system);
         state.load_factor = 1.0;
-        equilibrium.break_bonds(&mut state, &[]);
+        let breakage = equilibrium.break_bonds(&mut state, &[]);
         let mut watch = Watch::default();
-        let balanced = equilibrium.balance(&mut state, &mut watch);
+        let balanced = equilibrium.balance(&mut state, &breakage, &mut watch);
         Self {
             balanced: balanced.unwrap().unwrap(),
             equilibrium,
@@ -153,8 +157,9 @@ impl<'a> Body<'a> {
         let (deformations, intact) = (&self.balanced.deformations, &self.state.intact);
         let bonds = next_to_break(rule, deformations, criteria, intact);
         let start = Instant::now();
-        self.equilibrium.break_bonds(&mut self.state, &bonds);
-        let balanced = self.equilibrium.balance(&mut self.state, &mut self.watch);
+        let breakage = self.equilibrium.break_bonds(&mut self.state, &bonds);
+        let (state, watch) = (&mut self.state, &mut self.watch);
+        let balanced = self.equilibrium.balance(state, &breakage, watch);
         let duration = start.elapsed();
         self.balanced = balanced.unwrap().unwrap();
         duration

@@ -14,8 +14,9 @@ use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
 use crate::boundary::Boundary;
+use crate::breakage::Breakage;
+use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
-use crate::connectivity::{Fragments, Hold};
 use crate::driver::Problem;
 use crate::history::{Observer, ObserverError};
 use crate::internal::{self, BondSweep, InternalForces};
@@ -183,41 +184,45 @@ impl<'a> Equilibrium<'a> {
         self.stiffness.costs.bonds += start.elapsed();
     }
 
-    /// Breaks bonds: takes them out of the state and holds what came loose. Returns the new holds.
+    /// Breaks bonds: takes them out of the state and holds what came loose.
     ///
-    /// To be called before the first solution, with whatever bonds the state lacks, and then with every bond that breaks.
-    pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Vec<Hold> {
+    /// To be called before the first solution, with whatever bonds the state lacks, and then with every bond that breaks; the
+    /// next equilibrium is that after the breakage.
+    pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Breakage {
+        let expansion = self.boundary.thermal_strain_at(state.load_factor);
+        let mut breakage = Breakage::new(self.system, expansion, state, bonds);
         let start = Instant::now();
         for &bond in bonds {
             state.intact[bond as usize] = false;
         }
-        self.connectivity.bonds_broke(self.system, bonds);
+        self.connectivity
+            .bonds_broke(self.system, &state.intact, bonds);
         let (prescribed, held) = (&self.boundary.prescribed, &state.held);
         let unknowns = self.stiffness.unknowns();
-        let holds = self.connectivity.missing_holds(
+        breakage.holds = self.connectivity.missing_holds(
             self.system,
             |dof| prescribed[dof].is_some() || held[dof],
             |dof| unknowns.number(dof).is_some(),
         );
-        for hold in &holds {
+        for hold in &breakage.holds {
             state.held[hold.degree_of_freedom] = true;
         }
-        self.stiffness
-            .note(bonds, holds.iter().map(|hold| hold.degree_of_freedom));
         self.stiffness.costs.connectivity += start.elapsed();
-        holds
+        breakage
     }
 
-    /// Brings the state into equilibrium at its load factor.
+    /// Brings the state into equilibrium at its load factor, after the last breakage; an empty one where none came since the
+    /// last equilibrium.
     ///
     /// The outer result is an observer's failure, the inner one tells whether there is an equilibrium.
     pub fn balance(
         &mut self,
         state: &mut State,
+        breakage: &Breakage,
         observer: &mut dyn Observer,
     ) -> Result<Result<Balanced, Unbalanced>, ObserverError> {
         if !state.softening.remaining.is_empty() {
-            return self.balance_secants(state, observer);
+            return self.balance_secants(state, breakage, observer);
         }
         if self.system.element == ElementKind::Pairwise {
             return self.balance_unsymmetric(state, observer);
@@ -226,7 +231,7 @@ impl<'a> Equilibrium<'a> {
         let mut mechanisms = Vec::new();
         let mut previous_energy = f64::NAN;
         let mut iterations = 0;
-        if let Some(correction) = self.stiffness.follow(state, self.boundary) {
+        if let Some(correction) = self.stiffness.follow(breakage, state, self.boundary) {
             self.add_correction(state, &correction);
             iterations = 1;
         }

@@ -119,13 +119,8 @@ pub struct Stiffness<'a> {
     stale: Option<Box<dyn Factorisation>>,
     /// Degrees of freedom that were held when the factor was made, and so are cut off from the others.
     cut_off: Vec<bool>,
-    /// Bonds that broke and degrees of freedom that were held since the factor was last made or changed.
-    broken: Vec<u32>,
-    held: Vec<usize>,
     /// Whether the factor was changed since it was made.
     is_changed: bool,
-    /// Bonds that the factor has, shape (n_bonds).
-    intact: Vec<bool>,
     /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
     remaining: Vec<Remaining>,
     /// Elements that were lost or changed so far.
@@ -170,10 +165,7 @@ impl<'a> Stiffness<'a> {
             symbolic,
             factor: None,
             stale: None,
-            broken: Vec::new(),
-            held: Vec::new(),
             is_changed: false,
-            intact: Vec::new(),
             remaining: Vec::new(),
             n_changed: 0,
             unknowns,
@@ -220,12 +212,6 @@ impl<'a> Stiffness<'a> {
         self.stale = self.factor.take().or(self.stale.take());
     }
 
-    /// Takes note of bonds that broke and degrees of freedom that are held from now on.
-    pub(crate) fn note(&mut self, broken: &[u32], held: impl Iterator<Item = usize>) {
-        self.broken.extend_from_slice(broken);
-        self.held.extend(held);
-    }
-
     /// Number of the unknown at a degree of freedom that the factor couples with others.
     fn number(&self, dof: usize) -> Option<usize> {
         self.unknowns.number(dof).filter(|_| !self.cut_off[dof])
@@ -257,7 +243,6 @@ impl<'a> Stiffness<'a> {
         if vanishing.is_empty() {
             self.factor = factor.ok();
             self.cut_off.clone_from(&state.held);
-            self.intact.clone_from(&state.intact);
             self.remaining.clone_from(&state.softening.remaining);
             self.is_changed = false;
         }

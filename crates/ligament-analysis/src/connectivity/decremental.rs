@@ -11,8 +11,6 @@ use super::{Fragments, Hold};
 /// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.
 #[derive(Debug, Clone)]
 pub struct Connectivity {
-    /// Which bonds are left, shape (n_bonds).
-    intact: Vec<bool>,
     fragments: Fragments,
     /// A point of each fragment whose points changed since [`Connectivity::missing_holds`].
     changed: Vec<u32>,
@@ -36,12 +34,10 @@ const NEITHER: u8 = 2;
 impl Connectivity {
     /// The body with all its bonds.
     pub fn new(system: &BondSystem) -> Self {
-        let intact = vec![true; system.bonds.len()];
-        let fragments = Fragments::find(system, &intact);
+        let fragments = Fragments::find(system, &vec![true; system.bonds.len()]);
         Self {
             changed: fragments.points.iter().map(|points| points[0]).collect(),
             fragments,
-            intact,
             search: Search {
                 reached_by: vec![NEITHER; system.cloud.len()],
                 reached: [Vec::new(), Vec::new()],
@@ -60,16 +56,17 @@ impl Connectivity {
         self.search.effort
     }
 
-    /// Takes bonds away and splits the fragments that they held together.
+    /// Splits the fragments that some bonds held together, which are `intact` (n_bonds) no longer.
     ///
-    /// They go one by one: where two of them split a fragment in three, each split is seen.
-    pub fn bonds_broke(&mut self, system: &BondSystem, bonds: &[u32]) {
+    /// Each bond may split off a part of a fragment: where two of them leave three parts, the second finds the third.
+    pub fn bonds_broke(&mut self, system: &BondSystem, intact: &[bool], bonds: &[u32]) {
         for &bond in bonds {
-            if !std::mem::replace(&mut self.intact[bond as usize], false) {
+            let ends = system.bonds.ends[bond as usize];
+            let [first, second] = ends.map(|end| self.fragments.of_point[end as usize]);
+            if first != second {
                 continue;
             }
-            let ends = system.bonds.ends[bond as usize];
-            if let Some(part) = self.search.part_apart(&system.bonds, &self.intact, ends) {
+            if let Some(part) = self.search.part_apart(&system.bonds, intact, ends) {
                 self.fragments.split_off(part);
                 self.changed.extend(ends);
             }

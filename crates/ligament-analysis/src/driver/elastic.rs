@@ -4,6 +4,7 @@ use super::Problem;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::begin;
+use crate::breakage::Breakage;
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{Observer, Termination, View};
 
@@ -23,7 +24,7 @@ pub fn run(
         state.load_factor = load_factor;
         let solves_before = equilibrium.costs().solves;
         observer.round(step, 0, load_factor, 0)?;
-        let balanced = match equilibrium.balance(&mut state, observer)? {
+        let balanced = match equilibrium.balance(&mut state, &Breakage::default(), observer)? {
             Ok(Balanced {
                 negative_energy: Some(energy),
                 ..

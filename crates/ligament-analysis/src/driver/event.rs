@@ -11,8 +11,9 @@ use std::time::Instant;
 
 use super::Problem;
 use super::outcome::{Outcome, Rows};
-use super::path::{JustBroken, NO_LOAD, Path, StopRules};
+use super::path::{NO_LOAD, Path, StopRules};
 use super::recorder::{StepCounters, largest_ratio};
+use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_to_break};
 use crate::equilibrium::{Balanced, SetupError};
 use crate::history::{Observer, Termination};
@@ -43,7 +44,7 @@ pub fn run(
     }
     let (mut path, at_one) =
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    let unloaded = match path.balance(0)? {
+    let unloaded = match path.balance(0, &Breakage::default())? {
         Ok(balanced) => balanced,
         Err(reason) => {
             let end = Termination::NoEquilibrium { step: 0, reason };
@@ -93,7 +94,7 @@ impl Following<'_> {
     fn follow(&mut self) -> Result<Termination, SetupError> {
         let mut step = 1;
         self.path.enter(step, 0)?;
-        let mut line = match self.path.balance(step)? {
+        let mut line = match self.path.balance(step, &Breakage::default())? {
             Ok(balanced) => balanced,
             Err(reason) => return Ok(Termination::NoEquilibrium { step, reason }),
         };
@@ -106,7 +107,7 @@ impl Following<'_> {
             } = self.goal(&line);
             let critical = self.move_along_line(&line, load_factor);
             self.path.enter(step, 0)?;
-            self.path.account(step, &JustBroken::new(), &critical)?;
+            self.path.account(step, &Breakage::default(), &critical)?;
             let end = end
                 .or_else(|| self.path.interruption())
                 .or_else(|| self.path.end_at_rest(&critical));
@@ -123,19 +124,19 @@ impl Following<'_> {
             if let Some(end) = end {
                 return Ok(end);
             }
-            let just_broken = self.path.break_bonds(&bonds, &critical, step, 1)?;
+            let breakage = self.path.break_bonds(&bonds, &critical, step, 1)?;
             if self.path.collapsed {
                 return self.end(step + 1, &critical, Termination::Collapsed);
             }
             self.path.enter(step, 1)?;
-            line = match self.path.balance(step)? {
+            line = match self.path.balance(step, &breakage)? {
                 Ok(balanced) => balanced,
                 Err(reason) => {
                     let end = Termination::NoEquilibrium { step, reason };
                     return self.end(step + 1, &critical, end);
                 }
             };
-            self.path.account(step, &just_broken, &line)?;
+            self.path.account(step, &breakage, &line)?;
             step += 1;
             if self.path.carries_nothing(&line) {
                 return self.end(step, &line, Termination::FellApart);

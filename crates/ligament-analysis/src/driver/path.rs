@@ -11,7 +11,7 @@ use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
 use crate::boundary::ControlKind;
-use crate::breakage::{self, ChangedElement};
+use crate::breakage::Breakage;
 use crate::connectivity::Hold;
 use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
 use crate::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, Termination, View};
@@ -68,9 +68,6 @@ pub(super) struct Path<'a> {
     started: Instant,
 }
 
-/// Elements that breakages just changed.
-pub(super) type JustBroken = Vec<ChangedElement>;
-
 impl<'a> Path<'a> {
     /// Begins with the unloaded body; also gives the equilibrium at load factor one, if there is one.
     pub(super) fn begin(
@@ -114,15 +111,18 @@ impl<'a> Path<'a> {
         self.observer.round(step, round, load_factor, self.broken)
     }
 
-    /// Equilibrium of the state; a negative energy is none unless the case says to go on. Without an equilibrium the
-    /// displacements stay as they were.
+    /// Equilibrium of the state after the last breakage; a negative energy is none unless the case says to go on. Without an
+    /// equilibrium the displacements stay as they were.
     pub(super) fn balance(
         &mut self,
         step: usize,
+        breakage: &Breakage,
     ) -> Result<Result<Balanced, Unbalanced>, SetupError> {
         let displacement = self.state.displacement.clone();
         let softening = self.state.softening.clone();
-        let balanced = self.equilibrium.balance(&mut self.state, self.observer)?;
+        let balanced = self
+            .equilibrium
+            .balance(&mut self.state, breakage, self.observer)?;
         let balanced = match balanced {
             Ok(Balanced {
                 negative_energy: Some(energy),
@@ -148,12 +148,12 @@ impl<'a> Path<'a> {
     pub(super) fn account(
         &mut self,
         step: usize,
-        just_broken: &JustBroken,
+        breakage: &Breakage,
         balanced: &Balanced,
     ) -> Result<(), SetupError> {
         self.energies.add_work(self.problem, &self.state, balanced);
         self.energies
-            .add_released(self.problem, &self.state, just_broken, balanced);
+            .add_released(self.problem, &self.state, breakage, balanced);
         dissipation::soften(self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
@@ -166,7 +166,7 @@ impl<'a> Path<'a> {
         balanced: &Balanced,
         step: usize,
         round: usize,
-    ) -> Result<JustBroken, SetupError> {
+    ) -> Result<Breakage, SetupError> {
         let load_factor = self.state.load_factor;
         let [displacement, reaction] = self.control(balanced);
         let criteria = self.problem.criteria;
@@ -192,18 +192,11 @@ impl<'a> Path<'a> {
         for record in &records {
             dissipation::break_bond(self.problem, &mut self.state, record);
         }
-        let just_broken = breakage::changed_elements(
-            self.problem.system,
-            self.problem.boundary.thermal_strain_at(load_factor),
-            self.state.bonds(),
-            &self.state.displacement,
-            bonds,
-        );
-        let holds = self.equilibrium.break_bonds(&mut self.state, bonds);
-        self.collapsed |= self.load_came_loose(&holds);
+        let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
+        self.collapsed |= self.load_came_loose(&breakage.holds);
         let fragments = self.equilibrium.fragments();
-        report_loose(step, fragments, &holds, self.observer)?;
-        Ok(just_broken)
+        report_loose(step, fragments, &breakage.holds, self.observer)?;
+        Ok(breakage)
     }
 
     fn load_came_loose(&self, holds: &[Hold]) -> bool {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::Problem;
 use crate::boundary::Boundary;
-use crate::breakage::ChangedElement;
+use crate::breakage::Breakage;
 use crate::connectivity::Fragments;
 use crate::equilibrium::Balanced;
 use crate::history::StepRecord;
@@ -76,21 +76,17 @@ impl Energies {
         self.external_work += work;
     }
 
-    /// Adds what the breakage of bonds released, given the elements that it changed, and what softening did since the last
-    /// state.
+    /// Adds what a breakage released, and what softening did since the last state.
     pub(super) fn add_released(
         &mut self,
         problem: &Problem<'_>,
         state: &State,
-        broken: &[ChangedElement],
+        breakage: &Breakage,
         balanced: &Balanced,
     ) {
         let expansion = problem.boundary.thermal_strain_at(state.load_factor);
         let remaining = &state.softening.remaining;
-        self.released += broken
-            .iter()
-            .map(|it| it.released(&state.displacement, expansion))
-            .sum::<f64>();
+        self.released += breakage.released(&state.displacement, expansion);
         for (bond, (before, left_before)) in self.last.iter().enumerate() {
             let lost = left_before.lost(&remaining[bond]);
             if state.intact[bond] && lost != Remaining::NOTHING {

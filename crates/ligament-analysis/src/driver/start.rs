@@ -33,12 +33,12 @@ pub(super) fn begin(
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
     let mut unloaded = State::fresh(problem.system);
-    let holds = equilibrium.break_bonds(&mut unloaded, &[]);
+    let breakage = equilibrium.break_bonds(&mut unloaded, &[]);
     let free = gauges::free_bodies(
         problem.system,
         problem.boundary,
         equilibrium.fragments(),
-        &holds,
+        &breakage.holds,
     );
     for body in free {
         observer.notice(&Notice::FreeBody(body))?;
@@ -57,7 +57,7 @@ pub(super) fn begin(
         at_one: None,
     };
     // Without an equilibrium the first load step fails as well, and says why.
-    if let Ok(balanced) = equilibrium.balance(&mut at_one, &mut Unobserved)? {
+    if let Ok(balanced) = equilibrium.balance(&mut at_one, &breakage, &mut Unobserved)? {
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;

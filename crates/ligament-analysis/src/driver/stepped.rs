@@ -7,8 +7,9 @@ use std::time::Instant;
 
 use super::Problem;
 use super::outcome::{LoadPoint, Outcome, Rows};
-use super::path::{JustBroken, Path, StopRules};
+use super::path::{Path, StopRules};
 use super::recorder::{StepCounters, largest_ratio};
+use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
 use crate::equilibrium::{Balanced, SetupError};
 use crate::history::{Observer, Termination};
@@ -108,11 +109,11 @@ impl Stepping<'_> {
             step,
             ..Default::default()
         };
-        let mut just_broken = JustBroken::new();
+        let mut breakage = Breakage::default();
         let mut last: Option<Balanced> = None;
         loop {
             self.path.enter(step, counters.rounds)?;
-            let balanced = match self.path.balance(step)? {
+            let balanced = match self.path.balance(step, &breakage)? {
                 Ok(balanced) => balanced,
                 Err(reason) => {
                     let end = Some(Termination::NoEquilibrium { step, reason });
@@ -122,7 +123,7 @@ impl Stepping<'_> {
                     };
                 }
             };
-            self.path.account(step, &just_broken, &balanced)?;
+            self.path.account(step, &breakage, &balanced)?;
             let next = self.next_to_break(&balanced);
             counters.at_rest = next.is_empty();
             let interrupted = self.interruption(&counters);
@@ -131,7 +132,7 @@ impl Stepping<'_> {
             }
             counters.rounds += 1;
             counters.broken_in_step += next.len();
-            just_broken = self
+            breakage = self
                 .path
                 .break_bonds(&next, &balanced, step, counters.rounds)?;
             if self.path.collapsed {

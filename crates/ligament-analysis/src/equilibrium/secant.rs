@@ -2,6 +2,7 @@
 
 use super::anderson::Mixing;
 use super::{Balanced, Equilibrium, LARGEST_RESIDUAL, RESIDUAL_TOLERANCE, Unbalanced};
+use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::unknowns::{COMPONENTS, Component};
@@ -29,6 +30,7 @@ impl Equilibrium<'_> {
     pub(super) fn balance_secants(
         &mut self,
         state: &mut State,
+        breakage: &Breakage,
         observer: &mut dyn Observer,
     ) -> Result<Result<Balanced, Unbalanced>, ObserverError> {
         self.prescribe(state);
@@ -37,7 +39,7 @@ impl Equilibrium<'_> {
         let mut previous_residual = f64::INFINITY;
         let mut iterations = 0;
         let mut mixing = Mixing::new(self.lengths());
-        if let Some(correction) = self.stiffness.follow(state, self.boundary) {
+        if let Some(correction) = self.stiffness.follow(breakage, state, self.boundary) {
             self.add_correction(state, &correction);
             iterations = 1;
         }

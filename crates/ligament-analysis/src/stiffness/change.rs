@@ -3,13 +3,14 @@
 use std::time::Instant;
 
 use ligament_linalg::RankOne;
-use ligament_model::element::{BondDeformation, BondElement, Remaining, Term};
+use ligament_model::element::{BondElement, Remaining, Term};
 use rayon::prelude::*;
 
 use super::{SolverChoice, Stiffness, Update};
 use crate::boundary::Boundary;
-use crate::breakage::{self, ChangedElement};
-use crate::state::{BondsLeft, State};
+use crate::breakage::Breakage;
+use crate::connectivity::Hold;
+use crate::state::State;
 use crate::unknowns::COMPONENTS;
 
 /// Bonds that make a task worth while.
@@ -20,38 +21,41 @@ const TASK: usize = 4096;
 const SECANT_TOLERANCE: f64 = 0.05;
 
 impl Stiffness<'_> {
-    /// Changes the factor by what was noted, and solves for the force that the broken bonds carried: the correction of the
-    /// unknowns, shape (n_unknowns). None where nothing was noted or the factor has to be made anew.
+    /// Changes the factor by a breakage, and solves for the force that the broken bonds carried: the correction of the
+    /// unknowns, shape (n_unknowns). None where nothing broke or the factor has to be made anew.
     ///
     /// K' du = (K - K') u, K' the matrix of the bonds that are left + the terms of the holds (a positive diagonal entry of the size
     /// of the one that was there). A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there:
     /// up to rounding, which is taken away. For this the forces at the holds must be in the right-hand side.
-    pub(crate) fn follow(&mut self, state: &State, boundary: &Boundary) -> Option<Vec<f64>> {
-        let (broken, held) = (
-            std::mem::take(&mut self.broken),
-            std::mem::take(&mut self.held),
-        );
-        if broken.is_empty() && held.is_empty() {
+    pub(crate) fn follow(
+        &mut self,
+        breakage: &Breakage,
+        state: &State,
+        boundary: &Boundary,
+    ) -> Option<Vec<f64>> {
+        if self.factor.is_none() || (breakage.bonds.is_empty() && breakage.holds.is_empty()) {
             return None;
         }
-        let changed = if self.factor.is_some() {
-            self.changed_elements(&broken, state, boundary)
-        } else {
-            Vec::new()
-        };
-        self.forget_unless_in_place(changed.len());
+        self.forget_unless_in_place(breakage.n_elements());
         let mut factor = self.factor.take()?;
-        for &bond in &broken {
-            self.intact[bond as usize] = false;
-        }
         let start = Instant::now();
-        let mut terms = self.hold_terms(&held);
+        let mut terms = self.hold_terms(&breakage.holds);
         // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
-        let gained = changed.iter().filter_map(|it| it.after.as_ref());
-        terms.extend(gained.flat_map(|(element, _)| self.terms_of(element, 1.0)));
-        let lost = changed.iter().map(|it| &it.before.0);
-        terms.extend(lost.flat_map(|element| self.terms_of(element, -1.0)));
-        let force = self.unbalanced_force(&changed);
+        terms.extend(
+            breakage
+                .gained_terms()
+                .filter_map(|term| self.at_unknowns(term, 1.0)),
+        );
+        terms.extend(
+            breakage
+                .lost_terms()
+                .filter_map(|term| self.at_unknowns(term, -1.0)),
+        );
+        let mut force = Vec::new();
+        let expansion = boundary.thermal_strain_at(state.load_factor);
+        breakage.unbalanced_force(&state.displacement, expansion, |dof, value| {
+            force.extend(self.number(dof).map(|unknown| (unknown, value)));
+        });
         let half_solved = factor.change(&terms, &force);
         self.costs.change += start.elapsed();
         self.costs.changes += 1;
@@ -102,7 +106,8 @@ impl Stiffness<'_> {
         for &bond in &due {
             let lost = self.remaining[bond].lost(&remaining[bond]);
             let element = BondElement::of(self.system, &state.intact, bond).weakened(&lost);
-            terms.extend(self.terms_of(&element, -1.0));
+            let of_element = element.terms().into_iter();
+            terms.extend(of_element.filter_map(|term| self.at_unknowns(term, -1.0)));
             self.remaining[bond] = remaining[bond];
         }
         // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
@@ -137,29 +142,10 @@ impl Stiffness<'_> {
         }
     }
 
-    /// What changes when bonds break that the factor still has, at the displacements and with the softening of a state.
-    fn changed_elements(
-        &self,
-        broken: &[u32],
-        state: &State,
-        boundary: &Boundary,
-    ) -> Vec<ChangedElement> {
-        let before = BondsLeft {
-            intact: &self.intact,
-            remaining: &state.softening.remaining,
-        };
-        breakage::changed_elements(
-            self.system,
-            boundary.thermal_strain_at(state.load_factor),
-            before,
-            &state.displacement,
-            broken,
-        )
-    }
-
     /// What holds add to the matrix. They go in before bonds leave: no pivot vanishes in between.
-    fn hold_terms(&self, held: &[usize]) -> Vec<RankOne> {
-        let holds = held.iter().filter_map(|&dof| {
+    fn hold_terms(&self, holds: &[Hold]) -> Vec<RankOne> {
+        let held = holds.iter().map(|hold| hold.degree_of_freedom);
+        let holds = held.filter_map(|dof| {
             let entries = vec![(self.number(dof)?, 1.0)];
             let diagonal = self.whole_diagonal(dof).abs();
             let weight = if diagonal == 0.0 { 1.0 } else { diagonal };
@@ -168,19 +154,16 @@ impl Stiffness<'_> {
         holds.collect()
     }
 
-    /// The terms of an element times a factor.
-    fn terms_of(&self, element: &BondElement, factor: f64) -> Vec<RankOne> {
-        let of_term = |(rigidity, entries): Term| {
-            let entries: Vec<(usize, f64)> = (entries.into_iter())
-                .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
-                .collect();
-            let matters = rigidity != 0.0 && !entries.is_empty();
-            matters.then_some(RankOne {
-                weight: factor * rigidity,
-                entries,
-            })
-        };
-        element.terms().into_iter().filter_map(of_term).collect()
+    /// A term of an element times a factor, at the unknowns; none where it changes nothing.
+    fn at_unknowns(&self, (rigidity, entries): Term, factor: f64) -> Option<RankOne> {
+        let entries: Vec<(usize, f64)> = (entries.into_iter())
+            .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
+            .collect();
+        let matters = rigidity != 0.0 && !entries.is_empty();
+        matters.then_some(RankOne {
+            weight: factor * rigidity,
+            entries,
+        })
     }
 
     /// Diagonal entry of the matrix with all bonds.
@@ -194,27 +177,5 @@ impl Stiffness<'_> {
                 own.map(|(_, value)| rigidity * value * value).sum::<f64>()
             })
             .sum()
-    }
-
-    /// What the elements that changed exerted on their points, as a force that nothing balances any more.
-    fn unbalanced_force(&self, changed: &[ChangedElement]) -> Vec<(usize, f64)> {
-        let mut force = Vec::with_capacity(2 * COMPONENTS * changed.len());
-        let mut add = |(element, deformation): &(BondElement, BondDeformation), sign: f64| {
-            element.forces(deformation, |point, values| {
-                for (component, value) in values.into_iter().enumerate() {
-                    let dof = COMPONENTS * point as usize + component;
-                    if let Some(unknown) = self.number(dof) {
-                        force.push((unknown, sign * value));
-                    }
-                }
-            });
-        };
-        for it in changed {
-            add(&it.before, 1.0);
-            if let Some(after) = &it.after {
-                add(after, -1.0);
-            }
-        }
-        force
     }
 }
