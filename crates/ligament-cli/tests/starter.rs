@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use ligament_case::case::{CaseFile, Law, Place, schema};
-use ligament_cli::check::{Extent, check};
 use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
+use ligament_cli::check::{Extent, check};
 use serde_json::Value;
 use tempfile::TempDir;
 

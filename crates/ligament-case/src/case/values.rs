@@ -65,10 +65,7 @@ pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
 }
 
 /// Names head the columns of a table of comma-separated values.
-pub fn require_column_name(
-    key: impl FnOnce() -> KeyPath,
-    name: &str,
-) -> Result<(), KeyFault> {
+pub fn require_column_name(key: impl FnOnce() -> KeyPath, name: &str) -> Result<(), KeyFault> {
     let fits = !name.is_empty()
         && name.trim() == name
         && !name

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use ligament_study::calibrate::{Request, calibrate, line};
 use ligament_case::case::{CaseFile, MOST_THREADS};
+use ligament_study::calibrate::{Request, calibrate, line};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

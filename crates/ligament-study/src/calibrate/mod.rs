@@ -13,10 +13,10 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 
-use ligament_case::case::{CaseError, CaseFile, Fault};
 use crate::inputs::{Contents, Inputs};
-use ligament_case::progress::ProgressMode;
 use crate::quantities::{Quantities, QuantityError};
+use ligament_case::case::{CaseError, CaseFile, Fault};
+use ligament_case::progress::ProgressMode;
 use ligament_case::run::run;
 use record::{Record, Run};
 use search::{Next, Search, Trial, Verdict};

@@ -11,8 +11,8 @@ use super::plan::Run;
 use super::record::Status;
 use super::report::unknown_names;
 use super::study::Study;
-use ligament_case::progress::{ProgressMode, duration_text};
 use crate::quantities::Quantities;
+use ligament_case::progress::{ProgressMode, duration_text};
 
 /// Shows how far a study is.
 pub(super) struct StudyProgress<'a> {

@@ -12,9 +12,9 @@ use super::record::Status;
 use super::study::Study;
 use super::table;
 use super::table::{NoColumn, Row, StudyTable};
+use crate::quantities::{Quantities, QuantityError};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
-use crate::quantities::{Quantities, QuantityError};
 use ligament_plot::plots::Paper;
 use ligament_plot::plots::png::to_png;
 
