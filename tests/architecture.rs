@@ -14,7 +14,10 @@ const ARROWS: [(&str, &[&str]); 6] = [
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
     ("ligament-analysis", &["ligament-linalg", "ligament-model"]),
-    ("ligament-output", &["ligament-analysis", "ligament-mesh", "ligament-model"]),
+    (
+        "ligament-output",
+        &["ligament-analysis", "ligament-mesh", "ligament-model"],
+    ),
     (
         "ligament",
         &[

@@ -1,11 +1,12 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
+use ligament::Vibration;
+use ligament::setup::Analysis;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Vibration};
 use ligament_case::stages::Stages;
 use ligament_mesh::Mesh;
 use ligament_model::LumpedMass;
@@ -42,7 +43,7 @@ impl ModalBench {
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let vibration = Vibration::of(&case, &*model.body, &model.system.cloud).unwrap();
+        let vibration = Vibration::new(&model.setup, &model.system.cloud).unwrap();
         Self {
             supports: vibration.supports,
             mass: vibration.mass,
@@ -57,9 +58,11 @@ impl ModalBench {
             system: &self.model.system,
             mass: &self.mass,
             supports: &self.supports,
-            solver: resolve::solver(&self.case),
+            solver: self.model.setup.solver,
         };
-        let settings = resolve::modal(self.case.case.modal.as_ref().unwrap());
+        let Analysis::Modal(settings) = self.model.setup.analysis else {
+            panic!("this case is not modal");
+        };
         ModalAnalysis::of(problem, settings)
             .unwrap()
             .find()

@@ -5,7 +5,7 @@ use ligament_analysis::COMPONENTS;
 use super::table::{Extent, Known};
 use super::trial::Template;
 use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

@@ -8,7 +8,7 @@ use super::plots::{Colour, Mark, Plot, Series};
 use super::table::{Extent, Known, Labels};
 use super::trial::{Memory, StoredMesh, Template, Trial};
 use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

@@ -7,7 +7,7 @@ use super::published::numbers;
 use super::table::{Extent, Known, Labels, Table};
 use super::trial::{Memory, Template, Trial, displacement_at, probe};
 use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

@@ -4,7 +4,7 @@ use super::plots::{Colour, Mark, Plot, Series};
 use super::table::{Extent, Known, LabelError, Labels, Table};
 use super::trial::{StoredMesh, Template, probe};
 use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

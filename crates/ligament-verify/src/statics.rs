@@ -4,7 +4,7 @@ use super::plots::{Colour, Mark, Plot, Series};
 use super::table::{Extent, Known, Labels, Table};
 use super::trial::{Memory, Template, displacement_at, largest_displacements};
 use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

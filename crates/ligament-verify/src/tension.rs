@@ -5,7 +5,7 @@ use super::published::numbers;
 use super::table::{Extent, Known};
 use super::trial::{Memory, Template, displacement_at};
 use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

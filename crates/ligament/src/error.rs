@@ -52,7 +52,10 @@ pub struct Field {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Fault {
     /// A name that the body does not have.
-    #[error("no {what} is called `{found}`{}", hint(found, candidates, "there are", '`'))]
+    #[error(
+        "no {what} is called `{found}`{}",
+        hint(found, candidates, "there are", '`')
+    )]
     UnknownName {
         /// What the name should be of, and where: `physical group in the mesh`.
         what: &'static str,

@@ -5,7 +5,9 @@ use ligament_model::correction::{Continuum, Correction, domain, length, partial_
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
-use ligament_model::{BondStiffness, BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud};
+use ligament_model::{
+    BondStiffness, BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud,
+};
 
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};

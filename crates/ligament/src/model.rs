@@ -50,70 +50,76 @@ impl Model {
     ///
     /// If a field of the setup is wrong.
     pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
-    setup.check()?;
-    let body = &*setup.body;
-    let material_of_cell = loading::material_of_cell(&setup)?;
-    let (thickness, n_materials) = (setup.thickness(), setup.materials.len());
-    let cloud = stage(watcher, "points", || {
-        body.cloud(thickness, &material_of_cell, n_materials)
-    });
-    let horizons = setup.horizon.of_points(&cloud);
-    let (bonds, mut absent) = stage(watcher, "bonds", || {
-        around_holes(BondSet::search(&cloud, &horizons), body, &cloud)
-    });
-    let across_holes = absent.len();
-    require_neighbours(body, &bonds)?;
-    watcher.found(&Finding::Bonds {
-        points: cloud.len(),
-        bonds: bonds.len(),
-    });
-    let precracks = &setup.precracks;
-    let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
-        let is_cut = cut_bonds(precracks, &bonds, &cloud);
-        let touched = count_touched_bonds(precracks, &bonds, &cloud, &is_cut);
-        let precrack_share = precrack_share(&bonds, &is_cut);
-        (is_cut, touched, precrack_share)
-    });
-    absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
-    absent.sort_unstable_by_key(|it| it.ends);
-    let Corrected {
-        bonds,
-        stiffness,
-        correction,
-        energy_ratios,
-    } = stage(watcher, "correction", || {
-        correct(&setup, &cloud, &horizons, bonds, &is_cut)
-    });
-    watcher.found(&Finding::Correction(correction.report.as_ref()));
+        setup.check()?;
+        let body = &*setup.body;
+        let material_of_cell = loading::material_of_cell(&setup)?;
+        let (thickness, n_materials) = (setup.thickness(), setup.materials.len());
+        let cloud = stage(watcher, "points", || {
+            body.cloud(thickness, &material_of_cell, n_materials)
+        });
+        let horizons = setup.horizon.of_points(&cloud);
+        let (bonds, mut absent) = stage(watcher, "bonds", || {
+            around_holes(BondSet::search(&cloud, &horizons), body, &cloud)
+        });
+        let across_holes = absent.len();
+        require_neighbours(body, &bonds)?;
+        watcher.found(&Finding::Bonds {
+            points: cloud.len(),
+            bonds: bonds.len(),
+        });
+        let precracks = &setup.precracks;
+        let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
+            let is_cut = cut_bonds(precracks, &bonds, &cloud);
+            let touched = count_touched_bonds(precracks, &bonds, &cloud, &is_cut);
+            let precrack_share = precrack_share(&bonds, &is_cut);
+            (is_cut, touched, precrack_share)
+        });
+        absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
+        absent.sort_unstable_by_key(|it| it.ends);
+        let Corrected {
+            bonds,
+            stiffness,
+            correction,
+            energy_ratios,
+        } = stage(watcher, "correction", || {
+            correct(&setup, &cloud, &horizons, bonds, &is_cut)
+        });
+        watcher.found(&Finding::Correction(correction.report.as_ref()));
 
-    let no_fail = loading::no_fail(&setup, &cloud)?;
-    let fixed = FixedFields {
-        horizon: horizons.radius,
-        precrack_share,
-        energy_ratios,
-        domain_factor: correction.domain_factor.clone(),
-        no_fail,
-        absent,
-    };
-    let system = stage(watcher, "rigidities", || {
-        bond_system(&setup, cloud, bonds, stiffness, &correction)
-    });
-    let criteria = stage(watcher, "criteria", || {
-        formulation::criteria(&setup, &system, &fixed.no_fail)
-    })?;
-    let spacing = &system.cloud.spacing;
+        let no_fail = loading::no_fail(&setup, &cloud)?;
+        let fixed = FixedFields {
+            horizon: horizons.radius,
+            precrack_share,
+            energy_ratios,
+            domain_factor: correction.domain_factor.clone(),
+            no_fail,
+            absent,
+        };
+        let system = stage(watcher, "rigidities", || {
+            bond_system(&setup, cloud, bonds, stiffness, &correction)
+        });
+        let criteria = stage(watcher, "criteria", || {
+            formulation::criteria(&setup, &system, &fixed.no_fail)
+        })?;
+        let spacing = &system.cloud.spacing;
         Ok(Self {
-        warnings: warning::of_model(&setup, spacing, correction.report.as_ref(), &fixed, touched),
-        correction_range: correction.domain_factor_range(),
-        correction: correction.report,
-        across_holes,
-        cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
-        no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
-        setup,
-        system,
-        fixed,
-        criteria,
-    })
+            warnings: warning::of_model(
+                &setup,
+                spacing,
+                correction.report.as_ref(),
+                &fixed,
+                touched,
+            ),
+            correction_range: correction.domain_factor_range(),
+            correction: correction.report,
+            across_holes,
+            cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
+            no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
+            setup,
+            system,
+            fixed,
+            criteria,
+        })
     }
 
     /// The body.

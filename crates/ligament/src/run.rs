@@ -33,7 +33,7 @@ impl Setup {
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let loading = Loading::new(&model)?;
+            let loading = Loading::new(&model.setup, &model.system)?;
             let problem = loading.problem(&model.system, &model.criteria);
             let outcome = follow(&problem, &model.setup.analysis, observer)?;
             Ok(Solution {
@@ -55,7 +55,7 @@ impl Setup {
         };
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let vibration = Vibration::new(&model)?;
+            let vibration = Vibration::new(&model.setup, &model.system.cloud)?;
             let analysis = ModalAnalysis::of(vibration.problem(&model.system), settings)?;
             Ok(analysis.find()?)
         })?

@@ -31,11 +31,7 @@ pub enum Finding<'a> {
 }
 
 /// Does a stage, and tells of its beginning and its end.
-pub fn stage<T>(
-    watcher: &mut dyn StageWatcher,
-    name: &'static str,
-    work: impl FnOnce() -> T,
-) -> T {
+pub fn stage<T>(watcher: &mut dyn StageWatcher, name: &'static str, work: impl FnOnce() -> T) -> T {
     watcher.begins(name);
     let result = work();
     watcher.ends(name);

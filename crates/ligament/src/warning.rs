@@ -145,7 +145,11 @@ pub(crate) fn of_model(
         .collect();
     warnings.extend(constants.iter().filter_map(|it| of_poisson(setup, it)));
     warnings.extend(rotation_as_sliding(setup));
-    warnings.extend(constants.iter().filter_map(|it| energy_given_back(setup, it)));
+    warnings.extend(
+        constants
+            .iter()
+            .filter_map(|it| energy_given_back(setup, it)),
+    );
     warnings
 }
 

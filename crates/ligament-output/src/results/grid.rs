@@ -14,17 +14,17 @@ pub(super) fn fixed_fields<'a>(
     volumes: &'a [f64],
     spacing: &'a [f64],
 ) -> Vec<Field<'a>> {
-        let [uniaxial_x, uniaxial_y, biaxial, shear] = &fixed.energy_ratios;
-        vec![
-            Field::scalar("volume", volumes),
-            Field::scalar("horizon", &fixed.horizon),
-            Field::scalar("nearest_distance", spacing),
-            Field::scalar("precrack_share", &fixed.precrack_share),
-            Field::scalar("energy_ratio_x", uniaxial_x),
-            Field::scalar("energy_ratio_y", uniaxial_y),
-            Field::scalar("energy_ratio_biaxial", biaxial),
-            Field::scalar("energy_ratio_shear", shear),
-        ]
+    let [uniaxial_x, uniaxial_y, biaxial, shear] = &fixed.energy_ratios;
+    vec![
+        Field::scalar("volume", volumes),
+        Field::scalar("horizon", &fixed.horizon),
+        Field::scalar("nearest_distance", spacing),
+        Field::scalar("precrack_share", &fixed.precrack_share),
+        Field::scalar("energy_ratio_x", uniaxial_x),
+        Field::scalar("energy_ratio_y", uniaxial_y),
+        Field::scalar("energy_ratio_biaxial", biaxial),
+        Field::scalar("energy_ratio_shear", shear),
+    ]
 }
 
 /// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.

@@ -14,10 +14,11 @@ use ligament_output::vtu::Field;
 use super::diagrams::{self, Comparison};
 use super::subject::{Strain, Subject};
 use super::{Place, Request, SUMMARY, YieldError, console};
+use ligament::run::on_threads;
 use ligament_case::case::{CaseFile, Law};
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve;
+use ligament_case::setup;
 use ligament_case::stages::Stages;
 use ligament_case::summary::heading;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
@@ -29,11 +30,11 @@ pub(super) fn point(
     place: Place,
     screen: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
-    resolve::on_threads(case, || {
+    on_threads(case.threads(), || {
         let model = model(case)?;
         let point = find(&model, place)?;
         let poisson = poisson(request, case, &model)?[point as usize];
-        let label = model.body.label(point);
+        let label = model.body().label(point);
         let mut comparisons = Vec::new();
         for (criterion, criteria) in criteria(request, case, &model)? {
             let subject = Subject::of_point(label.clone(), &model.system, &criteria, point);
@@ -63,7 +64,7 @@ pub(super) fn point(
         comparisons.retain(yields);
         diagrams::write(&request.folder()?, &comparisons, &strains)?;
         writeln!(screen, "{}", heading(&case.case.title))?;
-        writeln!(screen, "family of {}\n", model.body.place(point))?;
+        writeln!(screen, "family of {}\n", model.body().place(point))?;
         for comparison in &comparisons {
             console::tell(screen, comparison)?;
         }
@@ -77,7 +78,7 @@ pub(super) fn field(
     case: &CaseFile,
     screen: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
-    resolve::on_threads(case, || field_here(request, case, screen))?
+    on_threads(case.threads(), || field_here(request, case, screen))?
 }
 
 /// A criterion and a strain at all points.
@@ -94,7 +95,7 @@ fn field_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> any
     let model = model(case)?;
     let system = &model.system;
     let poisson = poisson(request, case, &model)?;
-    let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
+    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
     let sizes: Vec<i64> = (0..system.cloud.len() as u32)
         .map(|point| system.bonds.incidence.at(point).len() as i64)
         .collect();
@@ -185,7 +186,7 @@ fn field_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> any
                 percentile_5.into(),
                 percentile_95.into(),
                 worst.into(),
-                model.body.tag(summary.point).into(),
+                model.body().tag(summary.point).into(),
                 summary.orientation.to_degrees().into(),
                 if layer.lattice.is_some() {
                     ratio
@@ -197,7 +198,7 @@ fn field_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> any
             ])?;
             if marked.is_some() {
                 let cells = numbers.map(|it| format!("{:>8.2}", 100.0 * it)).concat();
-                let place = model.body.place(summary.point);
+                let place = model.body().place(summary.point);
                 let (criterion, words) = (&layer.criterion, layer.strain.words);
                 writeln!(screen, "  {criterion:<20}{words:<16}{cells}  {place}")?;
                 if let Some(error) = layer.lattice {
@@ -336,7 +337,7 @@ fn write_fields(
         .collect();
     fields.push(Field::integer("interior", &interior));
     fields.push(Field::integer("bonds", sizes));
-    write_points(path, &model.body.grid(), &fields)
+    write_points(path, &model.body().grid(), &fields)
 }
 
 fn model(case: &CaseFile) -> anyhow::Result<Model> {
@@ -398,8 +399,8 @@ fn poisson(request: &Request, case: &CaseFile, model: &Model) -> Result<Vec<f64>
     if let Some(poisson) = request.poisson {
         return Ok(vec![poisson; cloud.len()]);
     }
-    let plane = resolve::plane(case);
-    let of_materials: Option<Vec<f64>> = (resolve::materials(case).iter())
+    let plane = setup::plane(case);
+    let of_materials: Option<Vec<f64>> = (setup::materials(case).iter())
         .map(|material| {
             let given: Isotropic = material.elasticity.isotropic()?;
             let constants = if case.case.model.law.fixes_poisson() {
@@ -420,7 +421,7 @@ fn poisson(request: &Request, case: &CaseFile, model: &Model) -> Result<Vec<f64>
 }
 
 fn find(model: &Model, place: Place) -> Result<u32, YieldError> {
-    let (body, cloud) = (&model.body, &model.system.cloud);
+    let (body, cloud) = (model.body(), &model.system.cloud);
     match place {
         Place::At(at) => {
             let point = cloud.nearest_point(at);

@@ -20,7 +20,9 @@ pub struct Points {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PointsError {
     /// Arrays of different lengths, or none at all.
-    #[error("{positions} positions and {areas} areas: every point needs one of each, and there must be a point")]
+    #[error(
+        "{positions} positions and {areas} areas: every point needs one of each, and there must be a point"
+    )]
     Lengths {
         /// Number of positions.
         positions: usize,
@@ -28,7 +30,9 @@ pub enum PointsError {
         areas: usize,
     },
     /// A position or an area that is no number, or an area that is not positive.
-    #[error("point {point} has the position {position:?} and the area {area:?}: positions must be finite, areas greater than 0")]
+    #[error(
+        "point {point} has the position {position:?} and the area {area:?}: positions must be finite, areas greater than 0"
+    )]
     NoSuchPoint {
         /// Index of the point.
         point: usize,
@@ -134,7 +138,13 @@ impl Body for Points {
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
         let volumes: Vec<f64> = self.areas.iter().map(|area| area * thickness).collect();
-        PointCloud::from_points(&self.positions, &volumes, thickness, material_of_cell, n_materials)
+        PointCloud::from_points(
+            &self.positions,
+            &volumes,
+            thickness,
+            material_of_cell,
+            n_materials,
+        )
     }
 
     fn group_kind(&self) -> &'static str {

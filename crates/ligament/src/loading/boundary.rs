@@ -56,8 +56,7 @@ pub(super) fn couples_have_stiffness(
     boundary: &Boundary,
     system: &BondSystem,
 ) -> Result<(), SetupError> {
-    let is_couple =
-        |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
+    let is_couple = |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };

@@ -16,7 +16,7 @@ pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
 use crate::error::SetupError;
-use crate::model::Model;
+use crate::setup::Setup;
 use boundary::{boundary, couples_have_stiffness};
 
 /// What a setup does to its model, and what it reads off.
@@ -31,13 +31,12 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// The loading of a setup on the points and bonds of its model.
+    /// The loading of a setup on the points and bonds of a model.
     ///
     /// # Errors
     ///
     /// If a name of the setup is not in the body, supports and loads contradict each other, or a couple acts on nothing.
-    pub fn new(model: &Model) -> Result<Self, SetupError> {
-        let (setup, system) = (&model.setup, &model.system);
+    pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
         let boundary = boundary(setup, &system.cloud)?;
         couples_have_stiffness(setup, &boundary, system)?;
         Ok(Self {

@@ -3,11 +3,11 @@
 use ligament_analysis::modal::ModalProblem;
 use ligament_analysis::stiffness::SolverSettings;
 use ligament_analysis::{Component, Supports};
-use ligament_model::{BondSystem, LumpedMass};
+use ligament_model::{BondSystem, LumpedMass, PointCloud};
 
 use super::places::Places;
 use crate::error::{Field, SetupError};
-use crate::model::Model;
+use crate::setup::Setup;
 
 /// Supports and masses of a model.
 #[derive(Debug)]
@@ -21,13 +21,12 @@ pub struct Vibration {
 }
 
 impl Vibration {
-    /// Supports and masses of the setup on the points of its model.
+    /// Supports and masses of the setup on the points of a model.
     ///
     /// # Errors
     ///
     /// If a name of the setup is not in the body.
-    pub fn new(model: &Model) -> Result<Self, SetupError> {
-        let (setup, cloud) = (&model.setup, &model.system.cloud);
+    pub fn new(setup: &Setup, cloud: &PointCloud) -> Result<Self, SetupError> {
         let materials = setup.materials.iter();
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {

@@ -14,17 +14,28 @@ impl Setup {
     /// If a field is out of range, missing, or does not go with another.
     pub fn check(&self) -> Result<(), SetupError> {
         let thickness = self.thickness();
-        require(thickness > 0.0, Field::whole("section").part("thickness"), "greater than 0", thickness)?;
+        require(
+            thickness > 0.0,
+            Field::whole("section").part("thickness"),
+            "greater than 0",
+            thickness,
+        )?;
         match self.horizon {
             Horizon::Factor(factor) => {
                 require(factor >= 1.0, Field::whole("horizon"), "at least 1", factor)?;
             }
             Horizon::Length(length) => {
-                require(length > 0.0, Field::whole("horizon"), "greater than 0", length)?;
+                require(
+                    length > 0.0,
+                    Field::whole("horizon"),
+                    "greater than 0",
+                    length,
+                )?;
             }
         }
         if self.materials.is_empty() {
-            let fault = Fault::Contradiction("there is no material: give one, or one for each group");
+            let fault =
+                Fault::Contradiction("there is no material: give one, or one for each group");
             return Err(Field::whole("materials").error(fault));
         }
         for (index, region) in self.materials.iter().enumerate() {
@@ -39,15 +50,24 @@ impl Setup {
             let field = Field::element("loads", index);
             if let Some(profile) = load.profile {
                 let expected = "another coordinate than `zero`: the load is as given there";
-                require(profile.one != profile.zero, field.part("profile.one"), expected, profile.one)?;
+                require(
+                    profile.one != profile.zero,
+                    field.part("profile.one"),
+                    expected,
+                    profile.one,
+                )?;
             }
             let has_value = match load.action {
                 Action::Displacement(it) => it.components().next().is_some(),
-                Action::Force(it) | Action::ForcePerLength(it) | Action::BodyForce(it) => it != [0.0; 2],
+                Action::Force(it) | Action::ForcePerLength(it) | Action::BodyForce(it) => {
+                    it != [0.0; 2]
+                }
                 Action::Moment(it) | Action::BodyCouple(it) | Action::Pressure(it) => it != 0.0,
             };
             if !has_value {
-                let fault = Fault::Contradiction("this load does nothing: give one of its components a value other than 0");
+                let fault = Fault::Contradiction(
+                    "this load does nothing: give one of its components a value other than 0",
+                );
                 return Err(field.part("action").error(fault));
             }
         }
@@ -57,9 +77,19 @@ impl Setup {
     fn check_material(&self, field: Field, region: &MaterialRegion) -> Result<(), SetupError> {
         let material = &region.material;
         if let Elasticity::Isotropic(Isotropic { young, poisson }) = material.elasticity {
-            require(young > 0.0, field.part("elasticity.young"), "greater than 0", young)?;
+            require(
+                young > 0.0,
+                field.part("elasticity.young"),
+                "greater than 0",
+                young,
+            )?;
             let expected = "greater than -1 and less than 0.5";
-            require(poisson > -1.0 && poisson < 0.5, field.part("elasticity.poisson"), expected, poisson)?;
+            require(
+                poisson > -1.0 && poisson < 0.5,
+                field.part("elasticity.poisson"),
+                expected,
+                poisson,
+            )?;
         }
         for (part, value) in [
             ("tensile_strength", material.tensile_strength),
@@ -98,7 +128,9 @@ impl Setup {
             return Err(field.error(fault));
         }
         match material.elasticity {
-            Elasticity::Orthotropic(it) if it.out_of_plane.is_none() && self.plane() == Plane::Strain => {
+            Elasticity::Orthotropic(it)
+                if it.out_of_plane.is_none() && self.plane() == Plane::Strain =>
+            {
                 let fault = Fault::Missing {
                     property: "out_of_plane",
                     reason: "because of plane strain".to_owned(),
@@ -113,12 +145,15 @@ impl Setup {
         let on_exact_path = matches!(self.analysis, Analysis::Event(_));
         let takes_strains = matches!(self.law, Law::MbbPd { .. });
         if self.analysis.is_fracture() && self.criteria.is_empty() {
-            let fault = Fault::Contradiction("bonds break by a criterion, and there is none: give one");
+            let fault =
+                Fault::Contradiction("bonds break by a criterion, and there is none: give one");
             return Err(Field::whole("criteria").error(fault));
         }
         for (index, choice) in self.criteria.iter().enumerate() {
             let field = Field::element("criteria", index);
-            choice.check(on_exact_path).map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
+            choice
+                .check(on_exact_path)
+                .map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
             if choice.kind.takes_strains() != takes_strains {
                 let fault = Fault::Contradiction(
                     "`mixed-mode` looks at strains of the bond's own, which only `Law::MbbPd` has, and the other criteria at stretch \
@@ -160,7 +195,9 @@ impl Setup {
             return contradiction(correction, reason);
         }
         let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
-        if form == Form::Pairwise && !(is_elastic && self.precracks.is_empty() && strains == Strains::Small) {
+        if form == Form::Pairwise
+            && !(is_elastic && self.precracks.is_empty() && strains == Strains::Small)
+        {
             let reason = "the printed forces are not those of an energy: the form is for elastic analyses of whole bodies with small \
                           strains; take `Form::Full`";
             return contradiction(law.part("form"), reason);
@@ -181,7 +218,12 @@ impl Setup {
     }
 }
 
-fn require(holds: bool, field: Field, expected: &'static str, found: f64) -> Result<(), SetupError> {
+fn require(
+    holds: bool,
+    field: Field,
+    expected: &'static str,
+    found: f64,
+) -> Result<(), SetupError> {
     if holds {
         return Ok(());
     }

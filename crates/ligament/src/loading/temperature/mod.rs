@@ -189,7 +189,9 @@ fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, 
                     property: "expansion",
                     reason,
                 };
-                return Err(Field::element("materials", index).part("expansion").error(fault));
+                return Err(Field::element("materials", index)
+                    .part("expansion")
+                    .error(fault));
             };
             for (total, per_kelvin) in strain.iter_mut().zip(per_kelvin) {
                 *total += share * per_kelvin * change;

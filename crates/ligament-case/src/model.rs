@@ -1,0 +1,52 @@
+//! The discrete model of a case, with the stages of its preparation timed and shown.
+
+pub use ligament::Model;
+use ligament::stage::{Finding, StageWatcher};
+
+use crate::case::CaseFile;
+use crate::progress::Progress;
+use crate::stages::Stages;
+use crate::summary;
+
+/// Times the stages of a case and tells of what they find.
+struct Preparation<'a> {
+    case: &'a CaseFile,
+    stages: &'a mut Stages,
+    progress: &'a Progress,
+}
+
+impl StageWatcher for Preparation<'_> {
+    fn begins(&mut self, _: &'static str) {
+        self.stages.begin();
+    }
+
+    fn ends(&mut self, stage: &'static str) {
+        self.stages.end(stage);
+    }
+
+    fn found(&mut self, finding: &Finding<'_>) {
+        self.progress.stage(&match finding {
+            Finding::Bonds { points, bonds } => format!("{points} points, {bonds} bonds"),
+            Finding::Correction(report) => summary::correction_line(self.case, *report),
+        });
+    }
+}
+
+/// Reads the body of a case and builds its model.
+///
+/// # Errors
+///
+/// If a file cannot be read, or the case does not go together with its body.
+pub fn build_model(
+    case: &CaseFile,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model> {
+    let mut preparation = Preparation {
+        case,
+        stages,
+        progress,
+    };
+    let setup = case.setup(&mut preparation)?;
+    Ok(Model::build(setup, &mut preparation).map_err(|error| case.located(error))?)
+}
