@@ -15,7 +15,6 @@ use std::process::Command;
 
 use ligament::Loading;
 use ligament::run::follow;
-use ligament_analysis::driver;
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
