@@ -5,10 +5,10 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::Termination;
-use ligament_analysis::boundary::ThermalStrain;
-use ligament_analysis::equilibrium::Stability;
+use ligament_analysis::balanced::Stability;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, InternalForces};
+use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::state::BondsLeft;
 use verification::bench::Bench;
 use verification::numbers::Random;

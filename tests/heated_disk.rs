@@ -93,7 +93,7 @@ fn hot_disks_are_those_of_thermoelasticity() {
         }
         let off = (off / size).sqrt();
         let state = run.state();
-        let expansion = bench.boundary.thermal_strain_at(state.load_factor);
+        let expansion = bench.boundary.thermal_strain(state.load_factor);
         let system = &bench.model.system;
         let deformations = internal::deformations(system, &state.intact, motion, expansion);
         let stress = virial::stress(system, state.bonds(), &deformations);

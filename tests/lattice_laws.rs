@@ -2,8 +2,8 @@
 //! program: plates under load, natural frequencies, and the elastic constants of infinite lattices.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
+use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
 use ligament_case::progress::ProgressMode;

@@ -2,8 +2,8 @@
 //! are one.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
+use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::state::BondsLeft;
 use ligament_case::case::Law;
 use ligament_model::ElementKind;

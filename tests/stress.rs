@@ -1,8 +1,8 @@
 //! Stresses at the points against the continuum, and against the forces that the bodies bear.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
+use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
 use ligament_mesh::Mesh;

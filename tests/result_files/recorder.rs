@@ -24,7 +24,7 @@ pub(crate) struct Recorder<'a> {
     pub(crate) expected: Expected,
     model: &'a Model,
     canvas: &'a Canvas,
-    problem: Problem<'a>,
+    problem: Problem,
     fields_every: usize,
     bonds: bool,
     stress: Vec<StressField>,
@@ -42,7 +42,7 @@ pub(crate) struct Recorder<'a> {
 }
 
 /// A criterion's name, with a number from the second of its kind on.
-fn labels(problem: &Problem<'_>) -> Vec<String> {
+fn labels(problem: &Problem) -> Vec<String> {
     let names: Vec<&str> = problem.criteria.list.iter().map(|it| it.name).collect();
     let label = |(k, name): (usize, &&str)| match names[..k].iter().filter(|it| *it == name).count()
     {
@@ -53,7 +53,7 @@ fn labels(problem: &Problem<'_>) -> Vec<String> {
 }
 
 /// Names of the two or three components of bonds that files have, each with how it is read.
-fn deformation_names(problem: &Problem<'_>) -> &'static [&'static str] {
+fn deformation_names(problem: &Problem) -> &'static [&'static str] {
     if problem.system.element.has_strains() {
         &["strain_xx", "strain_xy", "strain_yy"]
     } else {
@@ -78,7 +78,7 @@ impl<'a> Recorder<'a> {
         case: &ligament_case::case::Case,
         model: &'a Model,
         canvas: &'a Canvas,
-        problem: Problem<'a>,
+        problem: Problem,
     ) -> Self {
         let history = [
             "step",
@@ -99,7 +99,7 @@ impl<'a> Recorder<'a> {
             "negative_eigenvalues",
             "dissipated_energy",
         ];
-        let groups = problem.boundary.groups.iter().flat_map(|group| {
+        let groups = problem.loads.groups().iter().flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
         });
         let probes = problem.probes.iter().map(|it| it.name.clone());
@@ -207,7 +207,7 @@ impl<'a> Recorder<'a> {
         self.canvas
             .displacement(file, &displacement, &mut self.expected);
         let reactions = view
-            .boundary
+            .loads
             .reactions(state.load_factor, &balanced.internal.values);
         let mut fields_of = self.canvas.on(file, &mut self.expected);
         fields_of.reals("rotation", points.clone().map(|it| motion(it)[2]));
@@ -236,18 +236,14 @@ impl<'a> Recorder<'a> {
             let values = fields::dissipated_energy_density(system, &state.dissipated);
             fields_of.reals("dissipated_energy_density", values);
         }
-        let boundary = view.boundary;
-        if !boundary.temperature_change.is_empty() {
-            let change = boundary.temperature_change.iter();
-            fields_of.reals(
-                "temperature_change",
-                change.map(|it| state.load_factor * it),
-            );
-            let strain = boundary.thermal_strain.iter();
+        let change = view.loads.temperature_change(state.load_factor);
+        if !change.is_empty() {
+            fields_of.reals("temperature_change", change);
+            let strain = view.loads.thermal_strain(state.load_factor);
             fields_of.components(
                 "thermal_strain",
                 ["xx", "yy", "xy"],
-                strain.map(|it| it.map(|it| state.load_factor * it)),
+                points.clone().map(|it| strain.of_point(it)),
             );
         }
         if self.stress.contains(&StressField::Virial) {
@@ -430,7 +426,7 @@ impl Observer for Recorder<'_> {
             every => record.step.is_multiple_of(every),
         };
         if is_due || view.is_last {
-            let time = match view.boundary.control.kind {
+            let time = match view.loads.control().kind {
                 _ if self.times_are_steps => record.step as f64,
                 ControlKind::Force => record.reaction,
                 ControlKind::Displacement | ControlKind::Temperature => record.displacement,

@@ -35,6 +35,11 @@ impl<'a> ThermalStrain<'a> {
         }
     }
 
+    /// The strain of a point: (eps_xx, eps_yy, gamma_xy).
+    pub fn of_point(&self, point: usize) -> [f64; 3] {
+        self.strain[point].map(|strain| self.load_factor * strain)
+    }
+
     /// The mean of the ends of a bond: (eps_xx, eps_yy, gamma_xy).
     #[inline]
     pub fn of_bond(&self, ends: [u32; 2]) -> [f64; 3] {
