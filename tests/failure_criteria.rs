@@ -12,7 +12,7 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
-use ligament_analysis::{Component, Control, ControlKind, ProportionalLoading, SolverSettings};
+use ligament_analysis::{Component, Control, ControlKind, ProportionalLoading};
 use ligament_cli::check::{Extent, check};
 use ligament_model::element::BondElement;
 use ligament_model::failure::{Criteria, Criterion, Measure};

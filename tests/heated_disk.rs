@@ -1,6 +1,7 @@
 //! Disks that are hot inside, on an irregular mesh, against the closed form of thermoelasticity.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::internal;
 use ligament_analysis::stress::virial;
 use verification::bench::Bench;

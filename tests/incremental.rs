@@ -264,16 +264,16 @@ fn counted_anew(bench: &Bench, state: &State) -> usize {
 }
 
 /// A body that is torn apart in a given order, a few bonds at a time, at load factor one.
-struct Tearing<'a> {
+struct Tearing {
     problem: Problem,
     equilibrium: Equilibrium,
     state: State,
     breakage: Breakage,
 }
 
-impl<'a> Tearing<'a> {
+impl Tearing {
     /// From a state whose bonds may be broken already; the equations know nothing of their past.
-    fn from(bench: &'a Bench, solver: SolverSettings, mut state: State) -> Self {
+    fn from(bench: &Bench, solver: SolverSettings, mut state: State) -> Self {
         let problem = Problem {
             solver,
             ..bench.problem()
@@ -290,7 +290,7 @@ impl<'a> Tearing<'a> {
         }
     }
 
-    fn intact(bench: &'a Bench, solver: SolverSettings) -> Self {
+    fn intact(bench: &Bench, solver: SolverSettings) -> Self {
         let state = State {
             load_factor: 1.0,
             ..State::fresh(&bench.model.system)
@@ -676,7 +676,7 @@ fn a_run_may_be_taken_up_where_its_factor_is_made_anew() {
         .collect();
     let mut run = Tearing::intact(&bench, solver);
     run.balance();
-    let mut taken_up: Vec<(usize, Tearing<'_>)> = Vec::new();
+    let mut taken_up: Vec<(usize, Tearing)> = Vec::new();
     let mut worst = 0.0_f64;
     for (before, bond) in order[..450].iter().enumerate() {
         let start = run.state.clone();

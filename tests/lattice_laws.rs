@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::internal;
-use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_case::progress::ProgressMode;
 use ligament_case::run;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};

@@ -4,7 +4,7 @@
 use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
-use ligament_analysis::load_program::ThermalStrain;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::{Component, ControlKind, gauges};
 use ligament_case::progress::ProgressMode;
 use ligament_cli::check::{Extent, check};

@@ -5,8 +5,8 @@
 use std::collections::BTreeSet;
 
 use ligament_analysis::internal;
-use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::{COMPONENTS, Termination};
 use tempfile::TempDir;
 use verification::bench::Bench;

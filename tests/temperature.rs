@@ -2,6 +2,7 @@
 //! breakages against the same bodies under displacements.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};

@@ -14,8 +14,8 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule, next_to_break};
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::driver::Problem;
-use ligament_analysis::load_program::ThermalStrain;
 use ligament_analysis::solver::{SolverSettings, Update};
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::{Equilibrium, State, Unknowns, assembly, internal};
 use verification::bench::{Bench, Watch};
 use verification::problems;
@@ -125,14 +125,14 @@ fn breakages(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
 }
 
 /// A body in equilibrium whose bonds break.
-struct Body<'a> {
+struct Body {
     equilibrium: Equilibrium,
     state: State,
     balanced: Balanced,
     watch: Watch,
 }
 
-impl<'a> Body<'a> {
+impl Body {
     fn intact(problem: &Problem) -> Self {
         let mut equilibrium = Equilibrium::new(problem, 1e-4).unwrap();
         let mut state = State::fresh(&problem.system);

@@ -99,7 +99,8 @@ impl<'a> Recorder<'a> {
             "negative_eigenvalues",
             "dissipated_energy",
         ];
-        let groups = problem.loads.groups().iter().flat_map(|group| {
+        let groups = problem.loads.groups().iter();
+        let groups = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
         });
         let probes = problem.probes.iter().map(|it| it.name.clone());
@@ -128,7 +129,6 @@ impl<'a> Recorder<'a> {
             expected: Expected::default(),
             model,
             canvas,
-            problem,
             fields_every: case.output.fields_every as usize,
             bonds: case.output.bonds,
             stress: case.output.stress.clone(),
@@ -137,6 +137,7 @@ impl<'a> Recorder<'a> {
                 Some(Control::Event)
             ),
             labels: labels(&problem),
+            problem: problem.clone(),
             history: Rows::new(history.chain(groups).chain(probes)),
             breaks: Rows::new(breaks.chain(ends).chain(after).chain(names)),
             iterations: Rows::new(iterations),
@@ -300,7 +301,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn model_file(&mut self) {
-        let (file, system, fixed) = ("model.vtu", self.problem.system, &self.model.fixed);
+        let (file, system, fixed) = ("model.vtu", &*self.problem.system, &self.model.fixed);
         let absent = &fixed.absent;
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let absent_ends = absent.iter().map(|it| it.ends.as_slice());
