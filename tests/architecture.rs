@@ -46,7 +46,7 @@ const OF_THE_PROGRAM: [&str; 12] = [
 const WITH_FIXTURES: &str = "ligament-analysis";
 
 /// What lies at the top of the repository, hidden files and results aside.
-const TOP: [&str; 12] = [
+const TOP: [&str; 13] = [
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -57,6 +57,7 @@ const TOP: [&str; 12] = [
     "README.md",
     "cases",
     "crates",
+    "docs",
     "meshes",
     "tests",
 ];
