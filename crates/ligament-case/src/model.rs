@@ -54,7 +54,7 @@ pub fn build_model(
 }
 
 /// A body in, bond system out.
-pub(crate) fn model_of(
+pub fn model_of(
     case: &CaseFile,
     body: Box<dyn Body>,
     stages: &mut Stages,
