@@ -120,7 +120,7 @@ const TALKING: [&str; 3] = ["ligament-case", "ligament-cli", "ligament-study"];
 const PARTS: usize = 4;
 
 /// What lies at the top of the repository, hidden files and results aside.
-const TOP: [&str; 12] = [
+const TOP: [&str; 13] = [
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -131,6 +131,7 @@ const TOP: [&str; 12] = [
     "README.md",
     "cases",
     "crates",
+    "docs",
     "meshes",
     "tests",
 ];

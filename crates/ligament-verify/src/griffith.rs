@@ -168,7 +168,7 @@ fn plot(strength: &Table) -> Result<Plot, LabelError> {
 ///
 /// sigma = sqrt(E G_c/(pi a))/F, F = (1 - 0.025 (a/W)^2 + 0.06 (a/W)^4) sqrt(sec(pi a/(2W)))
 ///
-/// (Tada, Paris and Irwin 2000, The Stress Analysis of Cracks Handbook, section 2.1: 0.1 % off for a long plate).
+/// (Tada 2000, section 2.1: 0.1 % off for a long plate).
 fn failure_stress() -> f64 {
     let ratio = HALF_LENGTH / HALF_WIDTH;
     let width = 1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4);
