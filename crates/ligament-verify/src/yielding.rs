@@ -1,14 +1,14 @@
 //! First yield of lattices: the printed errors over orientation, and the calibration of the criteria on a bar.
 
 use anyhow::Context;
-use ligament_model::failure::frictional::Calibration;
+use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch};
 use ligament_model::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels, Table};
-use super::trial::Template;
-use super::{Experiment, Findings};
-use ligament_case::case::{After, Criterion, CriterionKind, FrictionCalibration};
+use super::experiment::{Experiment, Findings};
+use super::published::{Published, published};
+use super::table::{Extent, Labels, Table};
+use super::trial::{Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
 /// The experiment.
@@ -25,10 +25,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = Template {
-    path: "cases/verification/lattice.toml",
-    text: include_str!("../../../cases/verification/lattice.toml"),
-};
+static CASE: Template = template!("verification/lattice.toml");
 
 /// As in the paper's tables.
 const STRENGTHS: Strengths = Strengths {
@@ -50,45 +47,28 @@ const RATIOS: [(f64, Colour); 5] = [
 ];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let printed = |name, text, criterion: &str| -> anyhow::Result<Table> {
+    let printed = |table: Published, criterion: &str| -> anyhow::Result<Table> {
         let combination = named(criterion)?;
-        Known::parse(name, text)?.judge(extent, |labels| {
+        table.judge(extent, |labels| {
             let directions = lattice::directions(labels.number("m")?);
             let worst = combination.printed_measure(&STRENGTHS, &directions, path(labels)?)?;
             Ok(100.0 * worst.context("nothing yields")?.error)
         })
     };
     let frictional = named("frictional")?;
-    let first_yield = Known::parse(
-        "first-yield-frictional",
-        include_str!("published/first-yield-frictional.csv"),
-    )?;
-    let first_yield = first_yield.judge(extent, |labels| {
+    let first_yield = published!("first-yield-frictional").judge(extent, |labels| {
         let directions = lattice::directions(labels.number("m")?);
         let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
         let family = Family::of_directions(&directions, &criteria);
         let worst = family.worst_of(path(labels)?, printed_orientations());
         Ok(100.0 * worst.context("nothing yields")?.error)
     })?;
-    let bar = Known::parse("bar-yield", include_str!("published/bar-yield.csv"))?;
     let tables = vec![
-        printed(
-            "mppd-table-7",
-            include_str!("published/mppd-table-7.csv"),
-            "stretch",
-        )?,
-        printed(
-            "mppd-table-8",
-            include_str!("published/mppd-table-8.csv"),
-            "sliding",
-        )?,
-        printed(
-            "mppd-table-9",
-            include_str!("published/mppd-table-9.csv"),
-            "frictional",
-        )?,
+        printed(published!("mppd-table-7"), "stretch")?,
+        printed(published!("mppd-table-8"), "sliding")?,
+        printed(published!("mppd-table-9"), "frictional")?,
         first_yield,
-        bar.judge(extent, bar_yield)?,
+        published!("bar-yield").judge(extent, bar_yield)?,
     ];
     let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
     Ok(Findings {
@@ -110,18 +90,15 @@ fn path(labels: Labels<'_>) -> anyhow::Result<PrincipalStretches> {
 
 /// Stress of a bar at first yield over its tensile strength, for the criterion that a case gives its bonds.
 fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
-    let kinds = match (labels.text("criterion")?, labels.text("calibration")?) {
-        ("stretch", _) => vec![
-            CriterionKind::Tension { limit: None },
-            CriterionKind::Compression { limit: None },
-        ],
-        ("sliding", _) => vec![CriterionKind::Sliding { limit: None }],
-        (_, "two-point") => vec![CriterionKind::Frictional {
-            calibration: FrictionCalibration::TwoPoint,
-        }],
-        _ => vec![CriterionKind::Frictional {
-            calibration: FrictionCalibration::Printed,
-        }],
+    let frictional = |calibration| Choice {
+        calibration: Some(calibration),
+        ..frictional::FRICTIONAL.into()
+    };
+    let choices = match (labels.text("criterion")?, labels.text("calibration")?) {
+        ("stretch", _) => vec![stretch::TENSION.into(), stretch::COMPRESSION.into()],
+        ("sliding", _) => vec![sliding::SLIDING.into()],
+        (_, "two-point") => vec![frictional(Calibration::TwoPoint)],
+        _ => vec![frictional(Calibration::Printed)],
     };
     let nu = labels.number("nu")?;
     let trial = CASE.trial().set("material.poisson", nu);
@@ -130,12 +107,8 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)
         .set("fracture.steps", 1);
     let model = trial.model_with(|case| {
-        let brittle = |kind| Criterion {
-            kind,
-            after: After::Brittle,
-        };
         if let Some(fracture) = &mut case.fracture {
-            fracture.criteria = kinds.into_iter().map(brittle).collect();
+            fracture.criteria = choices;
         }
     })?;
     let middle = model.system.cloud.nearest_point([0.0, 0.0]);
@@ -164,7 +137,7 @@ fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
         };
         let points = printed_orientations().filter_map(point).collect();
         let name = format!("m = {ratio}");
-        series.push(Series::new(&name, Mark::Curve, colour, points));
+        series.push(Series::curve(name, colour, points));
     }
     Ok(Plot {
         name: format!("first-yield-{criterion}"),
