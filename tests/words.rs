@@ -30,7 +30,6 @@ const STILL_OPEN: [&str; 4] = [
     "ligament-analysis",
     "ligament-case",
     "ligament-model",
-    "ligament-plot",
 ];
 
 /// Examples in comments that look like sources.

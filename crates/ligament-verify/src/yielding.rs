@@ -29,7 +29,7 @@ static CASE: Template = Template {
     text: include_str!("../../../cases/verification/lattice.toml"),
 };
 
-/// As in the paper's tables.
+/// Strengths as in the paper's tables.
 const STRENGTHS: Strengths = Strengths {
     poisson: 0.0,
     ratio: 3.0,
