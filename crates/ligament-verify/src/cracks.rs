@@ -3,10 +3,11 @@
 use anyhow::{Context, bail};
 use ligament_analysis::driver::Outcome;
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels};
-use super::trial::{Memory, Template};
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, Labels};
+use super::trial::{Memory, Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -25,20 +26,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CENTRAL: Template = Template {
-    path: "cases/mbb-central-crack/case.toml",
-    text: include_str!("../../../cases/mbb-central-crack/case.toml"),
-};
+static CENTRAL: Template = template!("mbb-central-crack/case.toml");
 
-static THREE: Template = Template {
-    path: "cases/three-cracks/case.toml",
-    text: include_str!("../../../cases/three-cracks/case.toml"),
-};
+static THREE: Template = template!("three-cracks/case.toml");
 
-static HOLE: Template = Template {
-    path: "cases/square-hole/case.toml",
-    text: include_str!("../../../cases/square-hole/case.toml"),
-};
+static HOLE: Template = template!("square-hole/case.toml");
 
 /// Side of the plate, m.
 const SIDE: f64 = 0.1;
@@ -58,7 +50,6 @@ struct Failure {
 }
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let table = |name, text| Known::parse(name, text);
     let mut runs = Memory::default();
     let mut curves = Vec::new();
     let mut failure = |labels: Labels<'_>| -> anyhow::Result<Failure> {
@@ -74,7 +65,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             Ok(failure)
         })
     };
-    let peaks = table("mbb-peaks", include_str!("published/mbb-peaks.csv"))?;
+    let peaks = published!("mbb-peaks");
     let peaks = peaks.judge(extent, |labels| {
         let failure = failure(labels)?;
         match labels.text("of")? {
@@ -83,8 +74,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             other => bail!("of is `first` or `peak`, not `{other}`"),
         }
     })?;
-    let griffith = table("mbb-griffith", include_str!("published/mbb-griffith.csv"))?
-        .judge(extent, |labels| Ok(failure(labels)?.peak))?;
+    let griffith = published!("mbb-griffith").judge(extent, |labels| Ok(failure(labels)?.peak))?;
     let colours = [
         Colour::Blue,
         Colour::Sky,
@@ -100,13 +90,10 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         x: "strain, %".to_owned(),
         y: "stress on the whole section, MPa".to_owned(),
         series: series
-            .map(|((label, curve), colour)| Series::new(&label, Mark::Curve, colour, curve))
+            .map(|((label, curve), colour)| Series::curve(label, colour, curve))
             .collect(),
     };
-    Ok(Findings {
-        tables: vec![peaks, griffith],
-        plots: vec![plot],
-    })
+    Ok(Findings::new(vec![peaks, griffith], vec![plot]))
 }
 
 fn template(case: &str) -> anyhow::Result<&'static Template> {

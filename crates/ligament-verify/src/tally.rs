@@ -3,8 +3,8 @@
 use std::fmt;
 use std::iter::Sum;
 
-use super::Findings;
 use super::entry::Verdict;
+use super::experiment::Findings;
 
 /// How many entries got each verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -23,6 +23,28 @@ pub(super) struct Template {
     pub(super) text: &'static str,
 }
 
+/// A case file of `cases/` by its path there.
+macro_rules! template {
+    ($path:literal) => {
+        $crate::trial::Template {
+            path: concat!("cases/", $path),
+            text: include_str!(concat!("../../../cases/", $path)),
+        }
+    };
+}
+
+/// A mesh of `meshes/` by its name.
+macro_rules! stored_mesh {
+    ($name:literal) => {
+        $crate::trial::StoredMesh {
+            path: concat!("../../meshes/", $name),
+            bytes: include_bytes!(concat!("../../../meshes/", $name)),
+        }
+    };
+}
+
+pub(super) use {stored_mesh, template};
+
 /// A mesh of the repository, as it was when the program was built.
 pub(super) struct StoredMesh {
     /// Path of the mesh from the folder of a case.

@@ -112,13 +112,38 @@ pub enum PlotError {
 impl Series {
     /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or
     /// points.
-    pub fn new(label: &str, mark: Mark, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+    pub fn new(
+        label: impl Into<String>,
+        mark: Mark,
+        colour: Colour,
+        points: Vec<[f64; 2]>,
+    ) -> Self {
         Self {
-            label: label.to_owned(),
+            label: label.into(),
             mark,
             colour,
             points,
         }
+    }
+
+    /// A line with dots.
+    pub fn line(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Line, colour, points)
+    }
+
+    /// A line without dots.
+    pub fn curve(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Curve, colour, points)
+    }
+
+    /// Open circles.
+    pub fn circles(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Circles, colour, points)
+    }
+
+    /// A dashed line.
+    pub fn dashes(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Dashes, colour, points)
     }
 
     /// Points of the series, shape (n, 2).

@@ -3,16 +3,16 @@
 use std::io::{self, Write};
 
 use super::Printable;
-use crate::{EXPERIMENTS, Experiment, Findings};
+use crate::experiment::{Experiment, Findings};
 
 /// Lists all experiments on the console.
-pub fn list(console: &mut dyn Write) -> io::Result<()> {
+pub fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::Result<()> {
     for Experiment {
         name,
         title,
         source,
         ..
-    } in &EXPERIMENTS
+    } in experiments
     {
         writeln!(console, "{name:<14}{title} ({source})")?;
     }

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use super::Printable;
 use crate::entry::Verdict;
+use crate::experiment::{Experiment, Findings};
 use crate::table::{Extent, Table};
 use crate::tally::Tally;
-use crate::{Experiment, Findings};
 
 /// The report as Markdown.
 pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {

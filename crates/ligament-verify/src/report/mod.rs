@@ -79,9 +79,9 @@ mod tests {
     use super::files::{SUMMARY, Summary};
     use super::*;
     use crate::entry::Verdict;
+    use crate::experiment::{Experiment, Findings};
     use crate::table::{Extent, Known, Labels};
     use crate::tally::Tally;
-    use crate::{Experiment, Findings};
 
     const TABLE: &str = "\
 # title: First mode
