@@ -118,7 +118,10 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
         done.push((experiment, findings));
     }
     folder.write_text("README.md", &markdown::text(&done, request.extent))?;
-    let all: Tally = done.iter().map(|(_, findings)| Tally::from_findings(findings)).sum();
+    let all: Tally = done
+        .iter()
+        .map(|(_, findings)| Tally::from_findings(findings))
+        .sum();
     writeln!(screen, "{all}")?;
     writeln!(
         screen,
