@@ -123,7 +123,7 @@ fn statistic(labels: Labels<'_>, memory: &mut Memory<Anisotropy>) -> anyhow::Res
         .set("fracture.steps", 1);
     let (name, strains) = (criterion(labels)?, strains(labels)?);
     let key = format!("{} {name} {strains:?}", trial.command());
-    let found = memory.of(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
+    let found = memory.result(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
     let Distribution {
         mean,
         percentile_5,

@@ -109,7 +109,7 @@ fn judge(
             .trial()
             .set("material.poisson", nu)
             .set("model.law", law);
-        let [x, y] = memory.of(trial.command(), || read(&trial.solve()?))?;
+        let [x, y] = memory.result(trial.command(), || read(&trial.solve()?))?;
         Ok(MILLIMETRES
             * if labels.text("component")? == "u_x" {
                 x

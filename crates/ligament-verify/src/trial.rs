@@ -17,9 +17,9 @@ use ligament_case::stages::Stages;
 
 /// A case file of the repository, as it was when the program was built.
 pub(super) struct Template {
-    /// Its path in the repository.
+    /// Path of the case in the repository.
     pub(super) path: &'static str,
-    /// Its text.
+    /// Text of the case.
     pub(super) text: &'static str,
 }
 
@@ -47,9 +47,9 @@ pub(super) use {stored_mesh, template};
 
 /// A mesh of the repository, as it was when the program was built.
 pub(super) struct StoredMesh {
-    /// Its path from the folder of a case.
+    /// Path of the mesh from the folder of a case.
     pub(super) path: &'static str,
-    /// Its bytes.
+    /// Bytes of the mesh.
     pub(super) bytes: &'static [u8],
 }
 
@@ -175,13 +175,13 @@ pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64;
     }))
 }
 
-/// What runs that several entries share came to, by their commands.
+/// Results of runs that several entries share, by the commands of the runs.
 #[derive(Debug)]
 pub(super) struct Memory<T>(BTreeMap<String, T>);
 
 impl<T: Clone> Memory<T> {
-    /// What the run came to; it is done if it was not yet.
-    pub(super) fn of(
+    /// The result of a run, which is done if it was not yet.
+    pub(super) fn result(
         &mut self,
         command: String,
         run: impl FnOnce() -> anyhow::Result<T>,
