@@ -71,7 +71,7 @@ impl Case {
         let (model, canvas) = self.model();
         let loading = Loading::new(&model.setup, &model.system).unwrap();
         let problem = loading.problem(&model.system, &model.criteria);
-        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem);
+        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem.clone());
         follow(&problem, &model.setup.analysis, &mut recorder).unwrap();
         recorder.finish().write(&self.folder);
     }
@@ -158,7 +158,7 @@ impl Case {
             ("strength", alone(0)),
             ("sliding", alone(1)),
             ("compression", alone(2)),
-            ("first_of_all", model.criteria.clone()),
+            ("first_of_all", Criteria::clone(&model.criteria)),
         ];
         let mut expected = Expected::default();
         canvas.grid("points.vtu", &mut expected);

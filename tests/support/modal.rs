@@ -1,5 +1,7 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
+use std::sync::Arc;
+
 use ligament::Vibration;
 use ligament::setup::Analysis;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
@@ -21,9 +23,9 @@ pub struct ModalBench {
     /// Its model.
     pub model: Model,
     /// Its supports.
-    pub supports: Supports,
+    pub supports: Arc<Supports>,
     /// The masses of its points.
-    pub mass: LumpedMass,
+    pub mass: Arc<LumpedMass>,
 }
 
 impl ModalBench {
@@ -55,15 +57,15 @@ impl ModalBench {
     /// Finds its modes.
     pub fn find(&self) -> ModalOutcome {
         let problem = ModalProblem {
-            system: &self.model.system,
-            mass: &self.mass,
-            supports: &self.supports,
+            system: self.model.system.clone(),
+            mass: self.mass.clone(),
+            supports: self.supports.clone(),
             solver: self.model.setup.solver,
         };
         let Analysis::Modal(settings) = self.model.setup.analysis else {
             panic!("this case is not modal");
         };
-        ModalAnalysis::of(problem, settings)
+        ModalAnalysis::new(&problem, settings)
             .unwrap()
             .find()
             .unwrap()

@@ -27,7 +27,7 @@ pub(crate) fn find_modes(
     let vibration = Vibration::new(&model.setup, &model.system.cloud);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
-    let analysis = stages.time("analysis", || ModalAnalysis::of(problem, settings))?;
+    let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 

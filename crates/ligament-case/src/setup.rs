@@ -18,7 +18,7 @@ use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::modal::{ModalSettings, Rotations};
 use ligament_analysis::probe::{PointField, StressComponent};
-use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
+use ligament_analysis::solver::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::{Ends, PreCrack};
 use ligament_model::correction::StopRule;
 use ligament_model::failure::Weakened;

@@ -1,5 +1,7 @@
 //! The method, second page: from the discrete model to a broken body, or to its modes. The first is [`crate::model`].
 
+use std::sync::Arc;
+
 use ligament_analysis::Observer;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
@@ -18,7 +20,7 @@ pub struct Solution {
     /// The discrete model.
     pub model: Model,
     /// Probes; their values stand in the records of the outcome, in this order.
-    pub probes: Vec<Probe>,
+    pub probes: Arc<[Probe]>,
     /// How the analysis went: history, last state, why it ended.
     pub outcome: Outcome,
 }
@@ -56,7 +58,7 @@ impl Setup {
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
             let vibration = Vibration::new(&model.setup, &model.system.cloud)?;
-            let analysis = ModalAnalysis::of(vibration.problem(&model.system), settings)?;
+            let analysis = ModalAnalysis::new(&vibration.problem(&model.system), settings)?;
             Ok(analysis.find()?)
         })?
     }
@@ -68,7 +70,7 @@ impl Setup {
 ///
 /// If the analysis is of natural modes, or the equations cannot be set up.
 pub fn follow(
-    problem: &Problem<'_>,
+    problem: &Problem,
     analysis: &Analysis,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {

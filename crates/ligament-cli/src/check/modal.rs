@@ -24,7 +24,7 @@ pub(super) fn check(
     let problem = vibration.problem(&model.system);
     let analysis = match extent {
         Extent::Model => None,
-        Extent::Matrix => Some(stages.time("analysis", || ModalAnalysis::of(problem, settings))?),
+        Extent::Matrix => Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?),
     };
     write_model(out, case, model)?;
     writeln!(out, "supports")?;

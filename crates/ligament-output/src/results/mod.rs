@@ -42,7 +42,7 @@ use tables::{Tables, deformation_names};
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
-    problem: Problem<'a>,
+    problem: Problem,
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
@@ -61,7 +61,7 @@ impl<'a> ResultWriter<'a> {
         grid: &'a BodyGrid,
         fixed: &'a FixedFields,
         rule: WriteRule,
-        problem: &Problem<'a>,
+        problem: &Problem,
     ) -> Result<Self, Error> {
         if rule.model {
             model_file::write(folder, grid, fixed, problem, None)?;
@@ -72,7 +72,7 @@ impl<'a> ResultWriter<'a> {
             folder,
             grid,
             largest,
-            problem: *problem,
+            problem: problem.clone(),
             fixed,
             rule,
             tables: Tables::create(folder, problem, grid.tagged)?,

@@ -1,7 +1,7 @@
 //! Supports and loads of a setup on the points of its body.
 
 use ligament_analysis::{
-    Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind, Unknowns,
+    BoundaryError, COMPONENTS, Component, Control, ControlKind, ProportionalLoading, Unknowns,
 };
 use ligament_model::{BondSystem, PointCloud};
 
@@ -11,10 +11,13 @@ use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Load, Place, Profile, Setup};
 
 /// Supports and loads on the points.
-pub(super) fn boundary(setup: &Setup, cloud: &PointCloud) -> Result<Boundary, SetupError> {
+pub(super) fn boundary(
+    setup: &Setup,
+    cloud: &PointCloud,
+) -> Result<ProportionalLoading, SetupError> {
     let places = Places { setup, cloud };
     let heating = heating(&places)?;
-    let mut boundary = Boundary::new(cloud.len(), places.control(heating.as_ref())?);
+    let mut boundary = ProportionalLoading::new(cloud.len(), places.control(heating.as_ref())?);
     if let Some(Heating { change, strain }) = heating {
         boundary.temperature_change = change;
         boundary.thermal_strain = strain;
@@ -53,14 +56,14 @@ pub(super) fn boundary(setup: &Setup, cloud: &PointCloud) -> Result<Boundary, Se
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
 pub(super) fn couples_have_stiffness(
     setup: &Setup,
-    boundary: &Boundary,
+    boundary: &ProportionalLoading,
     system: &BondSystem,
 ) -> Result<(), SetupError> {
     let is_couple = |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
-    let unknowns = Unknowns::of_problem(system, boundary);
+    let unknowns = Unknowns::all_but(system, |dof| boundary.prescribed[dof].is_some());
     let is_idle = |dof: usize| {
         boundary.force[dof] != 0.0
             && boundary.prescribed[dof].is_none()
@@ -90,7 +93,7 @@ impl Places<'_> {
     /// Prescribes a component times a factor for each point.
     fn prescribe(
         &self,
-        boundary: &mut Boundary,
+        boundary: &mut ProportionalLoading,
         field: Field,
         (points, factors): (&[u32], &[f64]),
         (component, value): (Component, f64),

@@ -5,10 +5,12 @@ mod places;
 mod temperature;
 mod vibration;
 
-use ligament_analysis::Boundary;
+use std::sync::Arc;
+
+use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::Probe;
-use ligament_analysis::stiffness::SolverSettings;
+use ligament_analysis::solver::SolverSettings;
 use ligament_model::BondSystem;
 use ligament_model::failure::Criteria;
 
@@ -23,9 +25,9 @@ use boundary::{boundary, couples_have_stiffness};
 #[derive(Debug)]
 pub struct Loading {
     /// Supports and loads.
-    pub boundary: Boundary,
+    pub boundary: Arc<ProportionalLoading>,
     /// Probes.
-    pub probes: Vec<Probe>,
+    pub probes: Arc<[Probe]>,
     /// How the equations are solved.
     pub solver: SolverSettings,
 }
@@ -40,20 +42,20 @@ impl Loading {
         let boundary = boundary(setup, &system.cloud)?;
         couples_have_stiffness(setup, &boundary, system)?;
         Ok(Self {
-            boundary,
+            boundary: Arc::new(boundary),
             probes: setup.probes.iter().map(|it| it.on(system)).collect(),
             solver: setup.solver,
         })
     }
 
     /// The problem that it makes of the bonds and their failure criteria.
-    pub fn problem<'a>(&'a self, system: &'a BondSystem, criteria: &'a Criteria) -> Problem<'a> {
+    pub fn problem(&self, system: &Arc<BondSystem>, criteria: &Arc<Criteria>) -> Problem {
         Problem {
-            system,
-            criteria,
-            boundary: &self.boundary,
+            system: system.clone(),
+            criteria: criteria.clone(),
+            loads: self.boundary.clone(),
             solver: self.solver,
-            probes: &self.probes,
+            probes: self.probes.clone(),
         }
     }
 }

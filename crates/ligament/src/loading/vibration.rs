@@ -1,7 +1,9 @@
 //! What an analysis of natural modes makes of its model.
 
+use std::sync::Arc;
+
 use ligament_analysis::modal::ModalProblem;
-use ligament_analysis::stiffness::SolverSettings;
+use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{Component, Supports};
 use ligament_model::{BondSystem, LumpedMass, PointCloud};
 
@@ -13,9 +15,9 @@ use crate::setup::Setup;
 #[derive(Debug)]
 pub struct Vibration {
     /// Supports.
-    pub supports: Supports,
+    pub supports: Arc<Supports>,
     /// Masses of the points.
-    pub mass: LumpedMass,
+    pub mass: Arc<LumpedMass>,
     /// How the equations are solved.
     pub solver: SolverSettings,
 }
@@ -30,18 +32,18 @@ impl Vibration {
         let materials = setup.materials.iter();
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {
-            supports: supports(&Places { setup, cloud })?,
-            mass: LumpedMass::new(cloud, &densities),
+            supports: Arc::new(supports(&Places { setup, cloud })?),
+            mass: Arc::new(LumpedMass::new(cloud, &densities)),
             solver: setup.solver,
         })
     }
 
     /// The problem that it makes of the bonds.
-    pub fn problem<'a>(&'a self, system: &'a BondSystem) -> ModalProblem<'a> {
+    pub fn problem(&self, system: &Arc<BondSystem>) -> ModalProblem {
         ModalProblem {
-            system,
-            mass: &self.mass,
-            supports: &self.supports,
+            system: system.clone(),
+            mass: self.mass.clone(),
+            supports: self.supports.clone(),
             solver: self.solver,
         }
     }
