@@ -5,9 +5,9 @@
 use std::sync::Arc;
 
 use ligament_analysis::assembly;
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::unknowns::Unknowns;
 use ligament_linalg::SymmetricMatrix;
 use ligament_model::element::imaginary::matrix;

@@ -1,5 +1,7 @@
 //! First yield on irregular meshes beside that of lattices: what the directions of their bonds do to criteria.
 
+use std::sync::Arc;
+
 use anyhow::Context;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
@@ -148,7 +150,7 @@ fn anisotropy(
     let system = &model.system;
     let criteria = match criterion {
         "strength" => model.criteria.clone(),
-        other => uniform(other, system.bonds.len())?,
+        other => Arc::new(uniform(other, system.bonds.len())?),
     };
     let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
     let yields = families(system, &criteria, |_| strains);

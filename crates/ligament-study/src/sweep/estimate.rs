@@ -62,13 +62,13 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     Ok(match &case.case.modal {
         Some(modal) => {
             let vibration = Vibration::of(case, &*model.body, &system.cloud)?;
-            let analysis = ModalAnalysis::of(vibration.problem(system), resolve::modal(modal))?;
+            let analysis = ModalAnalysis::new(&vibration.problem(system), resolve::modal(modal))?;
             memory::of_equations(system, analysis.stiffness())
         }
         None => {
             let loading = Loading::of(case, &*model.body, system)?;
             let problem = loading.problem(system, &model.criteria);
-            let equilibrium = Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)?;
+            let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
             memory::of_equations(system, equilibrium.stiffness())
         }
     })
