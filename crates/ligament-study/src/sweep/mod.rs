@@ -136,9 +136,10 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         progress.tell(&format!("{before} of {} runs were done before", mine.len()));
     }
     notes.iter().for_each(|note| progress.tell(note));
-    let unmeshed = meshes::make(todo.iter().copied(), &settings.gmsh, &mut |line| {
-        progress.tell(line)
-    })?;
+    let lacking = todo
+        .iter()
+        .filter_map(|run| Some((run.name.as_str(), run.mesh.as_ref()?)));
+    let unmeshed = meshes::make(lacking, &settings.gmsh, &mut |line| progress.tell(line))?;
     for (name, reason) in &unmeshed {
         if let Some(run) = todo.iter().find(|run| run.name == *name) {
             record::fail(run, &folder, reason)?;

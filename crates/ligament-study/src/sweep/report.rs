@@ -15,7 +15,6 @@ use super::table::{NoColumn, Row, StudyTable};
 use crate::quantities::{Quantities, QuantityError};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
-use ligament_plot::plots::Paper;
 use ligament_plot::plots::png::to_png;
 
 /// Width of a plot, mm, ...
@@ -98,7 +97,7 @@ pub(super) fn write(
         write_pivot(study, curves, out)?;
         write_fits(curves, out)?;
         let plot = curves.drawn(&title);
-        match plot.on(Paper::new(WIDTH, &plot.series)) {
+        match plot.for_paper(WIDTH) {
             Ok(svg) => {
                 let file = |ending| folder.path().join(format!("{}.{ending}", curves.name));
                 replace_file(&file("svg"), svg.as_bytes())?;
