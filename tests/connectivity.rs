@@ -20,7 +20,7 @@ fn follow(
     batch: impl FnMut() -> usize,
 ) -> usize {
     let system = &bench.model.system;
-    let unknowns = Unknowns::of_problem(system, &bench.boundary);
+    let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let can_hold = |dof: usize| unknowns.number(dof).is_some();
     let mut intact = vec![true; system.bonds.len()];
     let mut fixed = prescribed.to_vec();

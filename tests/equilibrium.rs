@@ -4,12 +4,13 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::Termination;
-use ligament_analysis::boundary::ThermalStrain;
-use ligament_analysis::equilibrium::Stability;
+use ligament_analysis::balanced::Stability;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, InternalForces};
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use verification::bench::Bench;
 use verification::numbers::Random;
 use verification::numbers::component;

@@ -4,13 +4,15 @@
 //! Each test states its problem and where its expectation comes from.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
-use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
+use ligament_analysis::{Component, Control, ControlKind, ProportionalLoading};
 use ligament_cli::check::{Extent, check};
 use ligament_model::element::BondElement;
 use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
@@ -62,7 +64,7 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
     let strain: Vec<f64> = (cloud.positions.iter())
         .flat_map(|&position| motion(strains, angle, position))
         .collect();
-    let mut boundary = Boundary::new(
+    let mut boundary = ProportionalLoading::new(
         cloud.len(),
         Control {
             kind: ControlKind::Displacement,
@@ -86,7 +88,7 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
         }
     }
     let problem = Problem {
-        boundary: &boundary,
+        loads: Arc::new(boundary),
         ..bench.problem()
     };
     let stop = StopRules {
@@ -512,13 +514,7 @@ fn the_first_criterion_that_is_met_decides() {
         truss.criteria = Criteria {
             list: limits.iter().map(of_limit).collect(),
         };
-        let problem = Problem {
-            system: &truss.system,
-            criteria: &truss.criteria,
-            boundary: &truss.boundary,
-            solver: SolverSettings::default(),
-            probes: &[],
-        };
+        let problem = truss.problem();
         let named = |record: &BreakRecord| {
             let rod = truss
                 .bond_of_rod

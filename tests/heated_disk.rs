@@ -1,6 +1,7 @@
 //! Disks that are hot inside, on an irregular mesh, against the closed form of thermoelasticity.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::internal;
 use ligament_analysis::stress::virial;
 use verification::bench::Bench;
@@ -93,7 +94,7 @@ fn hot_disks_are_those_of_thermoelasticity() {
         }
         let off = (off / size).sqrt();
         let state = run.state();
-        let expansion = bench.boundary.thermal_strain_at(state.load_factor);
+        let expansion = bench.boundary.thermal_strain(state.load_factor);
         let system = &bench.model.system;
         let deformations = internal::deformations(system, &state.intact, motion, expansion);
         let stress = virial::stress(system, state.bonds(), &deformations);

@@ -2,10 +2,10 @@
 //! program: plates under load, natural frequencies, and the elastic constants of infinite lattices.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_case::progress::ProgressMode;
 use ligament_case::run;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};

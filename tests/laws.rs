@@ -2,9 +2,9 @@
 //! are one.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_case::case::Law;
 use ligament_model::ElementKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};

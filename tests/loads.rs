@@ -1,10 +1,10 @@
 //! Loads that vary linearly, couples, and bodies that only gauges hold, against closed forms and statics.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::{Component, ControlKind, gauges};
 use ligament_case::progress::ProgressMode;
 use ligament_cli::check::{Extent, check};

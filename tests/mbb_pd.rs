@@ -5,9 +5,9 @@
 use std::sync::Arc;
 
 use ligament_analysis::assembly;
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::unknowns::Unknowns;
 use ligament_linalg::SymmetricMatrix;
 use ligament_model::element::imaginary::matrix;
@@ -34,8 +34,8 @@ const HOLES: &str = "lattice.remove=[{ circle = { centre = [0.002, 0.001], radiu
 
 /// The stiffness of the plane of the one material.
 fn plane_stiffness(bench: &Bench) -> Matrix3<f64> {
-    let materials = ligament_case::resolve::materials(&bench.case);
-    let plane = ligament_case::resolve::plane(&bench.case);
+    let materials = ligament_case::setup::materials(&bench.case);
+    let plane = ligament_case::setup::plane(&bench.case);
     materials[0].elasticity.plane_stiffness(plane)
 }
 

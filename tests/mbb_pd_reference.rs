@@ -4,9 +4,9 @@
 
 use std::collections::BTreeSet;
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::{COMPONENTS, Termination};
 use tempfile::TempDir;
 use verification::bench::Bench;

@@ -3,9 +3,11 @@
 //! Frequencies of lattices against an independent program and published numbers are in `lattices`.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use std::f64::consts::PI;
 
-use ligament_analysis::boundary::ControlKind;
+use ligament_analysis::load_program::ControlKind;
 use ligament_analysis::modal::{
     ModalAnalysis, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind,
     Rotations,
@@ -168,9 +170,9 @@ fn modes_of(
     rotations: Option<Rotations>,
 ) -> ModalOutcome {
     let problem = ModalProblem {
-        system,
-        mass,
-        supports,
+        system: Arc::new(system.clone()),
+        mass: Arc::new(mass.clone()),
+        supports: Arc::new(supports.clone()),
         solver: SolverSettings::default(),
     };
     let settings = ModalSettings {
@@ -178,7 +180,7 @@ fn modes_of(
         rotations,
         tolerance: 1e-10,
     };
-    ModalAnalysis::of(problem, settings)
+    ModalAnalysis::new(&problem, settings)
         .unwrap()
         .find()
         .unwrap()

@@ -1,10 +1,10 @@
 //! Stresses at the points against the continuum, and against the forces that the bodies bear.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::stress::{traction, virial};
+use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_mesh::Mesh;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;

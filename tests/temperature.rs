@@ -2,6 +2,7 @@
 //! breakages against the same bodies under displacements.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
@@ -60,7 +61,7 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 
 /// Deformations of the bonds beyond what the temperature gives them, in the last state.
 fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
-    let expansion = bench.boundary.thermal_strain_at(run.state().load_factor);
+    let expansion = bench.boundary.thermal_strain(run.state().load_factor);
     let intact = &run.state().intact;
     internal::deformations(&bench.model.system, intact, run.displacement(), expansion)
 }
@@ -353,7 +354,7 @@ fn a_linear_temperature_bends_free_bodies() {
                 &bench.model.system,
                 run.state().bonds(),
                 &vec![0.0; 3 * bench.points()],
-                bench.boundary.thermal_strain_at(1.0),
+                bench.boundary.thermal_strain(1.0),
             );
             let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
             assert_eq!(run.last().load_factor, 1.0, "{name}");

@@ -5,9 +5,9 @@
 use ligament_model::BondSystem;
 use ligament_model::element::{BondDeformation, BondElement, Term};
 
-use crate::boundary::ThermalStrain;
 use crate::connectivity::Hold;
 use crate::state::State;
+use crate::thermal_strain::ThermalStrain;
 use crate::unknowns::COMPONENTS;
 
 /// Bonds that break together, and what that changes.

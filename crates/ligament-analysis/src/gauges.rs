@@ -7,8 +7,8 @@
 
 use ligament_model::BondSystem;
 
-use crate::boundary::Boundary;
 use crate::connectivity::{Fragments, Hold, degrees_of_freedom, rigid_motions};
+use crate::load_program::LoadProgram;
 use crate::unknowns::{Component, Unknowns};
 
 /// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
@@ -57,45 +57,51 @@ impl FreeBody {
 }
 
 /// The free parts of the intact body, before anything is solved.
-pub fn of_intact_body(system: &BondSystem, boundary: &Boundary) -> Vec<FreeBody> {
+pub fn of_intact_body(system: &BondSystem, loads: &dyn LoadProgram) -> Vec<FreeBody> {
     let fragments = Fragments::find(system, &vec![true; system.bonds.len()]);
-    let unknowns = Unknowns::of_problem(system, boundary);
+    let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
     let holds = fragments.missing_holds(
         0..fragments.points.len() as u32,
         system,
-        |dof| boundary.prescribed[dof].is_some(),
+        |dof| loads.is_prescribed(dof),
         |dof| unknowns.number(dof).is_some(),
     );
-    free_bodies(system, boundary, &fragments, &holds)
+    free_bodies(system, loads, &fragments, &holds)
 }
 
 /// The free parts of the intact body, given the holds that they need.
 pub fn free_bodies(
     system: &BondSystem,
-    boundary: &Boundary,
+    loads: &dyn LoadProgram,
     fragments: &Fragments,
     holds: &[Hold],
 ) -> Vec<FreeBody> {
     let of_one_body = holds.chunk_by(|one, other| one.fragment == other.fragment);
     of_one_body
-        .map(|holds| free_body(system, boundary, fragments, holds))
+        .map(|holds| free_body(system, loads, fragments, holds))
         .collect()
 }
 
 fn free_body(
     system: &BondSystem,
-    boundary: &Boundary,
+    loads: &dyn LoadProgram,
     fragments: &Fragments,
     holds: &[Hold],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
     let motions = rigid_motions(system, points);
-    let spanned = motions.spanned_by(points, |dof| boundary.prescribed[dof].is_some());
-    let loads = || degrees_of_freedom(points).map(|dof| (dof, boundary.force[dof]));
+    let spanned = motions.spanned_by(points, |dof| loads.is_prescribed(dof));
+    let dofs: Vec<u32> = degrees_of_freedom(points).map(|dof| dof as u32).collect();
+    let forces = loads.forces(1.0, &dofs);
+    let forces = || {
+        dofs.iter()
+            .map(|&dof| dof as usize)
+            .zip(forces.iter().copied())
+    };
     let free = Component::ALL.into_iter().zip(motions.free(&spanned));
     let free = free.filter_map(|(component, motion)| Some((component, motion?)));
     let told = free.map(|(component, motion)| {
-        let [load, size] = motions.work(motion, loads());
+        let [load, size] = motions.work(motion, forces());
         let length = motion
             .iter()
             .fold(0.0, |largest: f64, part| largest.max(part.abs()));

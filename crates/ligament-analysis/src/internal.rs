@@ -12,8 +12,8 @@ use ligament_model::element::true_strain::TrueStrainElement;
 use ligament_model::element::{BondDeformation, Element, ElementKind};
 use rayon::prelude::*;
 
-use crate::boundary::ThermalStrain;
 use crate::state::BondsLeft;
+use crate::thermal_strain::ThermalStrain;
 use crate::unknowns::COMPONENTS;
 
 /// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed

@@ -2,8 +2,6 @@
 
 use ligament_model::{BondSystem, ElementKind};
 
-use crate::boundary::Boundary;
-
 /// Components of a point: displacement along x, along y, rotation.
 pub const COMPONENTS: usize = 3;
 
@@ -52,15 +50,10 @@ pub struct Unknowns {
 const KNOWN: u32 = u32::MAX;
 
 impl Unknowns {
-    /// Everything that no support or load prescribes and that has a stiffness at all.
+    /// Everything that is not fixed and has a stiffness at all.
     ///
     /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point, and bonds without
     /// rotations never do: such rotations carry nothing and are held at zero.
-    pub fn of_problem(system: &BondSystem, boundary: &Boundary) -> Self {
-        Self::all_but(system, |dof| boundary.prescribed[dof].is_some())
-    }
-
-    /// Everything that is not fixed and has a stiffness at all.
     pub fn all_but(system: &BondSystem, is_fixed: impl Fn(usize) -> bool) -> Self {
         let rotates = rotations_with_stiffness(system);
         Self::select(system.cloud.len(), |point, component| {

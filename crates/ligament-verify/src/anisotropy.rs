@@ -1,5 +1,7 @@
 //! First yield on irregular meshes beside that of lattices: what the directions of their bonds do to criteria.
 
+use std::sync::Arc;
+
 use anyhow::Context;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
@@ -121,7 +123,7 @@ fn statistic(labels: Labels<'_>, memory: &mut Memory<Anisotropy>) -> anyhow::Res
         .set("fracture.steps", 1);
     let (name, strains) = (criterion(labels)?, strains(labels)?);
     let key = format!("{} {name} {strains:?}", trial.command());
-    let found = memory.of(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
+    let found = memory.result(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
     let Distribution {
         mean,
         percentile_5,
@@ -148,9 +150,9 @@ fn anisotropy(
     let system = &model.system;
     let criteria = match criterion {
         "strength" => model.criteria.clone(),
-        other => uniform(other, system.bonds.len())?,
+        other => Arc::new(uniform(other, system.bonds.len())?),
     };
-    let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
+    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
     let yields = families(system, &criteria, |_| strains);
     let inside: Vec<u32> = (0..)
         .zip(&is_interior)

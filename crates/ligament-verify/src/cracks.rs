@@ -35,7 +35,7 @@ static HOLE: Template = template!("square-hole/case.toml");
 /// Side of the plate, m.
 const SIDE: f64 = 0.1;
 
-/// Its section, m^2.
+/// Section of the plate, m^2.
 const SECTION: f64 = SIDE * 1e-3;
 
 const MEGAPASCALS: f64 = 1e-6;
@@ -59,8 +59,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .set("lattice.cells", [cells, cells])
             .set("lattice.spacing", 1e-3 * d)
             .set("fracture.stop.load_fraction", 0.8);
-        runs.of(trial.command(), || {
-            let failure = Failure::of(&trial.solve()?.outcome)?;
+        runs.result(trial.command(), || {
+            let failure = Failure::from_outcome(&trial.solve()?.outcome)?;
             curves.push((format!("{case}, {d} mm"), failure.curve.clone()));
             Ok(failure)
         })
@@ -106,7 +106,7 @@ fn template(case: &str) -> anyhow::Result<&'static Template> {
 }
 
 impl Failure {
-    fn of(outcome: &Outcome) -> anyhow::Result<Self> {
+    fn from_outcome(outcome: &Outcome) -> anyhow::Result<Self> {
         let stress = |force: f64| MEGAPASCALS * force / SECTION;
         let first = outcome.first_break.context("no bond breaks")?;
         let peak = outcome.peak().context("the run has no state at rest")?;

@@ -45,7 +45,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
                 .set("material.poisson", nu)
                 .set("model.law", law);
             memory
-                .of(trial.command(), || Frequencies::of(&trial, ALONG))
+                .result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
                 .map(frequency)
         })?;
         findings.plots.push(plot(&table)?);

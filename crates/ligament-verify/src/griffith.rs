@@ -8,7 +8,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// The experiment.
@@ -47,7 +47,7 @@ const HALF_WIDTH: f64 = 0.05;
 /// Half of its height, m.
 const HALF_HEIGHT: f64 = 0.1;
 
-/// Its thickness t, m.
+/// Thickness t of the plate, m.
 const THICKNESS: f64 = 0.01;
 
 /// Half-length a of the central crack, m.
@@ -56,8 +56,8 @@ const HALF_LENGTH: f64 = 0.0152;
 /// Where the tip of the edge crack stands, m.
 const EDGE_TIP: f64 = -0.02;
 
-/// How far the part of the line whose crossings are counted stands aside, m: bonds of a lattice cross at its places, and
-/// its ends should lie between them.
+/// Distance by which the part of the line whose crossings are counted stands aside, m. Bonds of a lattice cross at the
+/// points of the lattice, and the ends of that part should lie between them.
 const ASIDE: f64 = 1.1e-4;
 
 /// E, Pa.
@@ -90,8 +90,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut separated = |labels: Labels<'_>| -> anyhow::Result<Separation> {
         let trial = with_labels(MODE_ONE.trial(), labels)?;
         let mesh = mesh(labels)?;
-        memory.of(format!("{} {}", trial.command(), mesh.path), || {
-            Separation::of(&trial.solve_on(mesh)?)
+        memory.result(format!("{} {}", trial.command(), mesh.path), || {
+            Separation::from_solution(&trial.solve_on(mesh)?)
         })
     };
     let work = published!("fracture-energy-released")
@@ -277,7 +277,7 @@ fn ends(solution: &Solution, bond: usize) -> [[f64; 2]; 2] {
 }
 
 impl Separation {
-    fn of(solution: &Solution) -> anyhow::Result<Self> {
+    fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
         let intact = &solution.outcome.state.intact;
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
         let reached = broken.iter().map(|&bond| {

@@ -74,7 +74,7 @@ fn tables(
             let trial = trial.set("lattice.spacing", 0.4 / f64::from(cells));
             let trial = trial.set("lattice.set.end.left", cells / COARSE);
             memory
-                .of(trial.command(), || Frequencies::of(&trial, ALONG))
+                .result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
                 .map(frequency)
         })
     };

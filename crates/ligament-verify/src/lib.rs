@@ -64,7 +64,7 @@ pub static EXPERIMENTS: [Experiment; 14] = [
     cracks::EXPERIMENT,
 ];
 
-/// What to verify, and where to write it.
+/// A request to `ligament verify`: the experiments, and where to write.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Names of experiments; none for all.
@@ -114,11 +114,14 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
         let findings = experiment.run(request.extent)?;
         console::tell(screen, &findings)?;
         files::write(&folder, &findings)?;
-        summary.append(experiment, &Tally::of(&findings))?;
+        summary.append(experiment, &Tally::from_findings(&findings))?;
         done.push((experiment, findings));
     }
     folder.write_text("README.md", &markdown::text(&done, request.extent))?;
-    let all: Tally = done.iter().map(|(_, findings)| Tally::of(findings)).sum();
+    let all: Tally = done
+        .iter()
+        .map(|(_, findings)| Tally::from_findings(findings))
+        .sum();
     writeln!(screen, "{all}")?;
     writeln!(
         screen,

@@ -75,7 +75,7 @@ fn constants(
             .set("model.calibration", "integral"),
         None => trial.set("model.law", law),
     };
-    memory.of(trial.command(), || {
+    memory.result(trial.command(), || {
         let system = trial.model()?.system;
         let middle = system.cloud.nearest_point([0.0, 0.0]);
         EngineeringConstants::from_stiffness(family_stiffness(&system, middle))

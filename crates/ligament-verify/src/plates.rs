@@ -6,7 +6,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::{numbers, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, Trial, displacement_at, probe, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// The experiment.
@@ -51,7 +51,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut across = |labels: Labels<'_>| -> anyhow::Result<f64> {
         let (case, nu) = (tension(labels)?, labels.number("nu")?);
         let trial = on_lattice(case.trial(), spacing(labels)?).set("material.poisson", nu);
-        let half = narrowing.of(trial.command(), || {
+        let half = narrowing.result(trial.command(), || {
             Ok(0.5 * probe(&trial.solve()?, "narrowing")?)
         })?;
         Ok(MICROMETRES * half)
@@ -67,8 +67,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut plate = |labels: Labels<'_>| -> anyhow::Result<Compared> {
         let trial = on_lattice(problem(labels)?, spacing(labels)?);
         let wanted = (labels.text("problem")?, labels.number("d")?);
-        states.of(trial.command(), || {
-            Compared::of(&trial.solve()?, spacing(labels)?, &elements, wanted)
+        states.result(trial.command(), || {
+            Compared::with_elements(&trial.solve()?, spacing(labels)?, &elements, wanted)
         })
     };
     tables.push(published!("mbb-plates").judge(extent, |labels| {
@@ -164,7 +164,7 @@ struct Compared {
 }
 
 impl Compared {
-    fn of(
+    fn with_elements(
         solution: &Solution,
         spacing: f64,
         elements: &[Elements],

@@ -78,7 +78,7 @@ pub enum TableFault {
     /// A line of the heading is not there.
     #[error("no line `# {key}: ...` stands above the columns")]
     NoHeading {
-        /// What it should tell.
+        /// Key of the missing line.
         key: &'static str,
     },
     /// The columns are not those of a table of known values.

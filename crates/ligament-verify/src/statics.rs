@@ -4,7 +4,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, displacement_at, largest_displacements, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
@@ -109,7 +109,7 @@ fn judge(
             .trial()
             .set("material.poisson", nu)
             .set("model.law", law);
-        let [x, y] = memory.of(trial.command(), || read(&trial.solve()?))?;
+        let [x, y] = memory.result(trial.command(), || read(&trial.solve()?))?;
         Ok(MILLIMETRES
             * if labels.text("component")? == "u_x" {
                 x

@@ -12,7 +12,7 @@ pub struct Tally([usize; Verdict::ALL.len()]);
 
 impl Tally {
     /// The verdicts of an experiment.
-    pub fn of(findings: &Findings) -> Self {
+    pub fn from_findings(findings: &Findings) -> Self {
         let count = |verdict: Verdict| {
             findings
                 .tables

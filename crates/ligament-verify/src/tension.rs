@@ -4,7 +4,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::{numbers, published};
 use super::table::Extent;
 use super::trial::{Memory, Template, displacement_at, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
@@ -45,8 +45,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let table = published!("omppd-tension").judge(extent, |labels| {
         let angle = labels.number("angle")?;
         let trial = CASE.trial().set("material.angle", angle.to_radians());
-        let edge = memory.of(trial.command(), || {
-            let edge = Edge::of(&trial.solve()?, &elements, angle);
+        let edge = memory.result(trial.command(), || {
+            let edge = Edge::from_solution(&trial.solve()?, &elements, angle);
             edges.push(edge.clone());
             Ok(edge)
         })?;
@@ -59,7 +59,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 }
 
 impl Edge {
-    fn of(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
+    fn from_solution(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
         let all = solution.outcome.state.displacement.chunks_exact(3);
         let mean =
             all.map(|motion| motion[1]).sum::<f64>() / solution.model.system.cloud.len() as f64;

@@ -27,7 +27,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 
 static CASE: Template = template!("verification/lattice.toml");
 
-/// As in the paper's tables.
+/// Strengths as in the paper's tables.
 const STRENGTHS: Strengths = Strengths {
     poisson: 0.0,
     ratio: 3.0,

@@ -2,7 +2,7 @@
 
 use ligament_model::{LumpedMass, PointCloud};
 
-use super::shape::{Masses, inner};
+use super::masses::{Masses, inner};
 use crate::unknowns::COMPONENTS;
 
 /// The mass of a body and what of it can move.

@@ -13,7 +13,6 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
-mod absence;
 mod grid;
 mod largest;
 mod model_file;
@@ -26,14 +25,14 @@ mod tables;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_model::{BodyGrid, FixedFields};
 
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
-pub use absence::{Absence, AbsentBond};
-pub use grid::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
+pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
 pub use rule::{Time, WriteRule};
@@ -43,7 +42,7 @@ use tables::{Tables, deformation_names};
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
-    problem: Problem<'a>,
+    problem: Problem,
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
@@ -62,7 +61,7 @@ impl<'a> ResultWriter<'a> {
         grid: &'a BodyGrid,
         fixed: &'a FixedFields,
         rule: WriteRule,
-        problem: &Problem<'a>,
+        problem: &Problem,
     ) -> Result<Self, Error> {
         if rule.model {
             model_file::write(folder, grid, fixed, problem, None)?;
@@ -73,7 +72,7 @@ impl<'a> ResultWriter<'a> {
             folder,
             grid,
             largest,
-            problem: *problem,
+            problem: problem.clone(),
             fixed,
             rule,
             tables: Tables::create(folder, problem, grid.tagged)?,

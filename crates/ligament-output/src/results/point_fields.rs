@@ -6,8 +6,9 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::stress::{traction, virial};
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
+use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
 use crate::Error;
 use crate::vtu::Field;
@@ -33,8 +34,8 @@ pub(super) fn write(
     fields.extend(heat.fields());
     fields.extend(stresses.fields());
     let cloud = &view.system.cloud;
-    fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
-    grid.write(path, Some(&displacements(view)), &fields)
+    fields.extend(fixed_fields(fixed, &cloud.volumes, &cloud.spacing));
+    write_grid(path, grid, Some(&displacements(view)), &fields)
 }
 
 /// Motion of the points, what the bonds store and exert, and which parts are connected.
@@ -49,7 +50,7 @@ struct Motion {
 impl Motion {
     fn read(view: &View<'_>) -> Self {
         let (state, balanced) = (view.state, view.balanced);
-        let reactions = (view.boundary).reactions(state.load_factor, &balanced.internal.values);
+        let reactions = (view.loads).reactions(state.load_factor, &balanced.internal.values);
         let motions = state.displacement.chunks(COMPONENTS);
         let held = state.held.chunks(COMPONENTS);
         Self {
@@ -113,13 +114,12 @@ struct Heat {
 
 impl Heat {
     fn read(view: &View<'_>) -> Self {
-        let at_load = |at_full_load: &[f64]| -> Vec<f64> {
-            let values = at_full_load.iter();
-            values.map(|value| view.state.load_factor * value).collect()
-        };
+        let load_factor = view.state.load_factor;
+        let strain = view.loads.thermal_strain(load_factor);
+        let of_points = (0..view.system.cloud.len()).filter(|_| !strain.is_none());
         Self {
-            change: at_load(&view.boundary.temperature_change),
-            strain: at_load(view.boundary.thermal_strain.as_flattened()),
+            change: view.loads.temperature_change(load_factor),
+            strain: of_points.flat_map(|point| strain.of_point(point)).collect(),
         }
     }
 

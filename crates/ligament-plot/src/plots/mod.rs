@@ -33,7 +33,7 @@ const TEXT: RGBColor = RGBColor(30, 30, 30);
 /// A plot: several curves over one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// Name of its file.
+    /// Name of the plot's file.
     pub name: String,
     /// Title.
     pub title: String,
@@ -67,7 +67,7 @@ pub enum Mark {
     Dashes,
 }
 
-/// Colours that are told apart with any colour vision (Okabe and Ito).
+/// Colours that any colour vision can distinguish (Okabe and Ito).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colour {
     /// Black.
@@ -142,7 +142,7 @@ impl Series {
         Self::new(label, Mark::Dashes, colour, points)
     }
 
-    /// Its points, shape (n, 2).
+    /// Points of the series, shape (n, 2).
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
@@ -282,7 +282,7 @@ impl Series {
         Ok(())
     }
 
-    /// Its entry in the legend at a height, in pixels of a screen.
+    /// Draws the entry of the series in the legend at a height, in pixels of a screen.
     fn draw_legend(&self, area: &DrawingArea<Backend<'_>, Shift>, y: i32, pen: Pen) -> Drawn {
         let at = |x: i32, y: i32| (pen.dots(x), pen.dots(y));
         let line =

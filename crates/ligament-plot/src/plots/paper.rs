@@ -34,7 +34,7 @@ pub(super) struct Paper {
     pub(super) pen: Pen,
     /// Width and height in pixels of a screen.
     size: (u32, u32),
-    /// Of them the width of the legend.
+    /// Width of the legend, a part of the whole.
     legend: i32,
     /// Width on paper, mm.
     width: Option<f64>,

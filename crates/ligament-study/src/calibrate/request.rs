@@ -57,7 +57,7 @@ pub enum CalibrationError {
         run: usize,
         /// The value of the key that it ran with.
         setting: String,
-        /// Its folder.
+        /// Folder of the run.
         folder: PathBuf,
         /// Why.
         source: QuantityError,

@@ -60,13 +60,13 @@ pub enum YieldError {
     /// A case without a Poisson's ratio for all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {
-        /// What it has instead.
+        /// The elastic constants that the case has instead, in words.
         which: &'static str,
     },
     /// No point has this tag.
     #[error("there is no {tagged} {tag}: their numbers are {lowest} to {highest}")]
     NoPoint {
-        /// What a tag is one of.
+        /// The noun that tags belong to: `node` or `cell`.
         tagged: &'static str,
         /// The one asked for.
         tag: u64,
@@ -82,7 +82,7 @@ pub enum YieldError {
         at: [f64; 2],
         /// The nearest point.
         nearest: String,
-        /// Its horizon.
+        /// Horizon of the nearest point, m.
         horizon: f64,
     },
     /// A family that no strain makes yield.

@@ -14,9 +14,9 @@ use super::error::YieldError;
 use super::of_case::{criteria, model, poisson};
 use super::request::{Request, SUMMARY};
 use super::subject::{Strain, Subject};
+use ligament::run::on_threads;
 use ligament_case::case::CaseFile;
 use ligament_case::model::Model;
-use ligament_case::resolve;
 use ligament_case::summary::heading;
 use ligament_plot::plots::{Colour, Plot, Series};
 
@@ -26,7 +26,7 @@ pub(super) fn draw(
     case: &CaseFile,
     screen: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
-    resolve::on_threads(case, || draw_here(request, case, screen))?
+    on_threads(case.threads(), || draw_here(request, case, screen))?
 }
 
 /// A criterion and a strain at all points.
@@ -43,7 +43,7 @@ fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyh
     let model = model(case)?;
     let system = &model.system;
     let poisson = poisson(request, case, &model)?;
-    let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
+    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
     let sizes: Vec<i64> = (0..system.cloud.len() as u32)
         .map(|point| system.bonds.incidence.at(point).len() as i64)
         .collect();
@@ -159,13 +159,13 @@ fn write_summary(
             let mut row: Vec<Value<'_>> = vec![criterion.as_str().into(), layer.strain.name.into()];
             row.extend([Value::from(points), it.count.into()]);
             row.extend(numbers.map(Value::from));
-            row.push(model.body.tag(summary.point).into());
+            row.push(model.body().tag(summary.point).into());
             row.push(summary.orientation.to_degrees().into());
             row.extend([lattice_ratio, layer.lattice.unwrap_or(f64::NAN)].map(Value::from));
             table.append(&row)?;
             if marked.is_some() {
                 let cells = numbers.map(|it| format!("{:>8.2}", 100.0 * it)).concat();
-                let place = model.body.place(summary.point);
+                let place = model.body().place(summary.point);
                 writeln!(screen, "  {criterion:<20}{words:<16}{cells}  {place}")?;
                 if let Some(error) = layer.lattice {
                     let words = format!("lattice m = {ratio:.2}");
@@ -278,5 +278,5 @@ fn write_fields(
         .collect();
     fields.push(Field::integer("interior", &interior));
     fields.push(Field::integer("bonds", sizes));
-    write_points(path, &model.body.grid(), &fields)
+    write_points(path, &model.body().grid(), &fields)
 }

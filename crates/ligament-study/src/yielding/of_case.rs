@@ -9,7 +9,7 @@ use super::request::Request;
 use ligament_case::case::{CaseFile, Law};
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve;
+use ligament_case::setup;
 use ligament_case::stages::Stages;
 
 /// The model of a case whose bonds have directions.
@@ -61,7 +61,7 @@ pub(super) fn criteria(
         found.push((name, Criteria { list }));
     }
     if list.len() > 1 {
-        found.push(("first of all".to_owned(), model.criteria.clone()));
+        found.push(("first of all".to_owned(), Criteria::clone(&model.criteria)));
     }
     Ok(found)
 }
@@ -76,8 +76,8 @@ pub(super) fn poisson(
     if let Some(poisson) = request.poisson {
         return Ok(vec![poisson; cloud.len()]);
     }
-    let plane = resolve::plane(case);
-    let of_materials: Option<Vec<f64>> = (resolve::materials(case).iter())
+    let plane = setup::plane(case);
+    let of_materials: Option<Vec<f64>> = (setup::materials(case).iter())
         .map(|material| {
             let given: Isotropic = material.elasticity.isotropic()?;
             let constants = if case.case.model.law.fixes_poisson() {

@@ -10,9 +10,9 @@ use super::error::YieldError;
 use super::of_case::{criteria, model, poisson};
 use super::request::{Place, Request};
 use super::subject::{Strain, Subject};
+use ligament::run::on_threads;
 use ligament_case::case::CaseFile;
 use ligament_case::model::Model;
-use ligament_case::resolve;
 use ligament_case::summary::heading;
 
 /// Diagrams of one point.
@@ -22,11 +22,11 @@ pub(super) fn draw(
     place: Place,
     screen: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
-    resolve::on_threads(case, || {
+    on_threads(case.threads(), || {
         let model = model(case)?;
         let point = find(&model, place)?;
         let poisson = poisson(request, case, &model)?[point as usize];
-        let label = model.body.label(point);
+        let label = model.body().label(point);
         let mut comparisons = Vec::new();
         for (criterion, criteria) in criteria(request, case, &model)? {
             let subject = Subject::of_point(label.clone(), &model.system, &criteria, point);
@@ -56,7 +56,7 @@ pub(super) fn draw(
         comparisons.retain(yields);
         diagrams::write(&request.folder()?, &comparisons, &strains)?;
         writeln!(screen, "{}", heading(&case.case.title))?;
-        writeln!(screen, "family of {}\n", model.body.place(point))?;
+        writeln!(screen, "family of {}\n", model.body().place(point))?;
         for comparison in &comparisons {
             console::tell(screen, comparison)?;
         }
@@ -65,7 +65,7 @@ pub(super) fn draw(
 }
 
 fn find(model: &Model, place: Place) -> Result<u32, YieldError> {
-    let (body, cloud) = (&model.body, &model.system.cloud);
+    let (body, cloud) = (model.body(), &model.system.cloud);
     match place {
         Place::At(at) => {
             let point = cloud.nearest_point(at);

@@ -12,7 +12,7 @@ use super::error::{RATIOS, YieldError};
 /// The file by which a folder is known to hold yield domains.
 pub const SUMMARY: &str = "yield.csv";
 
-/// What to look at, and where to write it.
+/// A request to `ligament yield`: the subject, and where to write.
 #[derive(Debug)]
 pub struct Request {
     /// The families.
@@ -34,11 +34,11 @@ pub struct Request {
 /// Whose bonds.
 #[derive(Debug)]
 pub enum Families {
-    /// Of lattices with horizons of so many spacings.
+    /// Lattices with horizons of so many spacings.
     Lattices(Vec<f64>),
-    /// Of a point of a case.
+    /// One point of a case.
     Point(Box<CaseFile>, Place),
-    /// Of all points of a case.
+    /// All points of a case.
     Field(Box<CaseFile>),
 }
 

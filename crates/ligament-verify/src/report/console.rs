@@ -28,7 +28,7 @@ pub fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::Result<
 /// Shows the tables of an experiment on the console.
 pub fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
     for table in &findings.tables {
-        let Printable { head, rows, notes } = Printable::of(table);
+        let Printable { head, rows, notes } = Printable::from_table(table);
         writeln!(
             console,
             "\n  {}, {}",
