@@ -5,8 +5,8 @@ use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecor
 use ligament_analysis::stress::{traction, virial};
 use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
-use ligament_case::model::Model;
 use ligament_model::Absence;
+use ligament_run::model::Model;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};
