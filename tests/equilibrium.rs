@@ -217,7 +217,8 @@ fn central_forces_leave_rotations_alone() {
         let system = &bench.model.system;
         assert!(
             system
-                .shear_rigidity
+                .rigidities
+                .shear
                 .iter()
                 .all(|&rigidity| rigidity == 0.0)
         );

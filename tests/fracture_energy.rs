@@ -93,7 +93,7 @@ impl Segment {
 
 /// Sum of 1/2 R s_0^2 over the bonds that cross a segment, per area, over G_c.
 fn work(bench: &Bench, segment: &Segment) -> f64 {
-    let rigidity = &bench.model.system.axial_rigidity;
+    let rigidity = &bench.model.system.rigidities.axial;
     let crossing = segment.crossing(bench);
     assert!(!crossing.is_empty());
     let of_bond = |bond: usize| 0.5 * rigidity[bond] * bench.limits()[bond].powi(2);
@@ -332,8 +332,9 @@ impl Separation {
                 continue;
             }
             let per_energy = 1.0 / (ratio * ratio * area * FRACTURE_ENERGY);
-            let opening = 0.5 * system.axial_rigidity[bond] * deformation.stretch.max(0.0).powi(2);
-            let sliding = 0.5 * system.shear_rigidity[bond] * deformation.shear.powi(2);
+            let opening =
+                0.5 * system.rigidities.axial[bond] * deformation.stretch.max(0.0).powi(2);
+            let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear.powi(2);
             sum.counted += (opening + sliding) * per_energy;
             sum.stored += element.energy(&deformation) * per_energy;
         }

@@ -433,15 +433,15 @@ fn modes(system: &BondSystem, bond: usize) -> [(f64, [f64; 6]); 3] {
     let [a, b] = system.bonds.direction[bond];
     [
         (
-            system.axial_rigidity[bond],
+            system.rigidities.axial[bond],
             [-a / l, -b / l, 0.0, a / l, b / l, 0.0],
         ),
         (
-            system.shear_rigidity[bond],
+            system.rigidities.shear[bond],
             [b / l, -a / l, -0.5, -b / l, a / l, -0.5],
         ),
         (
-            system.rotational_rigidity[bond],
+            system.rigidities.rotational[bond],
             [0.0, 0.0, -1.0, 0.0, 0.0, 1.0],
         ),
     ]

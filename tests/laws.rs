@@ -151,7 +151,7 @@ fn rigid_motions() {
             assert!(error.abs() < 1e-20, "{title}: {error:e}");
         }
         let turned = stored_energy(&bench, |p| [-1e-3 * p[1], 1e-3 * p[0], 1e-3]) / measure;
-        let resists = entry.rotation_costs && system.shear_rigidity.iter().any(|&k| k != 0.0);
+        let resists = entry.rotation_costs && system.rigidities.shear.iter().any(|&k| k != 0.0);
         println!("{title}: a rotation costs {turned:.2e} of a stretch of its size");
         if resists {
             assert!(turned.abs() > 0.01, "{title}: {turned:e}");
@@ -223,7 +223,13 @@ fn every_law_is_solved() {
             "{title}: {residual:e}"
         );
         let turns = run.displacement().chunks(3).any(|motion| motion[2] != 0.0);
-        let has_shear = bench.model.system.shear_rigidity.iter().any(|&k| k != 0.0);
+        let has_shear = bench
+            .model
+            .system
+            .rigidities
+            .shear
+            .iter()
+            .any(|&k| k != 0.0);
         assert_eq!(
             turns,
             entry.element == ElementKind::Beam && has_shear,
@@ -348,8 +354,11 @@ fn axes_turn_with_the_material() {
     let mut along_the_axes = 0;
     for bond in 0..straight.bonds.len() {
         let [a, b] = straight.bonds.direction[bond];
-        let (before, after) = (straight.axial_rigidity[bond], turned.axial_rigidity[bond]);
-        assert!(relative_error(half.axial_rigidity[bond], before) < 1e-13);
+        let (before, after) = (
+            straight.rigidities.axial[bond],
+            turned.rigidities.axial[bond],
+        );
+        assert!(relative_error(half.rigidities.axial[bond], before) < 1e-13);
         if b.abs() < 1e-12 {
             assert!(relative_error(after / before, ratio) < 1e-12);
             along_the_axes += 1;

@@ -134,8 +134,8 @@ fn three_masses_on_two_springs() {
         critical_elongation: 1.0,
     };
     let mut truss = Truss::new(&[0.0, 1.0, 3.0], &[rod(0), rod(1)], ControlKind::Force, 2);
-    truss.system.shear_rigidity.fill(0.0);
-    truss.system.rotational_rigidity.fill(0.0);
+    truss.system.rigidities.shear.fill(0.0);
+    truss.system.rigidities.rotational.fill(0.0);
     let mass = LumpedMass {
         mass: vec![0.5; 3],
         inertia: vec![1.0; 3],

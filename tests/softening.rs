@@ -210,7 +210,7 @@ after = "plastic"
     // gamma_0 = s_0t/2 = 1e-4 at nu = 0 (MPPD eq. 49), which is a displacement of 1e-6 m: load factor 0.1.
     assert!(relative_error(bench.limits()[0], 1e-4) < 1e-12);
     let run = bench.break_up();
-    let limit_force = bench.model.system.shear_rigidity[0] * 1e-4 / 0.01;
+    let limit_force = bench.model.system.rigidities.shear[0] * 1e-4 / 0.01;
     let shares = [0.5, 1.0, 1.0, 1.0, 0.5, 0.05];
     for (step, share) in run.outcome.history[1..].iter().zip(shares) {
         assert!(

@@ -1,5 +1,6 @@
 //! Supports and loads on the points, all proportional to the load factor.
 
+pub use ligament_model::thermal::{ThermalStrain, ThermalStrains};
 use thiserror::Error;
 
 use crate::internal::InternalForces;
@@ -14,9 +15,8 @@ pub struct Boundary {
     pub force: Vec<f64>,
     /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
     pub temperature_change: Vec<f64>,
-    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, at load factor 1, shape
-    /// (n_points); empty where no temperature changes.
-    pub thermal_strain: Vec<[f64; 3]>,
+    /// Strains that the temperature would give the points without stress, at load factor 1.
+    pub thermal_strain: ThermalStrains,
     /// Groups whose resultant the history reports.
     pub groups: Vec<BoundaryGroup>,
     /// What `displacement` and `reaction` of the history mean.
@@ -90,41 +90,6 @@ pub enum BoundaryError {
     },
 }
 
-/// Strains that the temperature would give the points without stress, at some load factor.
-#[derive(Debug, Clone, Copy)]
-pub struct ThermalStrain<'a> {
-    strain: &'a [[f64; 3]],
-    load_factor: f64,
-}
-
-impl ThermalStrain<'_> {
-    /// None anywhere.
-    pub const NONE: Self = ThermalStrain {
-        strain: &[],
-        load_factor: 0.0,
-    };
-
-    /// Whether there is none anywhere.
-    pub fn is_none(&self) -> bool {
-        self.strain.is_empty()
-    }
-
-    /// That at load factor 1.
-    pub fn at_full_load(&self) -> Self {
-        Self {
-            load_factor: 1.0,
-            ..*self
-        }
-    }
-
-    /// The mean of the ends of a bond: (eps_xx, eps_yy, gamma_xy).
-    #[inline]
-    pub fn of_bond(&self, ends: [u32; 2]) -> [f64; 3] {
-        let [a, b] = ends.map(|end| self.strain[end as usize]);
-        [0, 1, 2].map(|k| self.load_factor * (0.5 * (a[k] + b[k])))
-    }
-}
-
 impl Boundary {
     /// A body of `n_points` points that nothing holds or loads but the motion or force of `control`, which is still to be
     /// added by [`Boundary::prescribe`] or [`Boundary::add_force`].
@@ -133,7 +98,7 @@ impl Boundary {
             prescribed: vec![None; COMPONENTS * n_points],
             force: vec![0.0; COMPONENTS * n_points],
             temperature_change: Vec::new(),
-            thermal_strain: Vec::new(),
+            thermal_strain: ThermalStrains::default(),
             groups: Vec::new(),
             control,
         }
@@ -220,10 +185,7 @@ impl Boundary {
 
     /// What the temperature does to the bonds at a load factor.
     pub fn thermal_strain_at(&self, load_factor: f64) -> ThermalStrain<'_> {
-        ThermalStrain {
-            strain: &self.thermal_strain,
-            load_factor,
-        }
+        self.thermal_strain.at(load_factor)
     }
 
     /// Degrees of freedom (of 3 n_points) that something moves or loads, ascending: no other one does work.

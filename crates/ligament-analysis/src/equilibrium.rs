@@ -8,9 +8,10 @@ mod unsymmetric;
 use std::time::Instant;
 
 use ligament_linalg::{FactorKind, Lu};
-use ligament_model::BondSystem;
-use ligament_model::element::{BondDeformation, ElementKind};
+use ligament_model::Bonds;
+use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
+use ligament_model::interface::PointStiffness;
 use rayon::prelude::*;
 
 use crate::boundary::Boundary;
@@ -54,14 +55,14 @@ const ITERATION_LIMIT: usize = 25;
 
 /// The equations of a problem, kept up while its bonds break.
 pub struct Equilibrium<'a> {
-    system: &'a BondSystem,
+    system: &'a dyn Bonds,
     criteria: &'a Criteria,
     boundary: &'a Boundary,
     stiffness: Stiffness<'a>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     energy_tolerance: f64,
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
-    point_stiffness: [f64; 2],
+    point_stiffness: PointStiffness,
     /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
     largest_forces: [f64; 2],
     connectivity: Connectivity,
@@ -137,11 +138,12 @@ impl<'a> Equilibrium<'a> {
                 problem.solver,
             )?,
             // With true strains the energy settles before they are those of the displacements: the residual decides.
-            energy_tolerance: match system.element {
-                ElementKind::TrueStrain => 0.0,
-                _ => energy_tolerance,
+            energy_tolerance: if system.is_linear() {
+                energy_tolerance
+            } else {
+                0.0
             },
-            point_stiffness: largest_point_stiffness(system),
+            point_stiffness: system.largest_point_stiffness(),
             largest_forces: [0.0; 2],
             connectivity: Connectivity::new(system),
             unsymmetric: None,
@@ -224,7 +226,7 @@ impl<'a> Equilibrium<'a> {
         if !state.softening.remaining.is_empty() {
             return self.balance_secants(state, breakage, observer);
         }
-        if self.system.element == ElementKind::Pairwise {
+        if !self.system.has_energy() {
             return self.balance_unsymmetric(state, observer);
         }
         self.prescribe(state);
@@ -302,8 +304,7 @@ impl<'a> Equilibrium<'a> {
 
     /// Deformations of a state (n_bonds).
     fn deformations(&self, state: &State) -> Vec<BondDeformation> {
-        internal::deformations(
-            self.system,
+        self.system.deformations(
             &state.intact,
             &state.displacement,
             self.boundary.thermal_strain_at(state.load_factor),
@@ -313,8 +314,7 @@ impl<'a> Equilibrium<'a> {
     /// Forces, residual and energy of a state with deformations (n_bonds).
     fn measure_deformed(&mut self, state: &State, deformations: Vec<BondDeformation>) -> Balanced {
         let start = Instant::now();
-        let swept = internal::forces(
-            self.system,
+        let swept = self.system.forces(
             state.bonds(),
             deformations,
             self.boundary.thermal_strain_at(state.load_factor),
@@ -404,8 +404,8 @@ impl<'a> Equilibrium<'a> {
     /// Force and moment at a point that are rounding of the displacements, N and N m.
     fn forces_of_rounding(&self, state: &State) -> [f64; 2] {
         let displacement = largest_displacement(state);
-        self.point_stiffness
-            .map(|stiffness| ROUNDING * stiffness * displacement)
+        let PointStiffness { force, moment } = self.point_stiffness;
+        [force, moment].map(|stiffness| ROUNDING * stiffness * displacement)
     }
 
     /// Energy that is rounding of the displacements, J.
@@ -429,7 +429,7 @@ impl<'a> Equilibrium<'a> {
             let Some(&first) = vanishing.first() else {
                 return Ok(held_now);
             };
-            if self.system.has_negative_stiffness() {
+            if self.system.some_negative() {
                 return Err(self.vanishing_pivot(first));
             }
             for unknown in vanishing {
@@ -445,9 +445,9 @@ impl<'a> Equilibrium<'a> {
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.unknowns().degrees_of_freedom()[unknown] as usize;
         let point = (dof / COMPONENTS) as u32;
-        let component = Component::of(dof).name();
+        let component = Component::at(dof).name();
         let is_llt = self.choice().factorisation == FactorKind::Llt;
-        if is_llt && self.system.has_negative_stiffness() {
+        if is_llt && self.system.some_negative() {
             Unbalanced::NotPositiveDefinite { point, component }
         } else {
             Unbalanced::VanishingPivot { point, component }
@@ -461,20 +461,4 @@ fn largest_displacement(state: &State) -> f64 {
         .chunks(COMPONENTS)
         .flat_map(|motion| &motion[..Component::Rotation.index()])
         .fold(0.0, |largest: f64, value| largest.max(value.abs()))
-}
-
-/// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
-pub(crate) fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
-    let mut largest = [0.0_f64; 2];
-    for point in 0..system.cloud.len() as u32 {
-        let mut sum = [0.0; 2];
-        for &bond in system.bonds.incidence.at(point) {
-            let bond = bond as usize;
-            let (length, shear) = (system.bonds.length[bond], system.shear_rigidity[bond].abs());
-            sum[0] += (system.axial_rigidity[bond].abs() + shear) / length.powi(2);
-            sum[1] += (shear + system.rotational_rigidity[bond].abs()) / length;
-        }
-        largest = [0, 1].map(|k| largest[k].max(sum[k]));
-    }
-    largest
 }

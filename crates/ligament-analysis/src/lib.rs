@@ -23,7 +23,6 @@ pub mod probe;
 pub mod softening;
 pub mod state;
 pub mod stiffness;
-pub mod stress;
 pub mod supports;
 pub mod unknowns;
 

@@ -9,8 +9,8 @@ pub use ligament_linalg::FactorKind;
 use ligament_linalg::{
     Elimination, FactorError, Factorisation, Pattern, Symbolic, SymmetricMatrix, VANISHING_PIVOT,
 };
-use ligament_model::BondSystem;
-use ligament_model::element::{ElementKind, Remaining};
+use ligament_model::Bonds;
+use ligament_model::element::Remaining;
 
 use crate::assembly;
 use crate::dissection;
@@ -109,7 +109,7 @@ pub struct Costs {
 
 /// Numbering, pattern and factor of the stiffness of the intact bonds.
 pub struct Stiffness<'a> {
-    system: &'a BondSystem,
+    system: &'a dyn Bonds,
     unknowns: Unknowns,
     pattern: Arc<Pattern>,
     symbolic: Arc<Symbolic>,
@@ -131,7 +131,7 @@ pub struct Stiffness<'a> {
 impl<'a> Stiffness<'a> {
     /// Analyses the pattern for some unknowns; nothing is factorised yet.
     pub(crate) fn new(
-        system: &'a BondSystem,
+        system: &'a dyn Bonds,
         unknowns: Unknowns,
         settings: SolverSettings,
     ) -> Result<Self, SetupError> {
@@ -139,13 +139,11 @@ impl<'a> Stiffness<'a> {
         let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
         let ordering = settings
             .ordering
-            .unwrap_or(Ordering::suited_to(system.cloud.len()));
+            .unwrap_or(Ordering::suited_to(system.n_points()));
         let elimination = ordering.elimination(system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
         // Without positive stiffnesses positive definiteness is not to be counted on.
-        let mut rigidities = system.axial_rigidity.iter().chain(&system.shear_rigidity);
-        let definite = rigidities.all(|&rigidity| rigidity > 0.0);
-        let suitable = if definite {
+        let suitable = if system.all_positive() {
             FactorKind::Llt
         } else {
             FactorKind::Ldlt
@@ -156,7 +154,7 @@ impl<'a> Stiffness<'a> {
             pattern,
             choice: SolverChoice {
                 factorisation: settings.factorisation.unwrap_or(suitable),
-                unsymmetric: system.element == ElementKind::Pairwise,
+                unsymmetric: !system.has_energy(),
                 ordering,
                 update: settings.update.unwrap_or(Update::Incremental),
                 rebuild_every: settings.rebuild_every.max(1),
@@ -299,12 +297,8 @@ impl<'a> Stiffness<'a> {
             return Ok(0);
         }
         let is_alone = |dof: usize| {
-            let mut bonds = self
-                .system
-                .bonds
-                .incidence
-                .at((dof / COMPONENTS) as u32)
-                .iter();
+            let incidence = self.system.incidence();
+            let mut bonds = incidence.at((dof / COMPONENTS) as u32).iter();
             bonds.all(|&bond| !state.intact[bond as usize])
         };
         let alone: Vec<bool> = (0..state.held.len()).map(is_alone).collect();
@@ -339,7 +333,7 @@ impl Ordering {
     }
 
     /// The order of elimination of some unknowns.
-    pub fn elimination(self, system: &BondSystem, unknowns: &Unknowns) -> Elimination {
+    pub fn elimination(self, system: &dyn Bonds, unknowns: &Unknowns) -> Elimination {
         match self {
             Self::MinimumDegree => Elimination::MinimumDegree,
             Self::NestedDissection => {

@@ -219,9 +219,10 @@ impl Limits<'_> {
     fn shear_ratio(&self) -> Vec<f64> {
         (self
             .system
-            .axial_rigidity
+            .rigidities
+            .axial
             .iter()
-            .zip(&self.system.shear_rigidity))
+            .zip(&self.system.rigidities.shear))
         .map(|(&axial, &shear)| if axial == 0.0 { 0.0 } else { shear / axial })
         .collect()
     }

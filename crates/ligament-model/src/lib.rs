@@ -16,18 +16,25 @@
 //! All quantities are in SI units. No matrices, no files and no printing here.
 
 pub mod bonds;
+pub mod change;
 pub mod cloud;
 pub mod correction;
 mod curve;
 pub mod element;
 pub mod failure;
 pub mod horizon;
+pub mod interface;
 pub mod law;
+pub mod layout;
 pub mod mass;
 pub mod material;
 pub mod moduli;
+pub mod rigid_motions;
 pub mod shape;
+pub mod stress;
+pub mod sweep;
 pub mod system;
+pub mod thermal;
 pub mod yielding;
 
 pub use bonds::{BondSet, Incidence};
@@ -36,8 +43,9 @@ pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use element::ElementKind;
 pub use horizon::Horizons;
+pub use interface::Bonds;
 pub use law::BondStiffness;
 pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use shape::Shape;
-pub use system::BondSystem;
+pub use system::{BondSystem, BondsLeft};

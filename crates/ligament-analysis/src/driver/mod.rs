@@ -16,7 +16,7 @@ pub use path::StopRules;
 #[derive(Clone, Copy)]
 pub struct Problem<'a> {
     /// The bond system.
-    pub system: &'a ligament_model::BondSystem,
+    pub system: &'a dyn ligament_model::Bonds,
     /// Failure criteria; an elastic analysis has none.
     pub criteria: &'a ligament_model::failure::Criteria,
     /// Supports and loads.

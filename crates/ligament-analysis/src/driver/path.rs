@@ -101,7 +101,7 @@ impl<'a> Path<'a> {
             started: Instant::now(),
         };
         path.state.softening =
-            Softening::of_sound_bonds(problem.criteria, problem.system.bonds.len());
+            Softening::of_sound_bonds(problem.criteria, problem.system.ends().len());
         Ok((path, at_one))
     }
 

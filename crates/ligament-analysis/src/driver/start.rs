@@ -101,7 +101,7 @@ fn stability(
     state: &State,
     observer: &mut dyn Observer,
 ) -> Result<Option<Stability>, SetupError> {
-    if !problem.system.has_negative_stiffness() {
+    if !problem.system.some_negative() {
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;

@@ -102,8 +102,8 @@ impl Equilibrium<'_> {
 
     /// 1 at displacements and the spacing of the point at rotations, which makes lengths of both, shape (n_unknowns).
     fn lengths(&self) -> Vec<f64> {
-        let of = |&dof: &u32| match Component::of(dof as usize) {
-            Component::Rotation => self.system.cloud.spacing[dof as usize / COMPONENTS],
+        let of = |&dof: &u32| match Component::at(dof as usize) {
+            Component::Rotation => self.system.spacing()[dof as usize / COMPONENTS],
             Component::X | Component::Y => 1.0,
         };
         self.unknowns()

@@ -3,13 +3,10 @@
 use std::time::Instant;
 
 use ligament_linalg::{FactorError, GeneralMatrix, Lu};
-use ligament_model::element::Element;
-use ligament_model::element::pairwise::PairwiseElement;
 
 use super::{Balanced, Equilibrium, ITERATION_LIMIT, RESIDUAL_TOLERANCE, Unbalanced};
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
-use crate::unknowns::COMPONENTS;
 
 impl Equilibrium<'_> {
     /// Brings a state of unbroken bonds into equilibrium. The forces are linear: one solution gets there, and the residual tells.
@@ -81,24 +78,12 @@ impl Equilibrium<'_> {
         let unknowns = self.unknowns();
         let free = |dof: usize| unknowns.number(dof).filter(|_| !state.held[dof]);
         let mut entries = Vec::new();
-        for bond in 0..self.system.bonds.len() {
-            let element = PairwiseElement::of(self.system, &state.intact, bond);
-            let [a, b] = element.ends();
-            for (point, block) in element.couplings() {
-                for (end, sign) in [(a, -1.0), (b, 1.0)] {
-                    for (r, row) in block.iter().enumerate() {
-                        for (c, value) in row.iter().enumerate() {
-                            let [row, column] = [(end, r), (point, c)].map(|(point, component)| {
-                                free(COMPONENTS * point as usize + component)
-                            });
-                            if let (Some(row), Some(column)) = (row, column) {
-                                entries.push((row, column, sign * value));
-                            }
-                        }
-                    }
+        self.system
+            .add_derivatives(&state.intact, &mut |row, column, value| {
+                if let (Some(row), Some(column)) = (free(row), free(column)) {
+                    entries.push((row, column, value));
                 }
-            }
-        }
+            });
         let held = unknowns.degrees_of_freedom().iter().enumerate();
         entries.extend(
             held.filter(|&(_, &dof)| state.held[dof as usize])

@@ -68,7 +68,7 @@ impl<'a> ModalAnalysis<'a> {
         } = problem;
         let unknowns = Unknowns::all_but(system, |dof| supports.held[dof]);
         let has_rotations = !unknowns.rotations_only().is_empty();
-        let suitable = if has_rotations && system.shear_rigidity.iter().any(|&k| k < 0.0) {
+        let suitable = if has_rotations && system.some_negative_shear() {
             Rotations::Massless
         } else {
             Rotations::Inertia
@@ -137,7 +137,7 @@ impl<'a> ModalAnalysis<'a> {
         if found.shapes.len() < wanted {
             self.find_elastic(&mut found, matrix, largest, wanted, &mut notices)?;
         }
-        let moving = Moving::new(&system.cloud, mass, &self.masses);
+        let moving = Moving::new(system, mass, &self.masses);
         let modes = self.modes(found.shapes, wanted, &moving, rigid_below);
         notices.extend(notices_after(&modes, motions.count, found.stability));
         Ok(ModalOutcome {
@@ -339,7 +339,7 @@ impl<'a> ModalAnalysis<'a> {
 
     fn stability(&self, negative: usize) -> Result<Option<Stability>, ModalError> {
         let system = self.problem.system;
-        if !system.has_negative_stiffness() {
+        if !system.some_negative() {
             return Ok(None);
         }
         let expected = self.stiffness.negative_rotations(&State::fresh(system))?;

@@ -1,14 +1,14 @@
 //! Motions of the points and their masses.
 
-use ligament_model::{BondSystem, LumpedMass};
+use ligament_model::{Bonds, LumpedMass};
 
 use super::{Mode, ModeKind, Moving, Rotations};
-use crate::boundary::ThermalStrain;
-use crate::equilibrium::{ROUNDING, largest_point_stiffness};
+use crate::equilibrium::ROUNDING;
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
-use crate::state::BondsLeft;
 use crate::unknowns::{COMPONENTS, Component, Unknowns};
+use ligament_model::BondsLeft;
+use ligament_model::thermal::ThermalStrain;
 
 /// Displacements closer than this (relative) to the largest one count as largest.
 const TIE: f64 = 1e-6;
@@ -24,7 +24,7 @@ pub(super) struct Masses {
 impl Masses {
     /// Masses of the unknowns.
     pub(super) fn new(mass: &LumpedMass, unknowns: &Unknowns, rotations: Rotations) -> Self {
-        let of_component = |dof: usize| match (Component::of(dof), rotations) {
+        let of_component = |dof: usize| match (Component::at(dof), rotations) {
             (Component::X | Component::Y, _) => mass.mass[dof / COMPONENTS],
             (Component::Rotation, Rotations::Inertia) => mass.inertia[dof / COMPONENTS],
             (Component::Rotation, Rotations::Massless) => 0.0,
@@ -84,10 +84,10 @@ pub(super) fn inner(weight: &[f64], a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds: exact to the square of the shape's error.
-pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
+pub(super) fn eigenvalue(system: &dyn Bonds, shape: &[f64]) -> f64 {
     2.0 * internal::sweep(
         system,
-        BondsLeft::whole(&vec![true; system.bonds.len()]),
+        BondsLeft::whole(&vec![true; system.ends().len()]),
         shape,
         ThermalStrain::NONE,
     )
@@ -96,14 +96,14 @@ pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
 
 /// The mode of a normalised shape, rigid if its omega^2 is not above `rigid_below`.
 pub(super) fn mode(
-    system: &BondSystem,
+    system: &dyn Bonds,
     unknowns: &Unknowns,
     masses: &Masses,
     moving: &Moving,
     shape: Vec<f64>,
     rigid_below: f64,
 ) -> Mode {
-    let intact = vec![true; system.bonds.len()];
+    let intact = vec![true; system.ends().len()];
     let BondSweep {
         deformations,
         internal,
@@ -137,7 +137,7 @@ pub(super) fn mode(
 /// Largest |K phi - omega^2 M phi|, forces relative to the forces and moments to the moments that meet at a point. A rigid
 /// motion has no forces but rounding: there what rounding may be is the scale.
 fn residual(
-    system: &BondSystem,
+    system: &dyn Bonds,
     unknowns: &Unknowns,
     masses: &Masses,
     shape: &[f64],
@@ -155,11 +155,11 @@ fn residual(
     let largest = (shape.iter().enumerate())
         .filter(|(dof, _)| dof % COMPONENTS < 2)
         .fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
-    let of_rounding = largest_point_stiffness(system)
-        .map(|stiffness| ROUNDING / super::RESIDUAL_TOLERANCE * stiffness * largest);
+    let stiffness = system.largest_point_stiffness();
+    let of_rounding = |stiffness: f64| ROUNDING / super::RESIDUAL_TOLERANCE * stiffness * largest;
     let scales = InternalForces {
-        force_scale: internal.force_scale.max(of_rounding[0]),
-        moment_scale: internal.moment_scale.max(of_rounding[1]),
+        force_scale: internal.force_scale.max(of_rounding(stiffness.force)),
+        moment_scale: internal.moment_scale.max(of_rounding(stiffness.moment)),
         thermal: 0.0,
         values: Vec::new(),
     };

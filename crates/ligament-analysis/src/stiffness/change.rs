@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use ligament_linalg::RankOne;
-use ligament_model::element::{BondElement, Remaining, Term};
+use ligament_model::element::{Remaining, Term};
 use rayon::prelude::*;
 
 use super::{SolverChoice, Stiffness, Update};
@@ -51,11 +51,11 @@ impl Stiffness<'_> {
                 .lost_terms()
                 .filter_map(|term| self.at_unknowns(term, -1.0)),
         );
-        let mut force = Vec::new();
         let expansion = boundary.thermal_strain_at(state.load_factor);
-        breakage.unbalanced_force(&state.displacement, expansion, |dof, value| {
-            force.extend(self.number(dof).map(|unknown| (unknown, value)));
-        });
+        let force = breakage.unbalanced_force(&state.displacement, expansion);
+        let force: Vec<(usize, f64)> = (force.into_iter())
+            .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
+            .collect();
         let half_solved = factor.change(&terms, &force);
         self.costs.change += start.elapsed();
         self.costs.changes += 1;
@@ -105,8 +105,7 @@ impl Stiffness<'_> {
         let mut terms = Vec::with_capacity(COMPONENTS * due.len());
         for &bond in &due {
             let lost = self.remaining[bond].lost(&remaining[bond]);
-            let element = BondElement::of(self.system, &state.intact, bond).weakened(&lost);
-            let of_element = element.terms().into_iter();
+            let of_element = self.system.terms(&state.intact, bond, &lost).into_iter();
             terms.extend(of_element.filter_map(|term| self.at_unknowns(term, -1.0)));
             self.remaining[bond] = remaining[bond];
         }
@@ -168,10 +167,11 @@ impl Stiffness<'_> {
 
     /// Diagonal entry of the matrix with all bonds.
     fn whole_diagonal(&self, dof: usize) -> f64 {
-        let whole = vec![true; self.system.bonds.len()];
-        let elements = self.system.elements_of((dof / COMPONENTS) as u32).iter();
+        let whole = vec![true; self.system.ends().len()];
+        let point = (dof / COMPONENTS) as u32;
+        let elements = self.system.elements_at_points().at(point).iter();
         elements
-            .flat_map(|&bond| BondElement::of(self.system, &whole, bond as usize).terms())
+            .flat_map(|&bond| self.system.terms(&whole, bond as usize, &Remaining::WHOLE))
             .map(|(rigidity, entries)| {
                 let own = entries.iter().filter(|(of, _)| *of == dof);
                 own.map(|(_, value)| rigidity * value * value).sum::<f64>()

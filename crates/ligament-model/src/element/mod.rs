@@ -18,13 +18,7 @@ pub mod pairwise;
 pub mod spring;
 pub mod true_strain;
 
-use crate::system::BondSystem;
-use beam::BeamBond;
-use imaginary::ImaginaryElement;
-use pair::{Pair, PairKinematics};
-use pairwise::PairwiseElement;
-use spring::SpringBond;
-use true_strain::TrueStrainElement;
+use crate::bonds::{BondSet, Incidence};
 
 /// Components of a point: displacement along x, along y, rotation.
 pub const UNKNOWNS: usize = 3;
@@ -54,11 +48,11 @@ impl ElementKind {
     }
 
     /// Names of the components of a deformation in results, in the order of the fields of [`BondDeformation`].
-    pub const fn deformation_names(self) -> [&'static str; 3] {
+    pub const fn strain_names(self) -> &'static [&'static str] {
         match self {
-            Self::Beam | Self::Spring => ["stretch", "shear", "rotation"],
+            Self::Beam | Self::Spring => &["stretch", "shear", "rotation"],
             Self::Imaginary | Self::TrueStrain | Self::Pairwise => {
-                ["strain_xx", "strain_xy", "strain_yy"]
+                &["strain_xx", "strain_xy", "strain_yy"]
             }
         }
     }
@@ -94,7 +88,7 @@ impl BondDeformation {
         [self.stretch, self.rotation, self.shear]
     }
 
-    /// Its components in the order of [`ElementKind::deformation_names`].
+    /// Its components in the order of [`ElementKind::strain_names`].
     #[inline]
     pub fn components(&self) -> [f64; 3] {
         [self.stretch, self.shear, self.rotation]
@@ -118,6 +112,24 @@ impl BondDeformation {
             shear: self.shear - other.shear,
             rotation: self.rotation - other.rotation,
         }
+    }
+}
+
+/// Rigidities of all bonds: stiffness densities times what the bonds stand for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rigidities {
+    /// Omega alpha V_A V_B k_n l, shape (n_bonds), J.
+    pub axial: Vec<f64>,
+    /// Omega alpha V_A V_B k_t l, shape (n_bonds), J.
+    pub shear: Vec<f64>,
+    /// Omega alpha V_A V_B k_theta, shape (n_bonds), J.
+    pub rotational: Vec<f64>,
+}
+
+impl Rigidities {
+    /// Rigidities against stretch and shear, which bonds of springs have.
+    pub fn of_springs(&self) -> impl Iterator<Item = &f64> {
+        self.axial.iter().chain(&self.shear)
     }
 }
 
@@ -165,11 +177,60 @@ impl Remaining {
     }
 }
 
-/// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
-pub trait Element: Copy {
-    /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
-    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self;
+/// The elements of all bonds: what makes the element of a bond from the bonds that are left.
+pub trait Elements: Sync {
+    /// Element of a bond.
+    type Element: Element;
 
+    /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
+    fn element(
+        &self,
+        bonds: &BondSet,
+        rigidities: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> Self::Element;
+
+    /// Whether the points turn, and their rotations have a stiffness where bonds resist them.
+    fn turns_points(&self) -> bool;
+
+    /// Whether a rotation of the whole body costs nothing, although bonds resist shear.
+    fn turns_freely(&self) -> bool;
+
+    /// Whether forces are linear in the displacements.
+    fn is_linear(&self) -> bool {
+        true
+    }
+
+    /// Whether forces are those of an energy, so that the stiffness is symmetric.
+    fn has_energy(&self) -> bool {
+        true
+    }
+
+    /// Whether some bond has a negative stiffness, so that that of the body may be indefinite.
+    fn some_negative(&self, rigidities: &Rigidities) -> bool {
+        rigidities.of_springs().any(|&rigidity| rigidity < 0.0)
+    }
+
+    /// Share of the energy of a bond that belongs to one of its ends.
+    fn share(&self, _bonds: &BondSet, _bond: u32, _point: u32) -> f64 {
+        0.5
+    }
+
+    /// Bonds whose elements may change when some bonds break, themselves left out, ascending.
+    fn leaning(&self, _bonds: &[u32]) -> Vec<u32> {
+        Vec::new()
+    }
+
+    /// The bonds whose elements couple each point, and the other points that they couple it with; None where bonds couple
+    /// their ends alone.
+    fn couplings(&self) -> Option<[&Incidence; 2]> {
+        None
+    }
+}
+
+/// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
+pub trait Element: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     /// The element with its rigidities times what is left of them.
     fn weakened(self, remaining: &Remaining) -> Self;
 
@@ -185,111 +246,37 @@ pub trait Element: Copy {
     /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
     fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS]));
 
+    /// Internal forces at the ends A and B of a bond of two points, N and N m; None for one that couples others as well.
+    fn end_forces(&self, _deformation: &BondDeformation) -> Option<[[f64; UNKNOWNS]; 2]> {
+        None
+    }
+
     /// Sum over the points of internal force (x) position, its symmetric part (xx, yy, xy), J.
     fn dyad(&self, deformation: &BondDeformation) -> [f64; 3];
 
     /// K as a sum of rigidity g g^T; the rows g are given by degree of freedom (of 3 n_points).
     fn terms(&self) -> [Term; 3];
+
+    /// Adds the blocks of K in the columns of one of its points, at the rows of points up to this one.
+    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block));
+
+    /// Adds the derivatives of the forces by the unknowns: row, column, value.
+    fn derivatives(&self, mut add: impl FnMut(usize, usize, f64)) {
+        for (rigidity, entries) in self.terms() {
+            for (row, one) in &entries {
+                for (column, other) in &entries {
+                    add(*row, *column, rigidity * one * other);
+                }
+            }
+        }
+    }
 }
+
+/// A block of a stiffness between two points: rows of the first, columns of the second.
+pub type Block = [[f64; UNKNOWNS]; UNKNOWNS];
 
 /// A term rigidity g g^T of an element stiffness: the rigidity, J, and the entries of g by degree of freedom.
 pub type Term = (f64, Vec<(usize, f64)>);
-
-/// One bond with its geometry and rigidity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BondElement {
-    /// With rotations of its ends.
-    Beam(Pair<BeamBond>),
-    /// Without.
-    Spring(Pair<SpringBond>),
-    /// With points beside its ends.
-    Imaginary(ImaginaryElement),
-    /// With true strains.
-    TrueStrain(TrueStrainElement),
-    /// With forces on its ends alone.
-    Pairwise(PairwiseElement),
-}
-
-/// Does the same with whatever element it is.
-macro_rules! of_any {
-    ($any:expr, $element:ident => $value:expr) => {
-        match $any {
-            BondElement::Beam($element) => $value,
-            BondElement::Spring($element) => $value,
-            BondElement::Imaginary($element) => $value,
-            BondElement::TrueStrain($element) => $value,
-            BondElement::Pairwise($element) => $value,
-        }
-    };
-}
-
-impl BondElement {
-    /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
-    pub fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
-        match system.element {
-            ElementKind::Beam => Self::Beam(Pair::of(system, intact, bond)),
-            ElementKind::Spring => Self::Spring(Pair::of(system, intact, bond)),
-            ElementKind::Imaginary => Self::Imaginary(Element::of(system, intact, bond)),
-            ElementKind::TrueStrain => Self::TrueStrain(Element::of(system, intact, bond)),
-            ElementKind::Pairwise => Self::Pairwise(Element::of(system, intact, bond)),
-        }
-    }
-
-    /// The element with its rigidities times what is left of them.
-    pub fn weakened(self, remaining: &Remaining) -> Self {
-        match self {
-            Self::Beam(bond) => Self::Beam(bond.weakened(remaining)),
-            Self::Spring(bond) => Self::Spring(bond.weakened(remaining)),
-            Self::Imaginary(bond) => Self::Imaginary(bond.weakened(remaining)),
-            Self::TrueStrain(bond) => Self::TrueStrain(bond.weakened(remaining)),
-            Self::Pairwise(bond) => Self::Pairwise(bond.weakened(remaining)),
-        }
-    }
-
-    /// Deformation for the unknowns [u_x, u_y, theta] of all points, shape (3 n_points).
-    pub fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
-        of_any!(self, element => element.deformation(unknowns))
-    }
-
-    /// Deformation in a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations.
-    pub fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
-        of_any!(self, element => element.deformation_in(strain))
-    }
-
-    /// Strain energy 1/2 u^T K u, J (NHPD eq. 10).
-    pub fn energy(&self, deformation: &BondDeformation) -> f64 {
-        self.mutual_energy(deformation, deformation)
-    }
-
-    /// 1/2 u^T K u', J, for two deformations of the same bond.
-    pub fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
-        of_any!(self, element => element.mutual_energy(one, other))
-    }
-
-    /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
-    pub fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS])) {
-        of_any!(self, element => element.forces(deformation, add));
-    }
-
-    /// Sum over the points of internal force (x) position, its symmetric part (xx, yy, xy), J.
-    pub fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
-        of_any!(self, element => element.dyad(deformation))
-    }
-
-    /// K as a sum of rigidity g g^T.
-    pub fn terms(&self) -> [Term; 3] {
-        of_any!(self, element => element.terms())
-    }
-
-    /// Internal forces at the ends A and B of a bond of two points, N and N m; None for one that couples others as well.
-    pub fn end_forces(&self, deformation: &BondDeformation) -> Option<[[f64; UNKNOWNS]; 2]> {
-        match self {
-            Self::Beam(pair) => Some(pair.bond.end_forces(deformation)),
-            Self::Spring(pair) => Some(pair.bond.end_forces(deformation)),
-            Self::Imaginary(_) | Self::TrueStrain(_) | Self::Pairwise(_) => None,
-        }
-    }
-}
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]

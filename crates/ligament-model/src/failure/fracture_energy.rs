@@ -40,7 +40,7 @@ pub fn mean_lengths(system: &BondSystem) -> Vec<f64> {
         let (mut sum, mut weights) = (0.0, 0.0);
         for &bond in system.bonds.incidence.at(point) {
             // The volume of the point itself is in all of them.
-            let weight = system.axial_rigidity[bond as usize];
+            let weight = system.rigidities.axial[bond as usize];
             sum += weight * system.bonds.length[bond as usize];
             weights += weight;
         }

@@ -4,86 +4,89 @@
 //! micropolar peridynamic model with shear deformability", eqs A.1 to A.5: the forces of all bonds from points behind a plane
 //! to points before it, in a column as wide as the point, over the area of the column.
 
-use ligament_model::element::BondDeformation;
-use ligament_model::{BondSystem, PointCloud};
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
 
-use super::force_on_first;
-use crate::state::BondsLeft;
+use crate::cloud::PointCloud;
+use crate::element::{BondDeformation, Element, Elements};
+use crate::system::{BondsLeft, Typed};
 
 /// Stresses of the planes with normal x (xx, yx) and with normal y (yy, xy), Pa; the first letter is the force's direction.
 pub type Tractions = [f64; 4];
 
-/// Traction at every point on the planes with normal x and with normal y, shape (n_points).
-///
-/// The planes of a point are segments of width w_i = sqrt(V_i/t), the point in their middle, and the mean is taken of those
-/// that lie up to w_i/2 before and behind it: together they sweep a square of the point's own area. A bond stands for a band
-/// of matter between its points, as wide as their planes in the mean. With the area a_i that the band and the square of point
-/// i have in common, the extent d of the band along the normal and its force f, the traction of i is the sum over the bonds of
-///
-/// t_i = f a_i d / (V_i sum_j a_j),
-///
-/// so that a bond is shared out among the points along its way, and nothing is lost or counted twice: sum_i V_i t_i is the
-/// mean stress of the body, exactly. Where the squares fill the plane the sum of a_j is d times the width of the band, and
-/// t_i = (1/(w_i t)) times the force that crosses the plane of i: on a square lattice eq. A.4, there with the half of the bonds
-/// that end in a plane which lies before it, and the columns beside weighted by how far their bands reach into this one.
-/// Where they do not fill it, on other meshes and at the outline, planes alone would miss or repeat some of the force.
-///
-/// Bonds within a plane do not cross it and do not count, nor do elements that couple more than two points: their forces go through no line.
-pub fn stress(
-    system: &BondSystem,
-    bonds: BondsLeft<'_>,
-    deformations: &[BondDeformation],
-) -> Vec<Tractions> {
-    let squares = Squares::of(&system.cloud);
-    let on_planes = |normal: usize| through_planes(system, bonds, deformations, &squares, normal);
-    let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
-    let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
-    with_x.into_iter().zip(with_y).map(of_point).collect()
-}
-
-/// Traction along x and y on the planes of each point with the given normal (0: x, 1: y), Pa.
-fn through_planes(
-    system: &BondSystem,
-    bonds: BondsLeft<'_>,
-    deformations: &[BondDeformation],
-    squares: &Squares,
-    normal: usize,
-) -> Vec<[f64; 2]> {
-    let cloud = &system.cloud;
-    let mut sums = vec![[0.0; 2]; cloud.len()];
-    let mut crossed: Vec<(usize, f64)> = Vec::new();
-    for (bond, deformation) in deformations.iter().enumerate() {
-        let Some(element) = bonds.element(system, bond) else {
-            continue;
-        };
-        let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
-        let band = Band {
-            ends: [cloud.positions[a], cloud.positions[b]],
-            width: 0.5 * (squares.width[a] + squares.width[b]),
-            normal,
-        };
-        for point in squares.within(band.reach(squares.largest_width)) {
-            let area = band.area_within(cloud.positions[point], squares.width[point]);
-            if area > 0.0 {
-                crossed.push((point, area));
-            }
-        }
-        let area: f64 = crossed.iter().map(|(_, area)| area).sum();
-        // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
-        let Some(force) = force_on_first(&element, deformation) else {
-            continue;
-        };
-        let force = force.map(|component| component * band.extent());
-        for (point, part) in crossed.drain(..) {
-            for (sum, component) in sums[point].iter_mut().zip(force) {
-                *sum += component * (part / area);
-            }
-        }
+impl<E: Elements> Typed<'_, E> {
+    /// Traction at every point on the planes with normal x and with normal y, shape (n_points).
+    ///
+    /// The planes of a point are segments of width w_i = sqrt(V_i/t), the point in their middle, and the mean is taken of those
+    /// that lie up to w_i/2 before and behind it: together they sweep a square of the point's own area. A bond stands for a band
+    /// of matter between its points, as wide as their planes in the mean. With the area a_i that the band and the square of point
+    /// i have in common, the extent d of the band along the normal and its force f, the traction of i is the sum over the bonds of
+    ///
+    /// t_i = f a_i d / (V_i sum_j a_j),
+    ///
+    /// so that a bond is shared out among the points along its way, and nothing is lost or counted twice: sum_i V_i t_i is the
+    /// mean stress of the body, exactly. Where the squares fill the plane the sum of a_j is d times the width of the band, and
+    /// t_i = (1/(w_i t)) times the force that crosses the plane of i: on a square lattice eq. A.4, there with the half of the bonds
+    /// that end in a plane which lies before it, and the columns beside weighted by how far their bands reach into this one.
+    /// Where they do not fill it, on other meshes and at the outline, planes alone would miss or repeat some of the force.
+    ///
+    /// Bonds within a plane do not cross it and do not count, nor do elements that couple more than two points: their forces go through no line.
+    pub(crate) fn tractions(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+    ) -> Vec<Tractions> {
+        let squares = Squares::of(&self.system.cloud);
+        let on_planes = |normal| self.through_planes(bonds, deformations, &squares, normal);
+        let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
+        let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
+        with_x.into_iter().zip(with_y).map(of_point).collect()
     }
-    let over_volume = |(sum, volume): (&[f64; 2], &f64)| sum.map(|value| value / volume);
-    sums.iter().zip(&cloud.volumes).map(over_volume).collect()
+
+    /// Traction along x and y on the planes of each point with the given normal (0: x, 1: y), Pa.
+    fn through_planes(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        squares: &Squares,
+        normal: usize,
+    ) -> Vec<[f64; 2]> {
+        let system = self.system;
+        let cloud = &system.cloud;
+        let mut sums = vec![[0.0; 2]; cloud.len()];
+        let mut crossed: Vec<(usize, f64)> = Vec::new();
+        for (bond, deformation) in deformations.iter().enumerate() {
+            let Some(element) = self.left(bonds, bond) else {
+                continue;
+            };
+            // The end force is what holds the end in place against the bond: the bond pulls the other way.
+            let Some([[x, y, _], _]) = element.end_forces(deformation) else {
+                continue;
+            };
+            let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
+            let band = Band {
+                ends: [cloud.positions[a], cloud.positions[b]],
+                width: 0.5 * (squares.width[a] + squares.width[b]),
+                normal,
+            };
+            for point in squares.within(band.reach(squares.largest_width)) {
+                let area = band.area_within(cloud.positions[point], squares.width[point]);
+                if area > 0.0 {
+                    crossed.push((point, area));
+                }
+            }
+            let area: f64 = crossed.iter().map(|(_, area)| area).sum();
+            // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
+            let force = [-x, -y].map(|component| component * band.extent());
+            for (point, part) in crossed.drain(..) {
+                for (sum, component) in sums[point].iter_mut().zip(force) {
+                    *sum += component * (part / area);
+                }
+            }
+        }
+        let over_volume = |(sum, volume): (&[f64; 2], &f64)| sum.map(|value| value / volume);
+        sums.iter().zip(&cloud.volumes).map(over_volume).collect()
+    }
 }
 
 /// The matter of a bond on its way through planes of one normal.
