@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 
 use ligament_case::case::{BodySection, CaseFile, Surface};
-use ligament_case::check::{Extent, check};
-use ligament_case::sweep::plan;
-use ligament_case::sweep::study::Study;
+use ligament_cli::check::{Extent, check};
+use ligament_study::sweep::plan;
+use ligament_study::sweep::study::Study;
 use verification::repository;
 
 /// What studies are called.

@@ -11,7 +11,7 @@ use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
-use ligament_case::check::{Extent, check};
+use ligament_cli::check::{Extent, check};
 use ligament_model::element::BondElement;
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use tempfile::TempDir;

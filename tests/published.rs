@@ -1,11 +1,11 @@
 //! The fast subset of `ligament verify`: values of the papers, computed by the functions of `ligament run`.
 #![allow(clippy::unwrap_used)]
 
-use ligament_case::verify::entry::Verdict;
-use ligament_case::verify::published::cells;
-use ligament_case::verify::table::{Extent, Table};
-use ligament_case::verify::tally::Tally;
-use ligament_case::verify::{EXPERIMENTS, Experiment};
+use ligament_verify::entry::Verdict;
+use ligament_verify::published::cells;
+use ligament_verify::table::{Extent, Table};
+use ligament_verify::tally::Tally;
+use ligament_verify::{EXPERIMENTS, Experiment};
 use verification::numbers::largest;
 use verification::repository;
 

@@ -15,17 +15,17 @@ use std::process::Command;
 
 use ligament_analysis::driver;
 use ligament_case::case::CaseFile;
-use ligament_case::check::{self, Extent};
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
 use ligament_case::resolve::Loading;
 use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE};
 use ligament_case::stages::Stages;
-use ligament_case::yielding::subject::Strain;
-use ligament_case::yielding::{self, Families, Request};
+use ligament_cli::check::{self, Extent};
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{families, interior};
+use ligament_study::yielding::subject::Strain;
+use ligament_study::yielding::{self, Families, Request};
 use verification::meshes;
 
 use bodies::{Canvas, Squares};

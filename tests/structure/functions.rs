@@ -4,16 +4,16 @@ use super::text::{Token, closing};
 
 /// A function with a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Function {
-    pub name: String,
+pub(super) struct Function {
+    pub(super) name: String,
     /// From the line of `fn` to that of the closing brace.
-    pub lines: usize,
+    pub(super) lines: usize,
     /// What it is given, the value it is called on included.
-    pub parameters: usize,
+    pub(super) parameters: usize,
 }
 
 /// The functions that are defined in tokens, nested ones included.
-pub fn functions(tokens: &[Token]) -> Vec<Function> {
+pub(super) fn functions(tokens: &[Token]) -> Vec<Function> {
     let begins = |k: &usize| tokens[*k].text == "fn" && is_name(&tokens[*k + 1].text);
     let places = (0..tokens.len().saturating_sub(1)).filter(begins);
     places.filter_map(|at| function(tokens, at)).collect()

@@ -19,11 +19,11 @@ use super::text::{Token, closing, tokens};
 type ModulePath = Vec<String>;
 
 /// A source file that is a module.
-pub struct Module {
+pub(super) struct Module {
     /// The file, below the folder of sources.
-    pub file: PathBuf,
+    pub(super) file: PathBuf,
     /// Its code, tests left out.
-    pub tokens: Vec<Token>,
+    pub(super) tokens: Vec<Token>,
     imports: Vec<Import>,
 }
 
@@ -39,13 +39,13 @@ struct Import {
 }
 
 /// The modules of one tree: of a library or of a program.
-pub struct Tree {
+pub(super) struct Tree {
     modules: BTreeMap<ModulePath, Module>,
 }
 
 impl Tree {
     /// The modules that are declared from a root file on; `read` gives the text of a file, or none if there is no such file.
-    pub fn read(root: &Path, read: &dyn Fn(&Path) -> Option<String>) -> Self {
+    pub(super) fn read(root: &Path, read: &dyn Fn(&Path) -> Option<String>) -> Self {
         let mut tree = Self {
             modules: BTreeMap::new(),
         };
@@ -83,12 +83,12 @@ impl Tree {
     }
 
     /// The modules, parents before children.
-    pub fn modules(&self) -> impl Iterator<Item = &Module> {
+    pub(super) fn modules(&self) -> impl Iterator<Item = &Module> {
         self.modules.values()
     }
 
     /// Circles of files: those that use each other, directly or through others, with a name for each use among them.
-    pub fn circles(&self) -> Vec<Circle> {
+    pub(super) fn circles(&self) -> Vec<Circle> {
         let uses = self.uses();
         let reached: BTreeMap<&ModulePath, BTreeSet<&ModulePath>> =
             (self.modules.keys().map(|path| (path, reached(path, &uses)))).collect();
@@ -282,10 +282,10 @@ impl Module {
 
 /// Files that use each other.
 #[derive(Debug)]
-pub struct Circle {
-    pub files: Vec<PathBuf>,
+pub(super) struct Circle {
+    pub(super) files: Vec<PathBuf>,
     /// The uses among them.
-    pub because: Vec<String>,
+    pub(super) because: Vec<String>,
 }
 
 /// For each module the modules it uses, and the names by which it does.

@@ -2,16 +2,16 @@
 
 /// A token and its line, counted from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Token {
-    pub text: String,
-    pub line: usize,
+pub(super) struct Token {
+    pub(super) text: String,
+    pub(super) line: usize,
 }
 
 /// The tokens of a source file without its comments and without the items behind `#[cfg(test)]`.
 ///
 /// Identifiers, numbers and `::`, `->`, `=>` are one token each, any other character is one of its own. A string or character
 /// literal is the token `""`, a lifetime the token `'`.
-pub fn tokens(source: &str) -> Vec<Token> {
+pub(super) fn tokens(source: &str) -> Vec<Token> {
     without_tests(&scan(source))
 }
 
@@ -124,7 +124,7 @@ fn end_of_item(tokens: &[Token], at: usize) -> usize {
 }
 
 /// The place of the bracket that closes the one at a place.
-pub fn closing(tokens: &[Token], open: usize) -> usize {
+pub(super) fn closing(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0_usize;
     for (k, token) in tokens.iter().enumerate().skip(open) {
         match token.text.as_str() {

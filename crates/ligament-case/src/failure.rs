@@ -44,7 +44,7 @@ pub fn criteria(
 
 /// The elastic constants that the law of the case makes of a material, which limits are made with: Young's modulus with
 /// the Poisson's ratio of central forces where the law knows no other. None for a material with axes.
-pub(crate) fn constants(case: &CaseFile, material: &Material) -> Option<Isotropic> {
+pub fn constants(case: &CaseFile, material: &Material) -> Option<Isotropic> {
     let given = material.elasticity.isotropic()?;
     Some(if case.case.model.law.fixes_poisson() {
         bbpd::central(&given, resolve::plane(case))

@@ -1,7 +1,7 @@
 //! The formulation that a case chooses: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
-use ligament_model::correction::{Correction, domain, length, partial_volume, surface};
+use ligament_model::correction::{Continuum, Correction, domain, length, partial_volume, surface};
 use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::{BondStiffness, Elasticity, ElementKind, Horizons, Isotropic, PointCloud};
@@ -92,7 +92,11 @@ pub fn correction(
         (Surface::Domain, Some(iteration)) => {
             let sweeps = resolve::sweeps(iteration, bonds.len());
             let (materials, plane) = (resolve::materials(case), resolve::plane(case));
-            domain::iterate(bonds, cloud, stiffness, alpha, &materials, plane, sweeps)
+            let continuum = Continuum {
+                materials: &materials,
+                plane,
+            };
+            domain::iterate(bonds, cloud, stiffness, alpha, continuum, sweeps)
         }
         (Surface::Volume, _) => {
             let factors = surface::surface_factors(bonds, cloud, horizons, &alpha);

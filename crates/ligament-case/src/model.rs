@@ -2,7 +2,7 @@
 
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
-use ligament_model::correction::{Correction, CorrectionReport, energy_ratios};
+use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::law::mbb_pd;
 use ligament_model::{BondSet, BondStiffness, BondSystem, ElementKind, Horizons, PointCloud};
@@ -54,7 +54,7 @@ pub fn build_model(
 }
 
 /// A body in, bond system out.
-pub(crate) fn model_of(
+pub fn model_of(
     case: &CaseFile,
     body: Box<dyn Body>,
     stages: &mut Stages,
@@ -206,7 +206,11 @@ fn correct(
     let stiffness = formulation::stiffness(case, &bonds, cloud, &alpha);
     let correction = formulation::correction(case, &bonds, cloud, horizons, &stiffness, alpha);
     let (materials, plane) = (resolve::materials(case), resolve::plane(case));
-    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, &materials, plane);
+    let continuum = Continuum {
+        materials: &materials,
+        plane,
+    };
+    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
     let corrected = Corrected {
         bonds,
         stiffness,

@@ -177,7 +177,7 @@ fn log_line(line: &StepLine, done: bool, total: Option<u64>, elapsed: Duration) 
 }
 
 /// A time in two units: "1 h 2 min".
-pub(crate) fn duration_text(duration: Duration) -> String {
+pub fn duration_text(duration: Duration) -> String {
     match duration.as_secs() {
         seconds @ 0..60 => format!("{seconds} s"),
         seconds @ 60..3600 => format!("{} min {} s", seconds / 60, seconds % 60),

@@ -116,7 +116,7 @@ fn follow_loads(
 }
 
 /// Solves the case, or follows its loading up to failure.
-pub(crate) fn follow(
+pub fn follow(
     case: &CaseFile,
     problem: &Problem<'_>,
     observer: &mut dyn Observer,

@@ -132,7 +132,7 @@ impl From<Stability> for StabilitySummary {
 }
 
 /// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
-pub(crate) fn temperature_change(boundary: &Boundary) -> Option<Spread> {
+pub fn temperature_change(boundary: &Boundary) -> Option<Spread> {
     let changes = &boundary.temperature_change;
     (!changes.is_empty()).then(|| Spread::of(changes.iter().copied()))
 }

@@ -5,10 +5,13 @@ use std::sync::Arc;
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::{Par, Side};
 
-use crate::factorisation::{FactorError, Factorisation, HalfSolved, Inertia};
+use crate::factor_error::FactorError;
+use crate::factorisation::{Factorisation, HalfSolved, Inertia};
 use crate::matrix::SymmetricMatrix;
-use crate::modification::{RankOne, VanishingPivot};
-use crate::storage::{Form, Storage};
+use crate::modification::VanishingPivot;
+use crate::panels::Form;
+use crate::rank_one::RankOne;
+use crate::storage::Storage;
 use crate::symbolic::Symbolic;
 
 /// Factor L D L^T of a symmetric matrix that may be indefinite.

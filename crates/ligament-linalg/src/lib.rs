@@ -7,6 +7,8 @@
 //! matrix gives the same bits.
 
 mod eigen;
+mod factor_error;
+mod factor_kind;
 mod factorisation;
 mod general;
 mod ldlt;
@@ -14,15 +16,20 @@ mod llt;
 mod lu;
 mod matrix;
 mod modification;
+mod panels;
+mod rank_one;
 mod storage;
 mod substitution;
 mod supernodes;
 mod symbolic;
 
 pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
-pub use factorisation::{FactorError, FactorKind, Factorisation, HalfSolved, Inertia};
+pub use factor_error::FactorError;
+pub use factor_kind::FactorKind;
+pub use factorisation::{Factorisation, HalfSolved, Inertia};
 pub use general::GeneralMatrix;
 pub use lu::Lu;
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};
-pub use modification::{RankOne, VANISHING_PIVOT};
+pub use modification::VANISHING_PIVOT;
+pub use rank_one::RankOne;
 pub use symbolic::{Elimination, Symbolic};

@@ -5,20 +5,14 @@ use std::sync::Arc;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::linalg::cholesky::SymbolicCholesky;
 
-use crate::factorisation::{FactorError, HalfSolved, Inertia};
+use crate::factor_error::FactorError;
+use crate::factorisation::{HalfSolved, Inertia};
 use crate::matrix::SymmetricMatrix;
-use crate::modification::{DiagonalEntry, Modification, RankOne, Target, VanishingPivot};
-use crate::substitution::{Backward, Forward};
+use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
+use crate::panels::{Form, Panels};
+use crate::rank_one::RankOne;
+use crate::substitution::{solve_backward, solve_forward};
 use crate::symbolic::Symbolic;
-
-/// The two ways in which a factor stores its pivots.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Form {
-    /// L L^T, with the square root of the pivot on the diagonal.
-    Llt,
-    /// L D L^T, with the pivot on the diagonal of a unit L.
-    Ldlt,
-}
 
 /// Values of a factor and the workspace that factorising needs.
 pub(crate) struct Storage {
@@ -90,15 +84,8 @@ impl Storage {
     pub(crate) fn solve_in_place(&self, right_hand_side: &mut [f64]) {
         let unknowns = self.symbolic.unknown_of_row();
         let mut vector: Vec<f64> = unknowns.iter().map(|&i| right_hand_side[i]).collect();
-        let (form, supernodes, values) = (self.form, self.symbolic.supernodes(), &self.values);
-        Forward {
-            form,
-            supernodes,
-            values,
-            vector: &mut vector,
-        }
-        .run();
-        self.backward(&mut vector);
+        solve_forward(self.panels(), &mut vector);
+        solve_backward(self.panels(), &mut vector);
         for (&unknown, value) in unknowns.iter().zip(vector) {
             right_hand_side[unknown] = value;
         }
@@ -131,20 +118,17 @@ impl Storage {
     }
 
     pub(crate) fn finish(&self, HalfSolved(mut vector): HalfSolved) -> Vec<f64> {
-        self.backward(&mut vector);
+        solve_backward(self.panels(), &mut vector);
         let rows = self.symbolic.row_of_unknown();
         rows.iter().map(|&row| vector[row]).collect()
     }
 
-    /// Solves L^T x = y (L^T x = D^-1 y) in place, in the order of elimination.
-    fn backward(&self, vector: &mut [f64]) {
-        Backward {
+    fn panels(&self) -> Panels<'_> {
+        Panels {
             form: self.form,
             supernodes: self.symbolic.supernodes(),
             values: &self.values,
-            vector,
         }
-        .run();
     }
 }
 

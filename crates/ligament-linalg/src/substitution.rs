@@ -2,40 +2,29 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::storage::Form;
-use crate::supernodes::Supernodes;
+use crate::panels::{Form, Panels};
 
 /// Columns of a panel that are read together: as many streams from memory.
 const BLOCK: usize = 8;
 
-/// Solves L y = b: all supernodes, from the leaves to the root.
-pub(crate) struct Forward<'a> {
-    pub(crate) form: Form,
-    pub(crate) supernodes: Supernodes<'a>,
-    pub(crate) values: &'a [f64],
-    /// b, replaced by y; rows in the order of elimination.
-    pub(crate) vector: &'a mut [f64],
+/// Solves L y = b in place: all supernodes, from the leaves to the root; rows in the order of elimination.
+pub(crate) fn solve_forward(panels: Panels<'_>, vector: &mut [f64]) {
+    Arch::new().dispatch(Forward { panels, vector });
 }
 
-/// Solves L^T x = y, or L^T x = D^-1 y: all supernodes, from the root to the leaves.
-pub(crate) struct Backward<'a> {
-    pub(crate) form: Form,
-    pub(crate) supernodes: Supernodes<'a>,
-    pub(crate) values: &'a [f64],
-    /// y, replaced by x; rows in the order of elimination.
-    pub(crate) vector: &'a mut [f64],
+/// Solves L^T x = y, or L^T x = D^-1 y, in place: all supernodes, from the root to the leaves.
+pub(crate) fn solve_backward(panels: Panels<'_>, vector: &mut [f64]) {
+    Arch::new().dispatch(Backward { panels, vector });
 }
 
-impl Forward<'_> {
-    pub(crate) fn run(self) {
-        Arch::new().dispatch(self);
-    }
+struct Forward<'a> {
+    panels: Panels<'a>,
+    vector: &'a mut [f64],
 }
 
-impl Backward<'_> {
-    pub(crate) fn run(self) {
-        Arch::new().dispatch(self);
-    }
+struct Backward<'a> {
+    panels: Panels<'a>,
+    vector: &'a mut [f64],
 }
 
 impl WithSimd for Forward<'_> {
@@ -44,16 +33,8 @@ impl WithSimd for Forward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let mut column = Vec::new();
-        for supernode in 0..self.supernodes.len() {
-            forward(
-                simd,
-                self.form,
-                self.supernodes,
-                supernode,
-                self.values,
-                self.vector,
-                &mut column,
-            );
+        for supernode in 0..self.panels.supernodes.len() {
+            forward(simd, self.panels, supernode, self.vector, &mut column);
         }
     }
 }
@@ -64,16 +45,8 @@ impl WithSimd for Backward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let mut column = Vec::new();
-        for supernode in (0..self.supernodes.len()).rev() {
-            backward(
-                simd,
-                self.form,
-                self.supernodes,
-                supernode,
-                self.values,
-                self.vector,
-                &mut column,
-            );
+        for supernode in (0..self.panels.supernodes.len()).rev() {
+            backward(simd, self.panels, supernode, self.vector, &mut column);
         }
     }
 }
@@ -82,13 +55,16 @@ impl WithSimd for Backward<'_> {
 #[inline(always)]
 pub(crate) fn forward<S: Simd>(
     simd: S,
-    form: Form,
-    supernodes: Supernodes<'_>,
+    panels: Panels<'_>,
     supernode: usize,
-    values: &[f64],
     vector: &mut [f64],
     column: &mut Vec<f64>,
 ) {
+    let Panels {
+        form,
+        supernodes,
+        values,
+    } = panels;
     let columns = supernodes.columns(supernode);
     let below = supernodes.rows_below(supernode);
     let height = columns.len() + below.len();
@@ -131,13 +107,16 @@ pub(crate) fn forward<S: Simd>(
 #[inline(always)]
 fn backward<S: Simd>(
     simd: S,
-    form: Form,
-    supernodes: Supernodes<'_>,
+    panels: Panels<'_>,
     supernode: usize,
-    values: &[f64],
     vector: &mut [f64],
     column: &mut Vec<f64>,
 ) {
+    let Panels {
+        form,
+        supernodes,
+        values,
+    } = panels;
     let columns = supernodes.columns(supernode);
     let below = supernodes.rows_below(supernode);
     let height = columns.len() + below.len();

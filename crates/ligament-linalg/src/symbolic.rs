@@ -10,7 +10,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
-use crate::factorisation::FactorError;
+use crate::factor_error::FactorError;
 use crate::matrix::{Pattern, SymmetricMatrix};
 use crate::supernodes::Supernodes;
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use ligament_mesh::{Mesh, gmsh};
 use ligament_model::correction::length::length_factors;
-use ligament_model::correction::{StopRule, Sweeps, domain};
+use ligament_model::correction::{Continuum, StopRule, Sweeps, domain};
 use ligament_model::failure::strength::{critical_energy, critical_stretches};
 use ligament_model::law::beam;
 use ligament_model::{
@@ -54,9 +54,13 @@ fn preparation(criterion: &mut Criterion) {
         let horizons = Horizons::from_spacing(&cloud.spacing, HORIZON_FACTOR);
         let bonds = BondSet::search(&cloud, &horizons);
         let stiffness = beam::stiffness(&bonds, &cloud, &[rock], plane);
+        let continuum = Continuum {
+            materials: &materials,
+            plane,
+        };
         let correct = || {
             let alpha = length_factors(&bonds, &cloud);
-            domain::iterate(&bonds, &cloud, &stiffness, alpha, &materials, plane, SWEEPS)
+            domain::iterate(&bonds, &cloud, &stiffness, alpha, continuum, SWEEPS)
         };
         let correction = correct();
         let stages = || {

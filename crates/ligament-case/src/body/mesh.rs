@@ -10,7 +10,7 @@ use ligament_output::results::{BodyGrid, Canvas};
 use ligament_output::vtu;
 
 use super::{Body, OffOutline};
-use crate::inspect::{MeshFileError, read_mesh};
+use crate::mesh_file::{MeshFileError, read_mesh};
 
 #[derive(Debug)]
 pub(super) struct MeshBody(Mesh);

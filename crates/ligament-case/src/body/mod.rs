@@ -125,6 +125,6 @@ pub fn of_case(case: &CaseFile, stages: &mut Stages) -> anyhow::Result<Box<dyn B
 }
 
 /// A body on a mesh that is there already.
-pub(crate) fn of_mesh(mesh: Mesh) -> Box<dyn Body> {
+pub fn of_mesh(mesh: Mesh) -> Box<dyn Body> {
     Box::new(MeshBody::new(mesh))
 }

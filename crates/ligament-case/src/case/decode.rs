@@ -18,13 +18,13 @@ use super::units::unit_of;
 const LONGEST_QUOTE: usize = 40;
 
 /// Reads a typed section from the node at a key path.
-pub(crate) fn decode<T: DeserializeOwned>(node: &Node, key: &KeyPath) -> Result<T, KeyFault> {
+pub fn decode<T: DeserializeOwned>(node: &Node, key: &KeyPath) -> Result<T, KeyFault> {
     T::deserialize(node).map_err(|error| error.finish(key))
 }
 
 /// A fault with its path, innermost part first: each level adds its part on the way out.
 #[derive(Debug)]
-pub(crate) struct DecodeError {
+pub struct DecodeError {
     inner_first: Vec<String>,
     fault: Fault,
 }

@@ -8,7 +8,7 @@ use super::key_path::KeyPath;
 
 /// Where a value was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Origin {
+pub enum Origin {
     /// In the file, at a byte offset.
     File(usize),
     /// In the override with this index.
@@ -17,39 +17,46 @@ pub(crate) enum Origin {
 
 /// A value and where it was written.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
+pub struct Node {
     /// Where the value starts; of a table, where its header or brace starts.
-    pub(crate) origin: Origin,
+    pub origin: Origin,
     /// The value.
-    pub(crate) value: Value,
+    pub value: Value,
 }
 
 /// A TOML value.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Value {
+pub enum Value {
+    /// A text.
     String(String),
+    /// A whole number.
     Integer(i64),
+    /// A number with a point or an exponent.
     Float(f64),
+    /// `true` or `false`.
     Boolean(bool),
+    /// A date or a time, which no key takes.
     Date,
+    /// Values in brackets, or tables of one name.
     List(Vec<Node>),
+    /// Keys with their values.
     Table(Vec<Entry>),
 }
 
 /// A key of a table with its value.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Entry {
+pub struct Entry {
     /// The key.
-    pub(crate) key: String,
+    pub key: String,
     /// Where the key was written (first, if a table has several headers).
-    pub(crate) key_origin: Origin,
+    pub key_origin: Origin,
     /// Its value.
-    pub(crate) node: Node,
+    pub node: Node,
 }
 
 impl Node {
     /// Parses the text of a case file.
-    pub(crate) fn parse_document(text: &str) -> Result<Self, toml::de::Error> {
+    pub fn parse_document(text: &str) -> Result<Self, toml::de::Error> {
         let table = DeTable::parse(text)?;
         let origin = &Origin::File;
         Ok(Self {
@@ -59,12 +66,12 @@ impl Node {
     }
 
     /// Parses the value of an override.
-    pub(crate) fn parse_value(text: &str, origin: Origin) -> Result<Self, toml::de::Error> {
+    pub fn parse_value(text: &str, origin: Origin) -> Result<Self, toml::de::Error> {
         node(DeValue::parse(text)?, &|_| origin)
     }
 
     /// The entries, if this is a table.
-    pub(crate) fn entries(&self) -> &[Entry] {
+    pub fn entries(&self) -> &[Entry] {
         match &self.value {
             Value::Table(entries) => entries,
             _ => &[],
@@ -72,7 +79,7 @@ impl Node {
     }
 
     /// The value of a key, if this is a table that has it.
-    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
+    pub fn get(&self, key: &str) -> Option<&Node> {
         self.entries()
             .iter()
             .find(|entry| entry.key == key)
@@ -80,7 +87,7 @@ impl Node {
     }
 
     /// The value one path segment below: of a key in a table, of an index in a list.
-    pub(crate) fn step(&self, segment: &str) -> Option<&Node> {
+    pub fn step(&self, segment: &str) -> Option<&Node> {
         match &self.value {
             Value::List(nodes) => nodes.get(segment.parse::<usize>().ok()?),
             _ => self.get(segment),
@@ -88,13 +95,13 @@ impl Node {
     }
 
     /// The value at a path, if there is one.
-    pub(crate) fn at(&self, path: &KeyPath) -> Option<&Node> {
+    pub fn at(&self, path: &KeyPath) -> Option<&Node> {
         let mut segments = path.0.iter();
         segments.try_fold(self, |node, segment| node.step(segment))
     }
 
     /// The value, if it is a number.
-    pub(crate) fn number(&self) -> Option<f64> {
+    pub fn number(&self) -> Option<f64> {
         match self.value {
             Value::Integer(integer) => Some(integer as f64),
             Value::Float(float) => Some(float),
@@ -105,7 +112,7 @@ impl Node {
     /// Where the value at a path was written or, failing that, the innermost table above it.
     ///
     /// `None` where not even the path's first key exists.
-    pub(crate) fn origin_of(&self, path: &KeyPath) -> Option<Origin> {
+    pub fn origin_of(&self, path: &KeyPath) -> Option<Origin> {
         let mut node = self;
         let mut origin = None;
         for segment in &path.0 {
@@ -119,7 +126,7 @@ impl Node {
     }
 
     /// Where the key at a path (rather than its value) was written.
-    pub(crate) fn key_origin_of(&self, path: &KeyPath) -> Option<Origin> {
+    pub fn key_origin_of(&self, path: &KeyPath) -> Option<Origin> {
         let parent = self.at(&path.parent())?;
         parent
             .entries()
@@ -194,7 +201,7 @@ fn float_value(text: &str) -> Result<Value, toml::de::Error> {
 }
 
 /// Line and column, both from 1, of a byte offset; columns count characters.
-pub(crate) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (

@@ -246,16 +246,16 @@ pub enum CaseError {
 
 /// A fault at a key that is not yet located in the text.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct KeyFault {
+pub struct KeyFault {
     /// Path of the key.
-    pub(crate) key: KeyPath,
+    pub key: KeyPath,
     /// What is wrong with it.
-    pub(crate) fault: Fault,
+    pub fault: Fault,
 }
 
 impl KeyFault {
     /// A fault at a key.
-    pub(crate) fn new(key: KeyPath, fault: impl Into<Fault>) -> Self {
+    pub fn new(key: KeyPath, fault: impl Into<Fault>) -> Self {
         Self {
             key,
             fault: fault.into(),

@@ -23,15 +23,15 @@ pub struct CaseFile {
 }
 
 /// What is needed to turn a key path into a location.
-pub(crate) struct Source<'a> {
+pub struct Source<'a> {
     /// The file.
-    pub(crate) path: &'a Path,
+    pub path: &'a Path,
     /// Its text.
-    pub(crate) text: &'a str,
+    pub text: &'a str,
     /// The settings on top of it.
-    pub(crate) overrides: &'a [String],
+    pub overrides: &'a [String],
     /// All of it, parsed.
-    pub(crate) document: &'a Node,
+    pub document: &'a Node,
 }
 
 impl CaseFile {
@@ -162,7 +162,7 @@ impl CaseFile {
 
 impl Source<'_> {
     /// The error of a fault, with its place.
-    pub(crate) fn error(&self, KeyFault { key, fault }: KeyFault) -> CaseError {
+    pub fn error(&self, KeyFault { key, fault }: KeyFault) -> CaseError {
         let origin = match &fault {
             // An unknown key is wrong itself; anything else is wrong about the value.
             Fault::UnknownKey { .. } => self.document.key_origin_of(&key),
@@ -182,7 +182,7 @@ impl Source<'_> {
     }
 
     /// The place of what was written.
-    pub(crate) fn location(&self, origin: Option<Origin>) -> Location {
+    pub fn location(&self, origin: Option<Origin>) -> Location {
         let path = self.path.to_owned();
         match origin {
             None => Location::Document { path },
@@ -198,7 +198,7 @@ impl Source<'_> {
 }
 
 /// The error of a text that is not TOML.
-pub(crate) fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> CaseError {
+pub fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> CaseError {
     let path = path.to_owned();
     let mut message = error.message().trim().replace('\n', "; ");
     let Some(span) = error.span() else {

@@ -19,42 +19,42 @@ const REPEATED: [&[&str]; 11] = [
 
 /// Path of a key from the root of the document: table keys and, for lists, indices counted from 0.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct KeyPath(pub(crate) Vec<String>);
+pub struct KeyPath(pub Vec<String>);
 
 impl KeyPath {
     /// The path of a key or index below this one.
-    pub(crate) fn child(&self, segment: impl fmt::Display) -> Self {
+    pub fn child(&self, segment: impl fmt::Display) -> Self {
         let mut segments = self.0.clone();
         segments.push(segment.to_string());
         Self(segments)
     }
 
     /// Reads a dotted path; parts with dots or spaces are quoted as in TOML.
-    pub(crate) fn parse(text: &str) -> Option<Self> {
+    pub fn parse(text: &str) -> Option<Self> {
         let keys = toml_edit::Key::parse(text).ok()?;
         Some(Self(keys.iter().map(|key| key.get().to_owned()).collect()))
     }
 
     /// The last part, empty for the root.
-    pub(crate) fn last(&self) -> &str {
+    pub fn last(&self) -> &str {
         self.0.last().map_or("", String::as_str)
     }
 
     /// The path of the table or list that holds this key.
-    pub(crate) fn parent(&self) -> Self {
+    pub fn parent(&self) -> Self {
         let mut segments = self.0.clone();
         segments.pop();
         Self(segments)
     }
 
     /// Whether the section at this path may be repeated, hence is a list.
-    pub(crate) fn is_repeated(&self) -> bool {
+    pub fn is_repeated(&self) -> bool {
         let repeated = |list: &&[&str]| self.0.iter().map(String::as_str).eq(list.iter().copied());
         REPEATED.iter().any(repeated)
     }
 
     /// How the table at this path is written in a case file: `[mesh]`, `[[load]]`, `load.0.displacement`.
-    pub(crate) fn table_title(&self) -> String {
+    pub fn table_title(&self) -> String {
         let is_index =
             |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
         match self.0.as_slice() {

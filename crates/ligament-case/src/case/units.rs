@@ -3,7 +3,7 @@
 use super::key_path::KeyPath;
 
 /// Unit of the number at a key path, where it has one.
-pub(crate) fn unit_of(key: &KeyPath) -> Option<&'static str> {
+pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     let keys: Vec<&str> = key
         .0
         .iter()

@@ -20,7 +20,7 @@ pub enum Axis {
 }
 
 /// Fails at `table.key` unless the condition holds; `expected` is the condition in words.
-pub(crate) fn require(
+pub fn require(
     holds: bool,
     key: impl FnOnce() -> KeyPath,
     expected: &str,
@@ -40,17 +40,17 @@ pub(crate) fn require(
 }
 
 /// Fails at `table.key` unless the value is greater than zero.
-pub(crate) fn require_positive(table: &KeyPath, key: &str, value: f64) -> Result<(), KeyFault> {
+pub fn require_positive(table: &KeyPath, key: &str, value: f64) -> Result<(), KeyFault> {
     require(value > 0.0, || table.child(key), "greater than 0", value)
 }
 
 /// Fails at `table.key` unless the count is at least one.
-pub(crate) fn require_at_least_one(table: &KeyPath, key: &str, value: u32) -> Result<(), KeyFault> {
+pub fn require_at_least_one(table: &KeyPath, key: &str, value: u32) -> Result<(), KeyFault> {
     require(value >= 1, || table.child(key), "at least 1", value)
 }
 
 /// The fault of giving none or several of keys that exclude each other.
-pub(crate) fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
+pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     let names = |wanted: &dyn Fn(bool) -> bool| {
         keys.iter()
             .filter(|(_, given)| wanted(*given))
@@ -65,10 +65,7 @@ pub(crate) fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFaul
 }
 
 /// Names head the columns of a table of comma-separated values.
-pub(crate) fn require_column_name(
-    key: impl FnOnce() -> KeyPath,
-    name: &str,
-) -> Result<(), KeyFault> {
+pub fn require_column_name(key: impl FnOnce() -> KeyPath, name: &str) -> Result<(), KeyFault> {
     let fits = !name.is_empty()
         && name.trim() == name
         && !name
@@ -83,7 +80,7 @@ pub(crate) fn require_column_name(
 }
 
 /// Fails where a name repeats an earlier one; `advice` goes at the end of the error.
-pub(crate) fn require_unique<'a>(
+pub fn require_unique<'a>(
     names: impl IntoIterator<Item = (KeyPath, &'a str)>,
     advice: &'static str,
 ) -> Result<(), KeyFault> {

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use ligament_mesh::Mesh;
 
 use crate::case::Law;
-use crate::inspect::{MeshFileError, bounding_box, read_mesh};
+use crate::mesh_file::{MeshFileError, bounding_box, read_mesh};
 use groups::{Ends, Spot};
 use text::{Body, Section};
 

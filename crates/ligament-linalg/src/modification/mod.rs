@@ -5,6 +5,7 @@
 //! SIAM J. Matrix Anal. Appl. 22, 2001). A right-hand side that is zero outside the same rows takes the same way, so the
 //! forward substitution goes along while a panel is in the cache.
 
+mod diagonal;
 mod panel;
 
 use std::cmp::Reverse;
@@ -12,27 +13,14 @@ use std::collections::BinaryHeap;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::storage::Form;
+use crate::panels::{Form, Panels};
+use crate::rank_one::RankOne;
 use crate::substitution;
 use crate::supernodes::Supernodes;
-use panel::Terms;
+use panel::{TERMS_AT_ONCE, Terms};
 
-/// A term c w w^T of a change of the matrix.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RankOne {
-    /// The factor c: positive where stiffness is added, negative where it leaves.
-    pub weight: f64,
-    /// Unknowns and values of w, which add up where an unknown comes twice; every pair of unknowns must be in the pattern
-    /// of the matrix.
-    pub entries: Vec<(usize, f64)>,
-}
-
-/// Terms that go through the factor at once: their part of a panel stays in the cache.
-const TERMS_AT_ONCE: usize = 32;
-
-/// A pivot below this share of its own diagonal entry of the matrix, at its largest since the matrix was factorised, counts
-/// as zero: what downdates leave of a zero is rounding, some 1e-14 of that entry.
-pub const VANISHING_PIVOT: f64 = 1e-10;
+pub(crate) use diagonal::DiagonalEntry;
+pub use diagonal::VANISHING_PIVOT;
 
 /// Working memory for changing a factor in place. Rows are in the order of elimination.
 pub(crate) struct Modification {
@@ -55,26 +43,6 @@ pub(crate) struct Target<'a> {
     pub(crate) diagonal: &'a mut [DiagonalEntry],
     /// Number of negative pivots; changed along.
     pub(crate) negative_pivots: &'a mut usize,
-}
-
-/// A diagonal entry of the matrix.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct DiagonalEntry {
-    value: f64,
-    /// Largest size of the entry since the matrix was factorised: the measure of what rounding left in the factor.
-    largest: f64,
-}
-
-impl DiagonalEntry {
-    pub(crate) fn new(value: f64) -> Self {
-        let largest = value.abs();
-        Self { value, largest }
-    }
-
-    fn add(&mut self, change: f64) {
-        self.value += change;
-        self.largest = self.largest.max(self.value.abs());
-    }
 }
 
 /// The row whose pivot vanished; the factor is then half changed and worthless.
@@ -182,16 +150,13 @@ impl WithSimd for Walk<'_, '_> {
                 ..
             } = &*self.target;
             if let Some(right_hand_side) = &mut self.right_hand_side {
-                let column = &mut self.modification.column;
-                substitution::forward(
-                    simd,
-                    *form,
-                    *supernodes,
-                    supernode,
+                let panels = Panels {
+                    form: *form,
+                    supernodes: *supernodes,
                     values,
-                    right_hand_side,
-                    column,
-                );
+                };
+                let column = &mut self.modification.column;
+                substitution::forward(simd, panels, supernode, right_hand_side, column);
             }
             if let Some(&parent_row) = supernodes.rows_below(supernode).first() {
                 self.modification.touch(parent_row);

@@ -4,8 +4,11 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::{DiagonalEntry, TERMS_AT_ONCE, VANISHING_PIVOT};
-use crate::storage::Form;
+use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
+use crate::panels::Form;
+
+/// Terms that go through the factor at once: their part of a panel stays in the cache.
+pub(super) const TERMS_AT_ONCE: usize = 32;
 
 /// Columns of a panel that are changed together.
 const BLOCK: usize = 4;

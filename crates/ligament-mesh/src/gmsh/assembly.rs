@@ -3,14 +3,11 @@
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{Element, Node, Records};
+use super::records::{Corners, Element, Node, Records};
 use super::tags::NodeIndices;
 use super::{cells, fields, groups, nodes};
 use crate::mesh::Mesh;
 use crate::remark::Remark;
-
-/// Indices of the corners of an element; none behind the last, and where the node was dropped.
-pub(super) type Corners = [Option<u32>; 4];
 
 /// What the planar cells use a node for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,9 @@
 //! The planar cells: their shape, their orientation, and those that stand twice in the file.
 
-use super::assembly::Corners;
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{Element, Records};
+use super::records::{Corners, Element, Records};
 use crate::cell::Cell;
 
 /// Twice the area of a triangle, as a part of its longest side times the mesh size, that counts as none.

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::Corners;
-use super::records::Records;
+use super::records::{Corners, Records};
 use crate::group::Group;
 use crate::remark::Remark;
 

@@ -39,6 +39,9 @@ impl Element {
     }
 }
 
+/// Indices of the corners of an element; none behind the last, and where the node was dropped.
+pub(super) type Corners = [Option<u32>; 4];
+
 /// The records of a section `$NodeData`.
 #[derive(Debug)]
 pub(super) struct FieldRecord {

@@ -6,12 +6,13 @@
 use nalgebra::Vector3;
 
 use super::families::Families;
+use super::strain_mode::StrainMode;
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::matrix;
 use crate::law::BondStiffness;
-use crate::material::{Elasticity, Material, Plane};
+use crate::material::{Material, Plane};
 
 /// Condition at which the sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,48 +32,13 @@ pub struct Sweeps {
     pub limit: usize,
 }
 
-/// Homogeneous strains of size one, for which the energy at a point is compared with the continuum's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StrainMode {
-    /// eps_xx = 1.
-    UniaxialX,
-    /// eps_yy = 1.
-    UniaxialY,
-    /// eps_xx = eps_yy = 1.
-    Biaxial,
-    /// gamma_xy = 1 (eps_xy = 1/2).
-    Shear,
-}
-
-impl StrainMode {
-    /// All modes, in the order of [`energy_ratios`].
-    pub const ALL: [Self; 4] = [Self::UniaxialX, Self::UniaxialY, Self::Biaxial, Self::Shear];
-
-    /// Stretch s and shear gamma of a bond of direction (a, b) under the strain, all rotations zero (NHPD eq. 3).
-    pub fn bond_deformation(self, [a, b]: [f64; 2]) -> (f64, f64) {
-        match self {
-            Self::UniaxialX => (a * a, -a * b),
-            Self::UniaxialY => (b * b, a * b),
-            Self::Biaxial => (1.0, 0.0),
-            Self::Shear => (a * b, 0.5 * (a * a - b * b)),
-        }
-    }
-
-    /// The strains (eps_xx, eps_yy, gamma_xy).
-    pub fn strain(self) -> [f64; 3] {
-        match self {
-            Self::UniaxialX => [1.0, 0.0, 0.0],
-            Self::UniaxialY => [0.0, 1.0, 0.0],
-            Self::Biaxial => [1.0, 1.0, 0.0],
-            Self::Shear => [0.0, 0.0, 1.0],
-        }
-    }
-
-    /// Strain energy density 1/2 eps C eps of the continuum, J/m^3 (NHPD eq. 11 for the uniaxial ones).
-    pub fn energy(self, material: &Elasticity, plane: Plane) -> f64 {
-        let strain = Vector3::from(self.strain());
-        0.5 * strain.dot(&(material.plane_stiffness(plane) * strain))
-    }
+/// The continuum whose strain energies the bonds are to have.
+#[derive(Debug, Clone, Copy)]
+pub struct Continuum<'a> {
+    /// Materials of the regions.
+    pub materials: &'a [Material],
+    /// State of the plane.
+    pub plane: Plane,
 }
 
 /// Iterates Omega from 1 (NHPD eq. 13; the numerator printed as the strain is the energy density e):
@@ -86,8 +52,7 @@ pub fn iterate(
     cloud: &PointCloud,
     stiffness: &BondStiffness,
     length_factor: Vec<f64>,
-    materials: &[Material],
-    plane: Plane,
+    continuum: Continuum<'_>,
     sweeps: Sweeps,
 ) -> Correction {
     let tolerance = match sweeps.stop {
@@ -96,7 +61,7 @@ pub fn iterate(
     };
     let density = |mode, bond| energy_density(mode, bond, bonds, stiffness, &length_factor);
     let targets = [StrainMode::UniaxialX, StrainMode::UniaxialY]
-        .map(|mode| target_energies(mode, cloud, materials, plane));
+        .map(|mode| target_energies(mode, cloud, continuum));
     let mut families = Families::new(bonds, cloud, density, &targets);
     let mut last_change = f64::INFINITY;
     let mut done = 0;
@@ -123,8 +88,7 @@ pub fn energy_ratios(
     cloud: &PointCloud,
     stiffness: &BondStiffness,
     correction: &Correction,
-    materials: &[Material],
-    plane: Plane,
+    continuum: Continuum<'_>,
 ) -> [Vec<f64>; 4] {
     let energies = cloud.over_points(|point| {
         let mut energies = [0.0; 4];
@@ -141,7 +105,7 @@ pub fn energy_ratios(
         energies.map(|sum| 0.5 * sum)
     });
     [0, 1, 2, 3].map(|mode| {
-        let target = target_energies(StrainMode::ALL[mode], cloud, materials, plane);
+        let target = target_energies(StrainMode::ALL[mode], cloud, continuum);
         let ratios = energies.iter().zip(target);
         ratios.map(|(energies, e)| energies[mode] / e).collect()
     })
@@ -179,15 +143,9 @@ fn energy_density(
     length_factor[bond] * density * bonds.length[bond]
 }
 
-fn target_energies(
-    mode: StrainMode,
-    cloud: &PointCloud,
-    materials: &[Material],
-    plane: Plane,
-) -> Vec<f64> {
-    let energies: Vec<f64> = materials
-        .iter()
-        .map(|material| mode.energy(&material.elasticity, plane))
+fn target_energies(mode: StrainMode, cloud: &PointCloud, continuum: Continuum<'_>) -> Vec<f64> {
+    let energies: Vec<f64> = (continuum.materials.iter())
+        .map(|material| mode.energy(&material.elasticity, continuum.plane))
         .collect();
     (0..cloud.len())
         .map(|point| cloud.mean_property(point, &energies))

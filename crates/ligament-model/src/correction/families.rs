@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::domain::StrainMode;
+use super::strain_mode::StrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
@@ -218,7 +218,7 @@ impl Members {
         let (factors, last_factors) = factors.as_chunks_mut();
         let members = neighbours.iter().zip(along_x).zip(along_y).zip(factors);
         for (((neighbours, aa), bb), factors) in members {
-            update_members(own, ratios, neighbours, aa, bb, factors, change);
+            update_members(own, ratios, neighbours, [aa, bb], factors, change);
         }
         let members = (last_neighbours.iter().zip(last_along_x))
             .zip(last_along_y)
@@ -226,7 +226,7 @@ impl Members {
         for (((&neighbour, &aa), &bb), factor) in members {
             let (factor, [change, ..]) = (std::array::from_mut(factor), &mut *change);
             let change = std::array::from_mut(change);
-            update_members(own, ratios, &[neighbour], &[aa], &[bb], factor, change);
+            update_members(own, ratios, &[neighbour], [&[aa], &[bb]], factor, change);
         }
     }
 
@@ -249,8 +249,7 @@ fn update_members<const N: usize>(
     own: [f64; 2],
     ratios: &[[f64; 2]],
     neighbours: &[u32; N],
-    along_x: &[f64; N],
-    along_y: &[f64; N],
+    [along_x, along_y]: [&[f64; N]; 2],
     factors: &mut [f64; N],
     change: &mut [f64; N],
 ) {

@@ -11,9 +11,11 @@ pub mod domain;
 mod families;
 pub mod length;
 pub mod partial_volume;
+mod strain_mode;
 pub mod surface;
 
-pub use domain::{StopRule, Sweeps, energy_ratios};
+pub use domain::{Continuum, StopRule, Sweeps, energy_ratios};
+pub use strain_mode::StrainMode;
 
 use crate::bonds::retained;
 

@@ -1,6 +1,6 @@
 //! Thermal expansion.
 
-use super::{Elasticity, Plane};
+use super::elasticity::{Elasticity, Plane};
 
 /// Coefficients of linear thermal expansion, 1/K.
 #[derive(Debug, Clone, Copy, PartialEq)]

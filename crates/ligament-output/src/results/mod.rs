@@ -13,15 +13,17 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+mod absence;
+mod grid;
 mod largest;
 mod model_file;
 mod modes;
 pub mod outputs;
 mod point_fields;
+mod rule;
 pub mod stored;
 mod tables;
 
-use ligament_analysis::ControlKind;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 
@@ -30,37 +32,12 @@ use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+pub use absence::{Absence, AbsentBond};
+pub use grid::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
 use largest::Largest;
-pub use model_file::{Absence, AbsentBond};
 pub use modes::write_modes;
-pub use point_fields::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
+pub use rule::{Time, WriteRule};
 use tables::{Tables, deformation_names};
-
-/// Rules of what is written, and how often.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WriteRule {
-    /// Fields at every so many load steps, besides the first and the last; 0: only these two.
-    pub fields_every: usize,
-    /// Whether to write the bonds as well.
-    pub bonds: bool,
-    /// Whether to write the model, by which a bond can be explained later.
-    pub model: bool,
-    /// Whether the fields have the virial stress.
-    pub virial: bool,
-    /// Whether the fields have the traction on planes through the points.
-    pub traction: bool,
-    /// The quantity that stands for time in the collections.
-    pub time: Time,
-}
-
-/// The quantity that stands for the time of an output.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Time {
-    /// The applied displacement, or the applied load where the load is given.
-    Load,
-    /// The number of the row of the history, for a path on which displacement and load go back.
-    Step,
-}
 
 /// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {
@@ -164,18 +141,6 @@ impl<'a> ResultWriter<'a> {
         vtu::write_vtu(self.folder.file(&name), &grid)?;
         self.bonds_collection
             .append(self.rule.time.value(record, view), name)
-    }
-}
-
-impl Time {
-    fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
-        match (self, view.boundary.control.kind) {
-            (Self::Step, _) => record.step as f64,
-            (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {
-                record.displacement
-            }
-            (Self::Load, ControlKind::Force) => record.reaction,
-        }
     }
 }
 

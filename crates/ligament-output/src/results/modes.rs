@@ -8,7 +8,8 @@
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::modal::ModalOutcome;
 
-use super::point_fields::{BodyGrid, FixedFields, in_plane};
+use super::grid::{BodyGrid, FixedFields};
+use super::point_fields::in_plane;
 use crate::Error;
 use crate::csv::Table;
 use crate::folder::ResultFolder;

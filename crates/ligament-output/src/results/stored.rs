@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
 
-use super::model_file::{Absence, COEFFICIENTS, MODEL};
+use super::absence::Absence;
+use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
 use super::tables::deformation_names;

@@ -4,6 +4,7 @@
 //! curves around a centre.
 
 pub mod equal;
+mod outlines;
 mod paper;
 pub mod png;
 pub mod polar;

@@ -1,9 +1,9 @@
 //! SVG to PNG, the same bytes on every machine: the font is part of the program.
 
-use std::sync::Arc;
-
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb};
+use resvg::usvg::{Options, Tree};
+
+use super::outlines::{font, with_outlined_text};
 
 /// The font of all text in pictures ([its origin](https://dejavu-fonts.github.io) and licence lie beside it).
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
@@ -23,6 +23,9 @@ pub enum PngError {
     /// The SVG is not one.
     #[error("the SVG cannot be read: {0}")]
     Svg(#[from] resvg::usvg::Error),
+    /// The font of the program is none.
+    #[error("the font of the program cannot be read: {0}")]
+    Font(#[from] ttf_parser::FaceParsingError),
     /// Too many pixels, or none.
     #[error(
         "a picture of {width:.0} x {height:.0} pixels; 1 to {MOST_PIXELS} are possible, choose another --width or --dpi"
@@ -44,15 +47,8 @@ pub enum PngError {
 ///
 /// If it is no SVG, or would have no or too many pixels.
 pub fn to_png(svg: &str, dpi: f64) -> Result<Vec<u8>, PngError> {
-    let mut fonts = fontdb::Database::new();
-    fonts.load_font_data(FONT.to_vec());
-    fonts.set_sans_serif_family(FAMILY);
-    let options = Options {
-        font_family: FAMILY.to_owned(),
-        fontdb: Arc::new(fonts),
-        ..Options::default()
-    };
-    let tree = Tree::from_str(svg, &options)?;
+    let outlined = with_outlined_text(svg, &font(FONT)?).map_err(resvg::usvg::Error::from)?;
+    let tree = Tree::from_str(&outlined, &Options::default())?;
     let scale = dpi / PIXELS_PER_INCH;
     let size = [tree.size().width(), tree.size().height()];
     let [width, height] = size.map(|it| (f64::from(it) * scale).round());

@@ -1,0 +1,152 @@
+//! What `ligament check` tells of the failure criteria: their limits, and what the fracture energy makes of them.
+
+use std::io::{self, Write};
+
+use ligament_model::failure::{AfterLimit, Criterion, Measure};
+
+use ligament_case::case::{CaseFile, CriterionKind};
+use ligament_case::failure::constants;
+use ligament_case::model::Model;
+use ligament_case::resolve;
+
+/// Writes the criteria with their limits over the bonds.
+pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+    let Some(fracture) = &case.case.fracture else {
+        return Ok(());
+    };
+    writeln!(out, "failure criteria")?;
+    let given = fracture.criteria.iter();
+    let given = given.flat_map(|it| std::iter::repeat_n(it, it.kind.parts()));
+    for (given, criterion) in given.zip(&model.criteria.list) {
+        write_limits(out, criterion)?;
+        let takes_energy = matches!(
+            given.kind,
+            CriterionKind::CriticalStretch | CriterionKind::BondEnergy { limit: None }
+        );
+        if takes_energy {
+            write_energy(out, case, criterion)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
+    let measure = match criterion.measure {
+        Measure::Tension => "s",
+        Measure::Compression => "-s",
+        Measure::Sliding => "|gamma|",
+        Measure::Friction => "|gamma| + s tan(beta)",
+        Measure::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
+        Measure::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
+        Measure::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
+    };
+    write!(out, "  {:<21} {measure} = ", criterion.name)?;
+    let failing = |bond: &usize| criterion.limit[*bond].is_finite();
+    let bonds: Vec<usize> = (0..criterion.limit.len()).filter(failing).collect();
+    let of_bonds = |values: &[f64]| Range::of(bonds.iter().map(|&bond| values[bond]));
+    let Some(limits) = of_bonds(&criterion.limit) else {
+        return writeln!(out, "no limit: no bond may fail");
+    };
+    write!(out, "{limits}")?;
+    if criterion.measure == Measure::Friction
+        && let Some(slopes) = of_bonds(&criterion.coefficient)
+    {
+        write!(out, "; tan(beta) = {slopes}")?;
+    }
+    if criterion.measure.takes_strains() {
+        let count = criterion.coefficients(0).len();
+        let names = ["q", "G_IIc/G_Ic", "eta"].into_iter().take(count);
+        for (place, name) in names.enumerate() {
+            let values = bonds
+                .iter()
+                .map(|&bond| criterion.coefficients(bond)[place]);
+            if let Some(values) = Range::of(values) {
+                write!(out, "; {name} = {values}")?;
+            }
+        }
+    }
+    let ends = match &criterion.after {
+        AfterLimit::Brittle => None,
+        AfterLimit::Bilinear { end } => Some(("force falls straight to zero at", of_bonds(end))),
+        AfterLimit::Exponential { scale } => {
+            Some(("force falls exponentially, scale", of_bonds(scale)))
+        }
+        AfterLimit::Plastic => Some(("force stays", None)),
+    };
+    match ends {
+        None => write!(out, "; brittle")?,
+        Some((words, None)) => write!(out, "; {words}")?,
+        Some((words, Some(ends))) => write!(out, "; {words} {ends} times that")?,
+    }
+    match criterion.limit.len() - bonds.len() {
+        0 => writeln!(out),
+        never => writeln!(out, "; {never} bonds never fail"),
+    }
+}
+
+/// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
+fn write_energy(out: &mut dyn Write, case: &CaseFile, criterion: &Criterion) -> io::Result<()> {
+    let (shear, at_most) = match criterion.measure {
+        // Bonds across the bar may come to their limit before those along it.
+        Measure::Energy => ("shear of the bonds is counted", "at most "),
+        _ => ("what shear of the bonds stores comes on top of it", ""),
+    };
+    for material in resolve::materials(case) {
+        let energy = material.fracture_energy.unwrap_or_default();
+        writeln!(
+            out,
+            "{:<24}{}separating a body takes G_c = {energy:.4e} J/m^2 ({shear})",
+            "",
+            prefix(&material.name)
+        )?;
+    }
+    // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
+    if let [material] = resolve::materials(case).as_slice()
+        && let Some(constants) = constants(case, material)
+        && let Some(limits) = Range::of(criterion.limit.iter().copied().filter(|it| it.is_finite()))
+    {
+        let young = constants.in_plane(resolve::plane(case)).young;
+        writeln!(
+            out,
+            "{:<24}a bar without a crack fails at {at_most}E s_0 = {} Pa, which changes with the horizon",
+            "",
+            limits.times(young)
+        )?;
+    }
+    Ok(())
+}
+
+fn prefix(name: &str) -> String {
+    if name.is_empty() {
+        String::new()
+    } else {
+        format!("{name}: ")
+    }
+}
+
+/// Smallest, median (the lower of two) and largest of some numbers.
+struct Range([f64; 3]);
+
+impl Range {
+    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut values: Vec<f64> = values.collect();
+        values.sort_unstable_by(f64::total_cmp);
+        let last = values.len().checked_sub(1)?;
+        Some(Self([values[0], values[last / 2], values[last]]))
+    }
+
+    fn times(&self, factor: f64) -> Self {
+        Self(self.0.map(|value| factor * value))
+    }
+}
+
+impl std::fmt::Display for Range {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [min, median, max] = self.0.map(|value| format!("{value:.4e}"));
+        if min == max {
+            write!(formatter, "{min}")
+        } else {
+            write!(formatter, "{min} to {max}, median {median}")
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! What `ligament check` tells of the equations: their size, and what was chosen to solve them and why.
+
+use std::io::{self, Write};
+use std::time::Instant;
+
+use ligament_analysis::SetupError;
+use ligament_analysis::stiffness::{
+    FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Stiffness, Update,
+};
+
+use ligament_case::case::{self, CaseFile, Factorisation};
+use ligament_case::memory;
+use ligament_case::model::Model;
+
+/// An ordering with what it costs.
+struct Analysis {
+    ordering: Ordering,
+    values: usize,
+    multiplications: f64,
+    seconds: f64,
+}
+
+/// Writes the size of the equations and the choice of the solver.
+pub(super) fn write(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    model: &Model,
+    stiffness: &Stiffness<'_>,
+) -> anyhow::Result<()> {
+    let symbolic = stiffness.symbolic();
+    let matrix = symbolic.pattern().n_entries();
+    let factor = symbolic.n_factor_values();
+    let bytes = memory::of_equations(&model.system, stiffness);
+    writeln!(out, "equations")?;
+    writeln!(
+        out,
+        "  unknowns              {}",
+        stiffness.unknowns().len()
+    )?;
+    writeln!(
+        out,
+        "  entries               {matrix} in the matrix, {factor} in the factor"
+    )?;
+    writeln!(out, "  estimated memory      {:.1} MB", bytes as f64 / 1e6)?;
+    write_choice(out, case, stiffness.choice())?;
+    let chosen = stiffness.choice().ordering;
+    writeln!(
+        out,
+        "  ordering              {}",
+        ordering_reason(case, model)
+    )?;
+    for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
+        write_ordering(out, &analyse(stiffness, ordering)?, ordering == chosen)?;
+    }
+    Ok(())
+}
+
+fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> io::Result<()> {
+    if choice.unsymmetric {
+        return writeln!(
+            out,
+            "  factorisation         L U: the printed forces are not those of an energy; entries and order are those of its energy form"
+        );
+    }
+    let is_named = case.case.solver.factorisation != Factorisation::Auto;
+    let why = match (is_named, choice.factorisation) {
+        (true, _) => "as the case says",
+        (false, FactorKind::Llt) => {
+            "the axial and shear stiffness of every bond is positive, and so is the stiffness of the body"
+        }
+        (false, FactorKind::Ldlt) => {
+            "not every bond has a positive shear stiffness: the stiffness may be indefinite"
+        }
+    };
+    let name = match choice.factorisation {
+        FactorKind::Llt => "L L^T",
+        FactorKind::Ldlt => "L D L^T",
+    };
+    writeln!(out, "  factorisation         {name}: {why}")?;
+    match (&case.case.fracture, choice.update) {
+        (None, _) => writeln!(out, "  when bonds break      none breaks")?,
+        (Some(_), Update::Refactor) => {
+            writeln!(out, "  when bonds break      the factor is made anew")?;
+        }
+        (Some(_), Update::Incremental) => writeln!(
+            out,
+            "  when bonds break      the factor is changed in place, up to {} bonds at once (more cost less anew); made \
+             anew every {} bonds",
+            choice.most_bonds_in_place, choice.rebuild_every
+        )?,
+    }
+    writeln!(
+        out,
+        "  threads               {}",
+        rayon::current_num_threads()
+    )
+}
+
+fn analyse(stiffness: &Stiffness<'_>, ordering: Ordering) -> Result<Analysis, SetupError> {
+    let start = Instant::now();
+    let symbolic = stiffness.analysed_with(ordering)?;
+    Ok(Analysis {
+        ordering,
+        values: symbolic.n_factor_values(),
+        multiplications: symbolic.n_multiplications(),
+        seconds: start.elapsed().as_secs_f64(),
+    })
+}
+
+fn ordering_reason(case: &CaseFile, model: &Model) -> String {
+    if case.case.solver.ordering != case::Ordering::Auto {
+        return "as the case says".to_owned();
+    }
+    let side = if model.system.cloud.len() < POINTS_FOR_DISSECTION {
+        "minimum degree, because there are fewer"
+    } else {
+        "nested dissection, because there are not fewer"
+    };
+    format!("{side} than {POINTS_FOR_DISSECTION} points")
+}
+
+fn write_ordering(out: &mut dyn Write, analysis: &Analysis, is_chosen: bool) -> io::Result<()> {
+    let name = match analysis.ordering {
+        Ordering::NestedDissection => "nested dissection",
+        Ordering::MinimumDegree => "minimum degree",
+    };
+    let Analysis {
+        values,
+        multiplications,
+        seconds,
+        ..
+    } = analysis;
+    writeln!(
+        out,
+        "    {name:<19} {values} values in the factor, {multiplications:.2e} multiplications, analysed in {seconds:.3} s{}",
+        if is_chosen { " (taken)" } else { "" }
+    )
+}

@@ -1,0 +1,32 @@
+//! `ligament inspect`.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use ligament_case::mesh_file::read_mesh;
+
+use crate::inspect::write_summary;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament inspect meshes/disk.msh
+
+Reads Gmsh files of the formats 2.2 and 4.1, ASCII or binary. Lengths are taken to be in m.";
+
+/// `ligament inspect`.
+#[derive(Debug, Args)]
+pub struct InspectArgs {
+    /// The mesh (Gmsh .msh)
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+}
+
+impl InspectArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let mesh = read_mesh(&self.mesh)?;
+        Ok(write_summary(&mut io::stdout().lock(), &self.mesh, &mesh)?)
+    }
+}

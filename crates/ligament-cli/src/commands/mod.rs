@@ -1,0 +1,226 @@
+//! The command line: a file for each command, with its options, its help and what it calls.
+
+mod calibrate;
+mod check;
+mod completions;
+mod explain;
+mod inspect;
+mod mesh;
+mod new;
+mod plot;
+mod run;
+mod schema;
+mod sweep;
+mod verify;
+mod yielding;
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use ligament_case::case::{CaseError, CaseFile, MOST_THREADS};
+
+pub use calibrate::{CalibrateArgs, LineArgs, RunsArgs};
+pub use check::CheckArgs;
+pub use completions::CompletionsArgs;
+pub use explain::{ExplainArgs, SubjectArgs};
+pub use inspect::InspectArgs;
+pub use mesh::MeshArgs;
+pub use new::NewArgs;
+pub use plot::PlotArgs;
+pub use run::RunArgs;
+pub use schema::SchemaArgs;
+pub use sweep::SweepArgs;
+pub use verify::VerifyArgs;
+pub use yielding::{YieldArgs, YieldCalibration};
+
+/// Peridynamics for the plane: mesh in, cracks out.
+///
+/// A case file (TOML) names a Gmsh mesh, materials, supports and loads; `ligament run` computes
+/// displacements, reactions and the breaking of bonds and writes them for ParaView.
+#[derive(Debug, Parser)]
+#[command(name = "ligament", version, after_help = OVERVIEW, arg_required_else_help = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const OVERVIEW: &str = "\
+Examples:
+  ligament mesh disk.geo                    mesh a Gmsh geometry: writes disk.msh
+  ligament mesh --via-meshio disk.inp       convert a mesh of another program: writes disk.msh
+  ligament inspect disk.msh                 its groups, for the case file to name
+  ligament new disk.msh                     a case to start from: writes case.toml
+  ligament check cases/disk/case.toml       is the case consistent with its mesh?
+  ligament run cases/disk/case.toml         results in results/disk
+  ligament sweep study.toml                 a case over horizons, meshes, strengths
+  ligament plot results/disk                a picture of its damage
+  ligament explain results/disk --point 12  why its bonds broke, or did not
+
+All values are in SI units: m, N, Pa, s, rad.
+Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage.";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a case: solve it, break bonds, write fields and history
+    #[command(after_help = run::EXAMPLES)]
+    Run(RunArgs),
+    /// Run a case over all combinations of some settings: a table, plots, fitted lines
+    ///
+    /// A study file names a case and axes: keys of the case with their values. Runs all combinations in
+    /// parallel, as cores and memory allow, each in a process of its own; one that fails harms no other.
+    /// Writes a table of all runs (CSV), plots (SVG) and lines of least squares.
+    #[command(after_help = sweep::EXAMPLES)]
+    Sweep(SweepArgs),
+    /// Check a case and its mesh without running it
+    ///
+    /// Reads the case and its mesh, builds points and bonds, and reports what a run would use:
+    /// groups found, points held and loaded, bonds cut by pre-cracks, entries of the matrix, time and
+    /// memory.
+    #[command(after_help = check::EXAMPLES)]
+    Check(CheckArgs),
+    /// Find the value of a key with which a result meets a target
+    ///
+    /// Runs the case with one value after the other, of the tensile strength say, until the peak load is that of a
+    /// test: first in proportion, then between values on both sides of the target. Keeps a record of its runs.
+    #[command(after_help = calibrate::EXAMPLES)]
+    Calibrate(CalibrateArgs),
+    /// Tell why a bond broke or did not, from the results of a run
+    ///
+    /// Prints the life of a bond, or of all bonds of a point: horizon, factors, limits, how near it came
+    /// to them along the path, and when, in which order and by which criterion bonds broke. Reads the
+    /// folder of the results alone.
+    #[command(after_help = explain::EXAMPLES)]
+    Explain(ExplainArgs),
+    /// Draw fields, cracks, curves and modes from the results of runs (PNG, SVG)
+    ///
+    /// Draws a field on the deformed body as filled contours with a colour bar, the crack as broken
+    /// bonds, force-displacement curves, or the shapes of modes, at the size and fineness that a paper
+    /// asks for. Reads the folders of the results alone, also of a run that was cut short.
+    #[command(after_help = plot::EXAMPLES)]
+    Plot(PlotArgs),
+    /// Show what is in a mesh: cells, size, edge lengths, groups
+    #[command(after_help = inspect::EXAMPLES)]
+    Inspect(InspectArgs),
+    /// Mesh a Gmsh geometry (needs the program gmsh), or convert a mesh of another program
+    ///
+    /// Calls gmsh to make a planar mesh, reads it back and shows what is in it. With --via-meshio reads
+    /// a mesh of Abaqus, Nastran, Exodus, MED, VTK and others by the Python package meshio, and writes it
+    /// for Gmsh with its groups. An existing mesh is replaced only by one that could be read.
+    #[command(after_help = mesh::EXAMPLES)]
+    Mesh(MeshArgs),
+    /// Write a commented case to start from, for a mesh or a lattice
+    ///
+    /// Picks what to hold and what to load by the names of the groups, or by where they lie, and writes a
+    /// case that runs as it is: material and loading are marked as examples, what else a case may have
+    /// stands beside them as comments.
+    #[command(after_help = new::EXAMPLES)]
+    New(NewArgs),
+    /// When bonds yield first, and how the directions of the bonds distort that
+    ///
+    /// Turns a uniform strain through all orientations to a family of bonds and finds the load at which
+    /// the first bond meets a failure criterion: for square lattices with horizons of m spacings, for a
+    /// point of a case, or as a field over all points of a case. Writes tables (CSV), polar diagrams
+    /// of the error and loci (SVG), or fields (VTU).
+    #[command(after_help = yielding::EXAMPLES)]
+    Yield(YieldArgs),
+    /// Run the published cases and compare with their printed values
+    ///
+    /// Runs cases of the papers that the models are from, and prints for every known value what this
+    /// program computes, the difference, and whether that is as it should be; known misprints with
+    /// their reasons. Writes the same as Markdown, CSV and plots (SVG).
+    #[command(after_help = verify::EXAMPLES)]
+    Verify(VerifyArgs),
+    /// Print the JSON schema of a case file, for editors
+    ///
+    /// With it an editor completes keys and words, shows their descriptions, units and defaults, and marks
+    /// what is wrong.
+    #[command(after_help = schema::EXAMPLES)]
+    Schema(SchemaArgs),
+    /// Print a completion script for a shell
+    #[command(after_help = completions::EXAMPLES)]
+    Completions(CompletionsArgs),
+}
+
+/// A case and changes to it.
+#[derive(Debug, Args)]
+pub struct CaseArgs {
+    /// The case file (TOML)
+    #[arg(value_name = "CASE.toml")]
+    pub file: PathBuf,
+    /// Change a setting of the case file, e.g. model.horizon_factor=4 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Threads to compute with [default: solver.threads of the case, or one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
+    pub threads: Option<u32>,
+}
+
+impl CaseArgs {
+    /// Reads the case, with the threads of the command line before its own.
+    fn load(&self) -> Result<CaseFile, CaseError> {
+        let mut case = CaseFile::load(&self.file, &self.overrides)?;
+        let threads = &mut case.case.solver.threads;
+        *threads = self.threads.or(*threads);
+        Ok(case)
+    }
+}
+
+impl Cli {
+    /// Does what the command line asks for.
+    ///
+    /// # Errors
+    ///
+    /// Whatever keeps the command from doing it, in words for the user.
+    pub fn execute(self) -> anyhow::Result<()> {
+        match self.command {
+            Command::Run(args) => args.execute(),
+            Command::Sweep(args) => args.execute(),
+            Command::Check(args) => args.execute(),
+            Command::Calibrate(args) => args.execute(),
+            Command::Explain(args) => args.execute(),
+            Command::Plot(args) => args.execute(),
+            Command::Inspect(args) => args.execute(),
+            Command::Mesh(args) => args.execute(),
+            Command::New(args) => args.execute(),
+            Command::Yield(args) => args.execute(),
+            Command::Verify(args) => args.execute(),
+            Command::Schema(args) => args.execute(),
+            Command::Completions(args) => args.execute(),
+        }
+    }
+}
+
+/// A position on the command line, m.
+fn position(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
+    let numbers = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    numbers.ok_or_else(|| "expected X,Y in m, such as 0.01,-0.02".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn positions_are_two_numbers() {
+        assert_eq!(position("-0.01, 2e-3"), Ok([-0.01, 2e-3]));
+        assert_eq!(position("1e-2, -0.5"), Ok([0.01, -0.5]));
+        for wrong in ["0.1", "0.01,", "1,2,3", "0.1,nan"] {
+            assert!(
+                position(wrong).is_err_and(|error| error.contains("X,Y")),
+                "{wrong}"
+            );
+        }
+    }
+}

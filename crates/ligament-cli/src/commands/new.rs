@@ -1,0 +1,124 @@
+//! `ligament new`.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use ligament_output::replace_file;
+
+use ligament_case::case::{Law, MOST_CELLS};
+use ligament_case::starter::{of_lattice, of_mesh};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament new plate.msh                             writes case.toml, for plate.msh
+  ligament new meshes/disk.msh --out disk/case.toml --law bbpd
+  ligament new --lattice 60,120,0.001                a lattice in place of a mesh
+
+The case runs as it is; its material and loading are examples to replace by your own.";
+
+/// `ligament new`.
+#[derive(Debug, Args)]
+pub struct NewArgs {
+    /// The mesh (Gmsh .msh)
+    #[arg(value_name = "MESH", required_unless_present = "lattice")]
+    pub mesh: Option<PathBuf>,
+    /// A lattice in the place of a mesh: cells along x and y, and their side in m
+    #[arg(long, value_name = "NX,NY,SPACING", value_parser = lattice, conflicts_with = "mesh")]
+    pub lattice: Option<([u32; 2], f64)>,
+    /// The case file to write
+    #[arg(long, value_name = "CASE.toml", default_value = "case.toml")]
+    pub out: PathBuf,
+    /// The bond law
+    #[arg(long, default_value = "nhpd", value_parser = laws())]
+    pub law: Law,
+    /// Replace the case file if there is one
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl NewArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let out = &self.out;
+        if !self.force && out.exists() {
+            anyhow::bail!(
+                "{} is there already: write to another --out, or replace it by --force",
+                out.display()
+            );
+        }
+        let folder = out.parent().unwrap_or(Path::new(""));
+        if self.mesh.as_ref().is_none_or(|mesh| mesh.is_file()) {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        }
+        let starter = match (&self.mesh, self.lattice) {
+            (Some(mesh), _) => of_mesh(mesh, folder, self.law)?,
+            (None, Some((cells, spacing))) => of_lattice(cells, spacing, self.law),
+            (None, None) => anyhow::bail!("there is no mesh: give one, or --lattice NX,NY,SPACING"),
+        };
+        replace_file(out, starter.text.as_bytes())?;
+        for warning in &starter.warnings {
+            writeln!(io::stderr().lock(), "warning: {warning}")?;
+        }
+        let out = out.display();
+        writeln!(
+            io::stdout().lock(),
+            "wrote {out}: {}\nnext: replace the EXAMPLE values, then\n  ligament check {out}\n  ligament run {out}",
+            starter.choice
+        )?;
+        Ok(())
+    }
+}
+
+fn laws() -> impl TypedValueParser<Value = Law> {
+    PossibleValuesParser::new(Law::ALL.map(Law::word)).try_map(|word| {
+        let law = Law::ALL.into_iter().find(|law| law.word() == word);
+        law.ok_or("no such law")
+    })
+}
+
+/// A lattice on the command line.
+fn lattice(text: &str) -> Result<([u32; 2], f64), String> {
+    let expected = "expected NX,NY,SPACING, such as 60,120,0.001 (m)";
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [columns, rows, spacing] = parts.as_slice() else {
+        return Err(expected.to_owned());
+    };
+    let count = |text: &str| text.parse::<u32>().ok().filter(|count| *count >= 4);
+    let (Some(columns), Some(rows)) = (count(columns), count(rows)) else {
+        return Err(format!("{expected}, with 4 cells or more along x and y"));
+    };
+    if u64::from(columns) * u64::from(rows) > MOST_CELLS {
+        return Err(format!("a lattice has at most {MOST_CELLS} cells"));
+    }
+    let spacing = spacing
+        .parse::<f64>()
+        .ok()
+        .filter(|it| it.is_normal() && *it > 0.0);
+    let spacing = spacing.ok_or(format!("{expected}, with a spacing greater than 0"))?;
+    Ok(([columns, rows], spacing))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lattice_is_two_counts_and_a_spacing() {
+        assert_eq!(lattice("60, 120,1e-3"), Ok(([60, 120], 1e-3)));
+        for wrong in [
+            "60,120",
+            "60,120,0",
+            "3,120,0.1",
+            "6.5,120,0.1",
+            "60,120,1mm",
+            "60,120,inf",
+            "90000,90000,1",
+        ] {
+            assert!(lattice(wrong).is_err(), "{wrong}");
+        }
+    }
+}

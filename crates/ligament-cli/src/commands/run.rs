@@ -1,0 +1,59 @@
+//! `ligament run`.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::CaseArgs;
+use ligament_case::progress::ProgressMode;
+use ligament_case::run::run;
+use ligament_study::sweep::take_leash;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament run cases/disk/case.toml
+  ligament run case.toml --out results/fine --set model.horizon_factor=4
+  ligament run case.toml --set mesh.plane=strain --set load.0.displacement.y=-1e-4
+  ligament run case.toml --set fracture.steps=10 --set fracture.stop.bonds=300
+
+A --set takes any key of the case file; the entries of a list such as [[load]] count from 0.
+The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
+Paths, also in --set mesh.file=..., are relative to the folder of the case file.";
+
+/// `ligament run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The case file and changes to it.
+    #[command(flatten)]
+    pub case: CaseArgs,
+    /// Folder for the results [default: results/NAME with the name of the case's folder]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace results of an earlier run in the folder
+    #[arg(long)]
+    pub force: bool,
+    /// Show no progress, only the final result and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// End when standard input ends, and hold this lock until then: for `ligament sweep`.
+    #[arg(long, value_name = "LOCK", hide = true)]
+    pub leash: Option<PathBuf>,
+}
+
+impl RunArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        if let Some(lock) = &self.leash {
+            take_leash(lock)?;
+        }
+        let case = self.case.load()?;
+        let out = self
+            .out
+            .unwrap_or_else(|| Path::new("results").join(case.name()));
+        let summary = run(&case, &out, self.force, ProgressMode::detect(self.quiet))?;
+        let mut stdout = io::stdout().lock();
+        summary.write(&mut stdout)?;
+        Ok(writeln!(stdout, "  results in         {}", out.display())?)
+    }
+}

@@ -1,0 +1,36 @@
+//! `ligament schema`.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+use ligament_output::replace_file;
+
+use ligament_case::case::schema;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament schema --out case.schema.json
+
+With the schema an editor completes the keys of a case file, shows what they mean, and marks wrong ones. In
+VS Code (extension Even Better TOML), Helix and Zed (language server taplo) a case takes it by its first line:
+  #:schema ./case.schema.json";
+
+/// `ligament schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArgs {
+    /// The file to write [default: standard output]
+    #[arg(long, value_name = "FILE.json")]
+    pub out: Option<PathBuf>,
+}
+
+impl SchemaArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let text = serde_json::to_string_pretty(&schema())? + "\n";
+        match self.out {
+            None => Ok(io::stdout().lock().write_all(text.as_bytes())?),
+            Some(path) => Ok(replace_file(&path, text.as_bytes())?),
+        }
+    }
+}

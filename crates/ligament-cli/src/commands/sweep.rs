@@ -1,0 +1,146 @@
+//! `ligament sweep`.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use ligament_case::progress::ProgressMode;
+use ligament_study::sweep::folder::Shard;
+use ligament_study::sweep::{Request, Settings, Task, sweep};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament sweep cases/horizon-study/study.toml           all runs, then table and plots
+  ligament sweep study.toml --list                        the runs, their memory, what is done
+  ligament sweep study.toml --shard 3/16                  runs 3, 19, ... on this machine
+  ligament sweep study.toml --collect                     table and plots of what is done
+  ligament sweep study.toml --collect --from a --from b   of several machines' folders
+
+A study file names a case, axes and plots:
+  case = \"../disk/case.toml\"
+  [[axis]]
+  key = \"model.horizon_factor\"
+  range = { from = 2.0, to = 4.0, step = 0.5 }
+  [[plot]]
+  x = \"model.horizon_factor\"
+  y = \"first_peak.reaction\"
+
+The same command again goes on where the last one was stopped, and repeats what failed.
+The exit code is 1 if a run failed.";
+
+/// `ligament sweep`.
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// The study file (TOML)
+    #[arg(value_name = "STUDY.toml")]
+    pub study: PathBuf,
+    /// Folder of the study [default: results/NAME with the name of the study's folder if the file is called study.toml, else
+    /// with that of the file]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Runs at once [default: one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Memory for the runs in GB [default: what is available]
+    #[arg(long, value_name = "GB", value_parser = gigabytes)]
+    pub memory: Option<f64>,
+    /// Do every N-th run only, from the K-th on: a part of the study for each of several machines
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub shard: Option<Shard>,
+    /// Do also the runs that are done
+    #[arg(long)]
+    pub force: bool,
+    /// List the runs with the memory they take, and run none
+    #[arg(long, conflicts_with_all = ["collect", "shard", "force"], visible_alias = "dry-run")]
+    pub list: bool,
+    /// Make the table and the plots of what is done, and run none
+    #[arg(long, conflicts_with_all = ["shard", "force"])]
+    pub collect: bool,
+    /// With --collect: a folder of the study, such as another machine's (may be repeated) [default: --out]
+    #[arg(long, value_name = "DIR", requires = "collect")]
+    pub from: Vec<PathBuf>,
+    /// The gmsh program, for axes of a geometry's numbers, if it is not on the PATH
+    #[arg(
+        long,
+        value_name = "PATH",
+        default_value = "gmsh",
+        hide_default_value = true
+    )]
+    pub gmsh: PathBuf,
+    /// Show no progress, only the final result and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+impl SweepArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let task = if self.list {
+            Task::List
+        } else if self.collect {
+            Task::Collect(self.from)
+        } else {
+            Task::Run(Settings {
+                shard: self.shard,
+                jobs: self.jobs.map(|jobs| jobs as usize),
+                memory: self.memory,
+                force: self.force,
+                gmsh: self.gmsh,
+                progress: ProgressMode::detect(self.quiet),
+            })
+        };
+        let request = Request {
+            study: self.study,
+            out: self.out,
+            task,
+        };
+        sweep(&request, &mut io::stdout().lock())
+    }
+}
+
+fn gigabytes(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    let positive = number.filter(|number| number.is_finite() && *number > 0.0);
+    positive.ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/');
+    let numbers = numbers.and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((number, count)) if (1..=count).contains(&number) => Ok(Shard { number, count }),
+        Some((_, count)) => Err(format!(
+            "the shards of {count} are 1/{count} to {count}/{count}"
+        )),
+        None => Err("expected K/N, such as 3/16".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_count_from_one() {
+        assert_eq!(
+            shard("3/16"),
+            Ok(Shard {
+                number: 3,
+                count: 16
+            })
+        );
+        for wrong in ["0/4", "5/4", "1/0", "3", "a/b", "1/2/3"] {
+            assert!(shard(wrong).is_err(), "{wrong}");
+        }
+        assert!(shard("5/4").is_err_and(|error| error.contains("1/4 to 4/4")));
+    }
+
+    #[test]
+    fn memory_is_a_positive_number() {
+        assert_eq!(gigabytes("1.5"), Ok(1.5));
+        for wrong in ["0", "-1", "inf", "nan", "2GB"] {
+            assert!(gigabytes(wrong).is_err(), "{wrong}");
+        }
+    }
+}

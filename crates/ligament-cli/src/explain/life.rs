@@ -1,0 +1,348 @@
+//! What bonds went through.
+
+use ligament_model::element::beam::BeamBond;
+use ligament_model::element::pair::{Pair, PairKinematics};
+use ligament_model::element::spring::SpringBond;
+use ligament_model::element::{BondDeformation, Element};
+use ligament_model::failure::{AfterLimit, Measure, Softened};
+use ligament_output::Error;
+use ligament_output::results::stored::{
+    Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
+};
+
+use super::strains::Strains;
+use ligament_case::case::Units;
+use ligament_plot::stored_loading::StoredLoading;
+
+/// The lives of some bonds, over the same moments.
+#[derive(Debug)]
+pub(super) struct Lives {
+    /// Steps with fields, ascending.
+    pub(super) moments: Vec<StoredStep>,
+    /// The bonds, by the number of the pair in the stored model; pairs that are no bonds have no life.
+    pub(super) of_bonds: Vec<Life>,
+    /// Pairs among them that are no bonds.
+    pub(super) absent: Vec<usize>,
+    /// Whether a moment is just before the breakages of its step.
+    pub(super) before_breakages: bool,
+    /// Names of the components of a deformation.
+    pub(super) components: &'static [&'static str],
+    /// Units of the displacement and the reaction of the moments.
+    pub(super) units: Units,
+}
+
+/// The life of a bond.
+#[derive(Debug)]
+pub(super) struct Life {
+    /// Number of the pair.
+    pub(super) pair: usize,
+    /// Its ends.
+    pub(super) ends: [u32; 2],
+    /// Length, m.
+    pub(super) length: f64,
+    /// Direction cosines from the first to the second end.
+    pub(super) direction: [f64; 2],
+    /// Its limits, one a criterion.
+    pub(super) limits: Vec<Limit>,
+    /// Its deformation in each moment, also after it broke.
+    pub(super) deformation: Vec<BondDeformation>,
+    /// Number of moments in which it was intact.
+    pub(super) n_intact: usize,
+    /// How it broke, and the number of the criterion by which it did.
+    pub(super) breakage: Option<(StoredBreak, Option<usize>)>,
+    /// Its largest utilisation.
+    pub(super) nearest: Option<Nearest>,
+}
+
+/// A criterion and its limit for a bond.
+#[derive(Debug)]
+pub(super) struct Limit {
+    pub(super) name: String,
+    pub(super) measure: Measure,
+    pub(super) limit: f64,
+    pub(super) coefficients: Vec<f64>,
+    pub(super) after: AfterLimit,
+}
+
+/// The largest utilisation of a bond: when, and by which criterion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Nearest {
+    pub(super) utilisation: f64,
+    pub(super) step: usize,
+    pub(super) criterion: usize,
+}
+
+/// The pairs of a point in the stored model, ascending.
+pub(super) fn bonds_of(run: &StoredRun, point: u32) -> Vec<usize> {
+    let ends = run.model.bonds.ends.iter().enumerate();
+    let of_point = ends.filter(|(_, ends)| ends.contains(&point));
+    of_point.map(|(pair, _)| pair).collect()
+}
+
+/// The pair of two points (in the order of their numbers) in the stored model, if one is in the horizon of the other.
+pub(super) fn pair_of(run: &StoredRun, ends: [u32; 2]) -> Option<usize> {
+    run.model.bonds.ends.iter().position(|it| *it == ends)
+}
+
+impl Lives {
+    /// Reads each file of fields once.
+    pub(super) fn of(
+        run: &StoredRun,
+        pairs: Vec<usize>,
+        loading: StoredLoading,
+    ) -> Result<Self, Error> {
+        let is_absent = |pair: &usize| run.model.bonds.absence[*pair].is_some();
+        let (absent, bonds): (Vec<usize>, Vec<usize>) = pairs.into_iter().partition(is_absent);
+        let mut lives = Self {
+            moments: Vec::new(),
+            of_bonds: Vec::new(),
+            absent,
+            before_breakages: loading.follows_path,
+            components: run.deformation_names,
+            units: loading.units,
+        };
+        for pair in bonds {
+            lives.of_bonds.push(Life::begin(run, pair)?);
+        }
+        let mut strains = Strains::of(run, loading.follows_path);
+        for step in run.field_steps() {
+            // A run that is under way may have fields of a step before its row.
+            let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
+                continue;
+            };
+            lives.moments.push(*row);
+            if let Some(strains) = &mut strains {
+                strains.go_to(step);
+            }
+            for life in &mut lives.of_bonds {
+                life.deformation.push(match &strains {
+                    Some(strains) => strains.deformation(life.pair, &motions),
+                    None => life.deformed(&motions),
+                });
+            }
+        }
+        for life in &mut lives.of_bonds {
+            life.complete(run, &lives.moments, loading.follows_path);
+        }
+        Ok(lives)
+    }
+}
+
+impl Limit {
+    fn of(criterion: &StoredCriterion, pair: usize) -> Option<Self> {
+        let measure = Measure::ALL
+            .into_iter()
+            .find(|it| it.word() == criterion.measure)?;
+        let parameter = criterion.parameter.get(pair).copied();
+        Some(Self {
+            name: criterion.name.clone(),
+            measure,
+            limit: criterion.limit[pair],
+            coefficients: criterion.coefficients.iter().map(|it| it[pair]).collect(),
+            after: AfterLimit::from_word(&criterion.after, parameter.into_iter().collect())?,
+        })
+    }
+
+    /// The measure of a deformation.
+    pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
+        self.measure.of(deformation, &self.coefficients)
+    }
+
+    /// Measure over limit, 0 where the measure is not positive.
+    pub(super) fn utilisation(&self, deformation: &BondDeformation) -> f64 {
+        (self.measure(deformation) / self.limit).max(0.0)
+    }
+}
+
+impl Life {
+    fn begin(run: &StoredRun, pair: usize) -> Result<Self, Error> {
+        let model = &run.model;
+        let ends = model.bonds.ends[pair];
+        let [a, b] = ends.map(|end| model.positions[end as usize]);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = along[0].hypot(along[1]);
+        let limit = |criterion: &StoredCriterion| {
+            Limit::of(criterion, pair).ok_or_else(|| Error::Unreadable {
+                path: run.folder.join("criteria.csv"),
+                reason: format!(
+                    "criterion {} has the measure `{}` and after its limit `{}`, of which one is unknown here",
+                    criterion.name, criterion.measure, criterion.after
+                ),
+            })
+        };
+        Ok(Self {
+            pair,
+            ends,
+            length,
+            direction: along.map(|component| component / length),
+            limits: model.criteria.iter().map(limit).collect::<Result<_, _>>()?,
+            deformation: Vec::new(),
+            n_intact: 0,
+            breakage: None,
+            nearest: None,
+        })
+    }
+
+    /// The deformation for the motions of all points, without what the temperature gives it. The points of springs do not
+    /// turn, so that this holds for them as well.
+    fn deformed(&self, motions: &Motions) -> BondDeformation {
+        let pair = Pair {
+            ends: self.ends,
+            bond: BeamBond {
+                springs: SpringBond {
+                    length: self.length,
+                    direction: self.direction,
+                    axial_rigidity: 0.0,
+                    shear_rigidity: 0.0,
+                },
+                rotational_rigidity: 0.0,
+            },
+        };
+        let [a, b] = self.ends.map(|end| &motions.of_points[end as usize]);
+        let whole = pair.bond.deformation(a, b);
+        if motions.thermal_strain.is_empty() {
+            return whole;
+        }
+        let [a, b] = self.ends.map(|end| motions.thermal_strain[end as usize]);
+        whole.less(&pair.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
+    }
+
+    /// What follows from all moments.
+    fn complete(&mut self, run: &StoredRun, moments: &[StoredStep], before_breakages: bool) {
+        let tags = self.ends.map(|end| run.model.tags[end as usize]);
+        let is_own = |it: &&StoredBreak| it.tags == tags || it.tags == [tags[1], tags[0]];
+        self.breakage = run.breaks.iter().find(is_own).map(|it| {
+            let criterion = self.limits.iter().position(|of| of.name == it.criterion);
+            (it.clone(), criterion)
+        });
+        let is_intact = |moment: &&StoredStep| match &self.breakage {
+            None => true,
+            Some((it, _)) if before_breakages => moment.step <= it.at.step,
+            Some((it, _)) => moment.step < it.at.step,
+        };
+        self.n_intact = moments.iter().take_while(is_intact).count();
+        self.nearest = self
+            .nearest_at_breakage()
+            .or_else(|| self.nearest_of_run(run))
+            .or_else(|| self.nearest_of_moments(moments));
+    }
+
+    fn nearest_at_breakage(&self) -> Option<Nearest> {
+        let (broke, criterion) = self.breakage.as_ref()?;
+        let criterion = (*criterion)?;
+        Some(Nearest {
+            utilisation: self.limits[criterion].utilisation(&broke.deformation),
+            step: broke.at.step,
+            criterion,
+        })
+    }
+
+    /// From all steps of the run, if it got to its end.
+    fn nearest_of_run(&self, run: &StoredRun) -> Option<Nearest> {
+        let largest = run.model.largest.as_ref()?;
+        Some(Nearest {
+            utilisation: largest.utilisation[self.pair],
+            step: usize::try_from(largest.step[self.pair]).ok()?,
+            criterion: usize::try_from(largest.criterion[self.pair])
+                .ok()
+                .filter(|criterion| *criterion < self.limits.len())?,
+        })
+    }
+
+    /// From the steps with fields alone.
+    fn nearest_of_moments(&self, moments: &[StoredStep]) -> Option<Nearest> {
+        let mut nearest: Option<Nearest> = None;
+        for (moment, deformation) in moments.iter().zip(&self.deformation).take(self.n_intact) {
+            for (criterion, limit) in self.limits.iter().enumerate() {
+                let utilisation = limit.utilisation(deformation);
+                if nearest.is_none_or(|it| utilisation > it.utilisation) {
+                    nearest = Some(Nearest {
+                        utilisation,
+                        step: moment.step,
+                        criterion,
+                    });
+                }
+            }
+        }
+        nearest
+    }
+
+    /// State of the bond by a criterion in a moment, from the largest utilisation that is known up to it.
+    pub(super) fn softened(
+        &self,
+        criterion: usize,
+        moments: &[StoredStep],
+        moment: usize,
+    ) -> Softened {
+        let limit = &self.limits[criterion];
+        let so_far = self.deformation[..=moment].iter();
+        let kappa = so_far.map(|it| limit.utilisation(it)).fold(0.0, f64::max);
+        // It may have been larger between the moments.
+        let is_past = |it: &Nearest| it.criterion == criterion && it.step <= moments[moment].step;
+        let nearest = self.nearest.filter(is_past);
+        limit
+            .after
+            .at(0, nearest.map_or(kappa, |it| kappa.max(it.utilisation)))
+    }
+}
+
+/// A bond with limits and deformations, for tests.
+#[cfg(test)]
+pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> Life {
+    Life {
+        pair: 0,
+        ends: [0, 1],
+        length: 1.0,
+        direction: [1.0, 0.0],
+        limits,
+        n_intact: deformation.len(),
+        deformation,
+        breakage: None,
+        nearest: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// mu = (r - kappa)/(r - 1) and omega = mu/kappa of the largest kappa so far, by hand for r = 4.
+    #[test]
+    fn softening_keeps_to_the_largest_utilisation() {
+        let limit = Limit {
+            name: "tension".to_owned(),
+            measure: Measure::Tension,
+            limit: 2.0,
+            coefficients: Vec::new(),
+            after: AfterLimit::Bilinear { end: vec![4.0] },
+        };
+        let stretched = |stretch| BondDeformation {
+            stretch,
+            ..Default::default()
+        };
+        let mut life = life_of(vec![limit], [1.0, 5.0, -3.0].map(stretched).to_vec());
+        let moments = [0, 5, 10].map(|step| StoredStep {
+            step,
+            load_factor: 0.0,
+            displacement: 0.0,
+            reaction: 0.0,
+        });
+        let state = |life: &Life, moment| {
+            let softened = life.softened(0, &moments, moment);
+            (softened.force, softened.secant)
+        };
+        assert_eq!(state(&life, 0), (1.0, 1.0));
+        assert_eq!(state(&life, 1), (0.5, 0.2));
+        assert_eq!(state(&life, 2), (0.5, 0.2));
+        assert_eq!(life.nearest_of_moments(&moments).map(|it| it.step), Some(5));
+        // Between the moments it was larger: kappa = 3.
+        life.nearest = Some(Nearest {
+            utilisation: 3.0,
+            step: 7,
+            criterion: 0,
+        });
+        assert_eq!(state(&life, 1), (0.5, 0.2));
+        let (force, secant) = state(&life, 2);
+        assert!((force - 1.0 / 3.0).abs() < 1e-15 && (secant - 1.0 / 9.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,19 @@
+//! The program `ligament`: its commands, and what they tell people. Nothing here computes.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`commands`] | a file for each command: its options, its help and what it calls |
+//! | [`check`] | what `ligament check` tells of a case |
+//! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
+//! | [`inspect`] | what `ligament inspect` tells of a mesh |
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
+)]
+
+pub mod check;
+pub mod commands;
+pub mod explain;
+pub mod inspect;
+
+pub use commands::Cli;

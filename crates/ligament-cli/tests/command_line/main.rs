@@ -1,0 +1,356 @@
+//! The program as it is called.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+#[cfg(unix)]
+mod meshing;
+
+fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ligament"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../ligament-case/tests/data")
+        .join(name)
+}
+
+fn plate() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/plate-coarse.msh")
+}
+
+#[test]
+fn help_teaches_every_command() {
+    let output = ligament(["--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    for word in [
+        "run",
+        "sweep",
+        "check",
+        "explain",
+        "inspect",
+        "mesh",
+        "new",
+        "yield",
+        "verify",
+        "schema",
+        "completions",
+        "Examples:",
+        "SI units",
+    ] {
+        assert!(stdout(&output).contains(word), "{word}");
+    }
+    for command in [
+        "run",
+        "sweep",
+        "check",
+        "explain",
+        "inspect",
+        "mesh",
+        "new",
+        "yield",
+        "verify",
+        "schema",
+        "completions",
+    ] {
+        let output = ligament([command, "--help"]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stdout(&output).contains("Examples:"), "{command}");
+    }
+}
+
+#[test]
+fn wrong_usage_exits_with_2() {
+    let output = ligament(["inspct", "disk.msh"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("'inspect'"), "{}", stderr(&output));
+    assert_eq!(ligament(["run"]).status.code(), Some(2));
+    assert_eq!(
+        ligament(["run", "case.toml", "--threads", "0"])
+            .status
+            .code(),
+        Some(2)
+    );
+    assert_eq!(
+        ligament(["mesh", "a.geo", "--set", "h=2mm"]).status.code(),
+        Some(2)
+    );
+}
+
+#[test]
+fn an_unknown_key_is_located_and_exits_with_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(data("brazilian-disk.toml")).unwrap();
+    fs::write(&path, text.replace("horizon_factor", "horizont_factor")).unwrap();
+    let output = ligament([OsStr::new("run"), path.as_os_str()]);
+    assert_eq!(output.status.code(), Some(1));
+    let expected = format!(
+        "error: {}:14:1: model.horizont_factor: unknown key",
+        path.display()
+    );
+    assert!(
+        stderr(&output).starts_with(&expected),
+        "{}",
+        stderr(&output)
+    );
+    assert!(stderr(&output).contains("did you mean `horizon_factor`?"));
+}
+
+#[test]
+fn a_wrong_setting_is_blamed_on_the_command_line() {
+    let path = data("brazilian-disk.toml");
+    let output = ligament([
+        OsStr::new("run"),
+        path.as_os_str(),
+        "--set".as_ref(),
+        "mesh.plane=strian".as_ref(),
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).starts_with("error: --set mesh.plane=strian: mesh.plane: unknown value")
+    );
+}
+
+#[test]
+fn a_wrong_setting_of_the_solver_exits_with_1() {
+    let path = data("brazilian-disk.toml");
+    for (setting, message) in [
+        (
+            "solver.updat=refactor",
+            "solver.updat: unknown key `updat` in [solver]; did you mean `update`?",
+        ),
+        (
+            "solver.update=refactr",
+            "solver.update: unknown value \"refactr\"; did you mean \"refactor\"?",
+        ),
+        ("solver=fast", "solver: expected \"auto\" or a table"),
+        ("solver.threads=5000", "solver.threads: must be 1 to 1024"),
+    ] {
+        let arguments = ["run".as_ref(), path.as_os_str(), "--set".as_ref()];
+        let output = ligament(arguments.into_iter().chain([setting.as_ref()]));
+        assert_eq!(output.status.code(), Some(1), "{setting}");
+        let expected = format!("error: --set {setting}: {message}");
+        assert!(
+            stderr(&output).starts_with(&expected),
+            "{}",
+            stderr(&output)
+        );
+    }
+    let output = ligament(["run", "case.toml", "--threads", "5000"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// L L^T for a stiffness that is not positive definite (nu = 0.38): an outcome that tells what to choose, and a run with
+/// what was advised.
+#[test]
+fn llt_of_an_indefinite_stiffness_says_what_to_choose() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = format!(
+        "mesh = {{ file = {:?} }}\n\
+         material = {{ young = 15e9, poisson = 0.38, tensile_strength = 3.81e6 }}\n\
+         model = {{ law = \"nhpd\", horizon_factor = 3.0 }}\n\
+         support = [{{ group = \"left\", displacement = {{ x = 0.0, y = 0.0 }} }}]\n\
+         load = [{{ group = \"right\", displacement = {{ x = 1e-5 }} }}]\n\
+         fracture = {{ steps = 2 }}\n",
+        plate()
+    );
+    fs::write(&path, text).unwrap();
+    let run = |setting: &str| {
+        let out = folder.path().join(setting);
+        let output = ligament([
+            OsStr::new("run"),
+            path.as_os_str(),
+            "--out".as_ref(),
+            out.as_os_str(),
+            "--set".as_ref(),
+            OsStr::new(setting),
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+        (stdout(&output), summary)
+    };
+    let (said, summary) = run("solver.factorisation=llt");
+    assert!(summary.contains("\"no-equilibrium\""), "{summary}");
+    let advice = "let the factorisation be \"auto\" or \"ldlt\"";
+    assert!(
+        said.contains("not positive definite") && said.contains(advice),
+        "{said}"
+    );
+    for setting in ["solver.factorisation=ldlt", "solver=auto"] {
+        let (_, summary) = run(setting);
+        assert!(summary.contains("\"steps-done\""), "{summary}");
+        assert!(summary.contains("\"factorisation\": \"ldlt\""), "{summary}");
+    }
+}
+
+#[test]
+fn files_that_are_not_there_are_named() {
+    for command in ["run", "check", "inspect"] {
+        let output = ligament([command, "nowhere/file"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            stderr(&output).contains("nowhere/file"),
+            "{}",
+            stderr(&output)
+        );
+        assert!(
+            stderr(&output).contains("\n  because: No such file"),
+            "{}",
+            stderr(&output)
+        );
+    }
+}
+
+#[test]
+fn completions_name_the_commands() {
+    for shell in ["bash", "zsh", "fish"] {
+        let output = ligament(["completions", shell]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stdout(&output).contains("inspect"), "{shell}");
+    }
+}
+
+#[test]
+fn inspect_shows_the_groups() {
+    let output = ligament([OsStr::new("inspect"), plate().as_os_str()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for word in [
+        "nodes",
+        "bounding box",
+        "ratio",
+        "groups",
+        "surface",
+        "curve",
+    ] {
+        assert!(
+            stdout(&output).contains(word),
+            "{word} in\n{}",
+            stdout(&output)
+        );
+    }
+}
+
+/// With `--model-only` all stages of the preparation are reported and the matrix is not touched.
+#[test]
+fn check_can_leave_the_matrix_out() {
+    let case = data("brazilian-disk.toml");
+    let check = |more: &[&str]| {
+        let arguments = [OsStr::new("check"), case.as_os_str()];
+        let output = ligament(arguments.into_iter().chain(more.iter().map(OsStr::new)));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let (whole, model) = (check(&[]), check(&["--model-only"]));
+    for stage in ["read mesh", "points", "bonds", "correction", "rigidities"] {
+        let line = format!("\n  time, {stage} ");
+        assert!(whole.contains(&line) && model.contains(&line), "{stage}");
+    }
+    for line in ["\nequations\n", "\n  time, analysis "] {
+        assert!(whole.contains(line) && !model.contains(line), "{line}");
+    }
+    if cfg!(target_os = "linux") {
+        assert!(model.contains("\n  peak memory "), "{model}");
+    }
+    // Beside equations and times both say the same.
+    let head = |text: &str| text.split("time and memory\n").next().unwrap().to_owned();
+    assert!(whole.starts_with(&head(&model)), "{model}");
+}
+
+#[test]
+fn a_file_that_is_no_mesh_is_refused() {
+    let output = ligament([
+        OsStr::new("inspect"),
+        data("brazilian-disk.toml").as_os_str(),
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).starts_with("error: cannot use the mesh"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(
+        stderr(&output).contains("\n  because: "),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn verify_lists_its_experiments_and_knows_no_others() {
+    let output = ligament(["verify", "--list"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(
+        stdout(&output)
+            .lines()
+            .any(|line| line.starts_with("disk ") && line.contains("eq. 22"))
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("report");
+    let output = ligament([
+        "verify".as_ref(),
+        "disc".as_ref(),
+        "--out".as_ref(),
+        out.as_os_str(),
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    let message = "error: no experiment `disc`; did you mean `disk`?";
+    assert!(stderr(&output).starts_with(message), "{}", stderr(&output));
+    assert!(!out.exists(), "nothing is written");
+}
+
+/// A report is written once; an earlier one is replaced only if that is asked for, and results of a run never.
+#[test]
+fn a_verification_writes_its_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("report");
+    let verify = |more: &[&str]| {
+        let words = ["verify", "poisson", "--fast", "--out"].map(OsStr::new);
+        ligament(
+            words
+                .into_iter()
+                .chain([out.as_os_str()])
+                .chain(more.iter().map(OsStr::new)),
+        )
+    };
+    let output = verify(&[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).contains("within tolerance"));
+    for file in [
+        "README.md",
+        "verification.csv",
+        "poisson-mesh.csv",
+        "poisson-mesh.svg",
+    ] {
+        assert!(out.join(file).is_file(), "{file}");
+    }
+    let output = verify(&[]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("--force"), "{}", stderr(&output));
+    assert_eq!(verify(&["--force"]).status.code(), Some(0));
+    fs::rename(out.join("verification.csv"), out.join("case.resolved.toml")).unwrap();
+    let output = verify(&["--force"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).contains("no verification.csv"),
+        "{}",
+        stderr(&output)
+    );
+}

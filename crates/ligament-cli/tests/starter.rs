@@ -1,0 +1,371 @@
+//! `ligament new`: its cases check and run as they are, whatever the groups of the mesh.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use ligament_case::case::{CaseFile, Law, Place, schema};
+use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
+use ligament_cli::check::{Extent, check};
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn meshes() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
+}
+
+/// The case of a starter, as a file in a folder would be read.
+fn case(starter: &Starter, folder: &Path) -> CaseFile {
+    let parsed = CaseFile::parse(&folder.join("case.toml"), starter.text.clone(), &[]);
+    parsed.unwrap_or_else(|error| panic!("{error}\n{}", starter.text))
+}
+
+fn checked(case: &CaseFile, extent: Extent) -> String {
+    let mut report = Vec::new();
+    check(case, extent, None, &mut report)
+        .unwrap_or_else(|error| panic!("{error:#}\n{}", case.text));
+    String::from_utf8(report).unwrap()
+}
+
+/// The text with all settings that stand as comments taken.
+fn with_all_settings(text: &str) -> String {
+    let lines = text.lines().map(|line| match line.strip_prefix('#') {
+        Some(setting) if setting.starts_with(|it: char| it.is_alphabetic() || it == '[') => setting,
+        _ => line,
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Every mesh of the repository gets a case that checks, and so it does with all settings that are there as comments.
+#[test]
+fn every_mesh_has_a_case_that_checks() {
+    let folder = TempDir::new().unwrap();
+    let mut count = 0;
+    for entry in std::fs::read_dir(meshes()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|it| it != "msh") {
+            continue;
+        }
+        count += 1;
+        let mut starter = of_mesh(&path, folder.path(), Law::Nhpd).unwrap();
+        assert!(
+            starter.warnings.is_empty(),
+            "{}: {:?}",
+            path.display(),
+            starter.warnings
+        );
+        let report = checked(&case(&starter, folder.path()), Extent::Model);
+        assert!(report.contains("domain correction"), "{report}");
+        starter.text = with_all_settings(&starter.text);
+        let report = checked(&case(&starter, folder.path()), Extent::Model);
+        assert!(
+            !report.contains("(0 cut by pre-cracks)"),
+            "{}\n{report}",
+            starter.text
+        );
+    }
+    assert!(count > 10, "{count} meshes");
+}
+
+/// What a user would name so is held and loaded; a platen is pressed, an end pulled, by displacements away from zero in the right
+/// direction.
+#[test]
+fn groups_are_found_by_their_names() {
+    let folder = TempDir::new().unwrap();
+    for (mesh, held, loaded, axis, sign) in [
+        ("plate.msh", "bottom", "top", 1, 1.0),
+        ("bimaterial.msh", "left", "right", 0, 1.0),
+        ("disk-2mm.msh", "platen-bottom", "platen-top", 1, -1.0),
+        ("diagonal-plate.msh", "patch-bottom", "patch-top", 1, 1.0),
+    ] {
+        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
+        let case = case(&starter, folder.path()).case;
+        assert_eq!(
+            case.supports[0].place,
+            Place::Group(held.to_owned()),
+            "{mesh}"
+        );
+        assert_eq!(
+            case.loads[0].place,
+            Some(Place::Group(loaded.to_owned())),
+            "{mesh}"
+        );
+        let ligament_case::case::Action::Displacement(moved) = case.loads[0].action else {
+            panic!("{:?}", case.loads[0].action)
+        };
+        let components = [moved.x, moved.y];
+        assert!(
+            components[axis].unwrap() * sign > 0.0,
+            "{mesh}: {components:?}"
+        );
+        assert_eq!(components[1 - axis], None, "{mesh}");
+    }
+}
+
+/// Without suitable groups rectangles around the lowest and the highest points are taken, which hold some.
+#[test]
+fn without_groups_boxes_are_taken() {
+    let folder = TempDir::new().unwrap();
+    for mesh in ["annulus-coarse.msh", "heated-disk.msh"] {
+        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
+        let case = case(&starter, folder.path());
+        assert!(
+            matches!(case.case.supports[0].place, Place::Box(_)),
+            "{}",
+            starter.text
+        );
+        let report = checked(&case, Extent::Matrix);
+        assert!(!report.contains(" 0 points"), "{report}");
+    }
+}
+
+fn ligament(arguments: &[&str], folder: &Path) -> Output {
+    let program = Command::new(env!("CARGO_BIN_EXE_ligament"));
+    let mut program = program;
+    program
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+/// Runs `new` with arguments and the case; the number of broken bonds.
+fn broken(arguments: &[&str]) -> u64 {
+    let folder = TempDir::new().unwrap();
+    let made = ligament(&[&["new"], arguments].concat(), folder.path());
+    assert!(made.status.success(), "{arguments:?}: {made:?}");
+    let run = ligament(&["run", "case.toml", "--out", "results"], folder.path());
+    let text = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    assert!(run.status.success(), "{arguments:?}: {run:?}\n{text}");
+    let summary = std::fs::read_to_string(folder.path().join("results/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let rows = std::fs::read_to_string(folder.path().join("results/breaks.csv")).unwrap();
+    let count = rows.lines().skip(1).count() as u64;
+    assert_eq!(summary["broken_bonds"], count);
+    count
+}
+
+/// The cases run as they are, and something breaks: meshes with platens, ends, two materials and no groups that suit, each with
+/// other laws, and lattices.
+#[test]
+fn the_cases_run_and_break_bonds() {
+    let at = |mesh: &str| meshes().join(mesh).to_string_lossy().into_owned();
+    for (mesh, law) in [
+        ("bimaterial.msh", "nhpd"),
+        ("disk-4mm.msh", "nhpd"),
+        ("plate-coarse.msh", "nhpd"),
+        ("heated-disk.msh", "nhpd"),
+        ("plate-coarse.msh", "bbpd"),
+        ("plate-coarse.msh", "bbpd-conical"),
+        ("plate-coarse.msh", "pds"),
+        ("plate-coarse.msh", "mppd"),
+        ("plate-coarse.msh", "mppd-beam"),
+        ("plate-coarse.msh", "orthotropic"),
+    ] {
+        assert!(broken(&[&at(mesh), "--law", law]) > 10, "{mesh} by {law}");
+    }
+    for law in ["nhpd", "mbb-pd"] {
+        assert!(
+            broken(&["--lattice", "12,24,0.005", "--law", law]) > 10,
+            "lattice by {law}"
+        );
+    }
+}
+
+/// A square of two by two cells of a side, with groups of these names: the left and the right half, the lower and the upper side.
+fn square(side: f64, names: [&str; 4]) -> String {
+    let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n".to_owned();
+    for (number, (dimension, name)) in [2, 2, 1, 1].into_iter().zip(names).enumerate() {
+        text += &format!("{dimension} {} \"{name}\"\n", number + 1);
+    }
+    text += "$EndPhysicalNames\n$Nodes\n25\n";
+    for node in 0..25 {
+        let [x, y] = [node % 5, node / 5].map(|it| f64::from(it) * side / 4.0);
+        text += &format!("{} {x} {y} 0\n", node + 1);
+    }
+    text += "$EndNodes\n$Elements\n24\n";
+    let mut number = 0;
+    for cell in 0..16 {
+        let (x, y) = (cell % 4, cell / 4);
+        let (corner, group) = (y * 5 + x + 1, if x < 2 { 1 } else { 2 });
+        number += 1;
+        text += &format!(
+            "{number} 3 2 {group} {group} {corner} {} {} {}\n",
+            corner + 1,
+            corner + 6,
+            corner + 5
+        );
+    }
+    for (group, first) in [(3, 1), (4, 21)] {
+        for edge in first..first + 4 {
+            number += 1;
+            text += &format!("{number} 1 2 {group} {group} {edge} {}\n", edge + 1);
+        }
+    }
+    text + "$EndElements\n"
+}
+
+fn of_text(text: &str) -> (TempDir, Result<Starter, StarterError>) {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("a mesh.msh");
+    std::fs::write(&path, text).unwrap();
+    let starter = of_mesh(&path, folder.path(), Law::Nhpd);
+    (folder, starter)
+}
+
+/// Names with blanks, dots, commas and backslashes stand in the case as TOML wants them.
+#[test]
+fn names_are_quoted() {
+    let names = ["left half", "right.half", "bottom, held", "top \\ 'moved'"];
+    let (folder, starter) = of_text(&square(0.1, names));
+    let case = case(&starter.unwrap(), folder.path());
+    let materials: Vec<_> = case
+        .case
+        .materials
+        .iter()
+        .map(|it| it.group.as_deref().unwrap())
+        .collect();
+    assert_eq!(materials, ["left half", "right.half"]);
+    assert_eq!(
+        case.case.supports[0].place,
+        Place::Group(names[2].to_owned())
+    );
+    assert_eq!(
+        case.case.loads[0].place,
+        Some(Place::Group(names[3].to_owned()))
+    );
+    checked(&case, Extent::Matrix);
+    let (folder, starter) = of_text(&square(0.1, ["a", "b", "top", "bottom, \u{e9}"]));
+    let case = self::case(&starter.unwrap(), folder.path());
+    assert_eq!(
+        case.case.loads[0].place,
+        Some(Place::Group("top".to_owned()))
+    );
+    let (folder, starter) = of_text(&square(0.1, ["a", "b", "base", "top, moved"]));
+    let case = self::case(&starter.unwrap(), folder.path());
+    assert_eq!(case.case.loads[0].name, "load");
+}
+
+/// Groups whose names tell nothing are found by where they lie.
+#[test]
+fn groups_are_found_by_their_place() {
+    let (folder, starter) = of_text(&square(0.1, ["1", "2", "17", "4"]));
+    let case = case(&starter.unwrap(), folder.path());
+    assert_eq!(case.case.supports[0].place, Place::Group("17".to_owned()));
+    assert_eq!(case.case.loads[0].place, Some(Place::Group("4".to_owned())));
+    checked(&case, Extent::Matrix);
+}
+
+/// A body of 100 m was meant in mm; bodies of all other sizes get numbers that suit them.
+#[test]
+fn sizes_are_sensible() {
+    let names = ["left", "right", "bottom", "top"];
+    let (_folder, large) = of_text(&square(100.0, names));
+    let large = large.unwrap();
+    assert!(
+        large.warnings[0].contains("100.0 m across"),
+        "{:?}",
+        large.warnings
+    );
+    assert!(
+        large.text.contains("# WARNING: the body is 100.0 m across"),
+        "{}",
+        large.text
+    );
+    for side in [1e-7, 0.1, 19.0] {
+        let (folder, starter) = of_text(&square(side, names));
+        let starter = starter.unwrap();
+        assert_eq!(starter.warnings, Vec::<String>::new());
+        checked(&case(&starter, folder.path()), Extent::Matrix);
+    }
+}
+
+#[test]
+fn a_lattice_takes_the_place_of_a_mesh() {
+    for law in Law::ALL {
+        let starter = of_lattice([12, 30], 0.001, law);
+        let case = case(&starter, Path::new(""));
+        checked(&case, Extent::Matrix);
+    }
+    let small = of_lattice([4, 4], 2.0, Law::Nhpd);
+    checked(&case(&small, Path::new("")), Extent::Matrix);
+}
+
+/// The case of every law is valid by the schema, as an editor will see it.
+#[test]
+fn the_cases_are_valid_for_editors() {
+    let (mut schemas, mut compiler) = (boon::Schemas::new(), boon::Compiler::new());
+    compiler.add_resource("case.json", schema()).unwrap();
+    let index = compiler.compile("case.json", &mut schemas).unwrap();
+    for law in Law::ALL {
+        let text = of_lattice([12, 30], 0.001, law).text;
+        for text in [text.clone(), with_all_settings(&text)] {
+            let document: Value = toml::from_str(&text).unwrap();
+            let valid = schemas.validate(&document, index);
+            assert!(valid.is_ok(), "{:#}\n{text}", valid.unwrap_err());
+        }
+    }
+}
+
+#[test]
+fn what_is_no_mesh_is_refused() {
+    let folder = TempDir::new().unwrap();
+    let of = |name: &str, text: &str, law: Law| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        of_mesh(&path, folder.path(), law).unwrap_err().to_string()
+    };
+    let error = of("plate.geo", "Point(1) = {0, 0, 0};", Law::Nhpd);
+    assert!(
+        error.contains("is a geometry") && error.contains("ligament mesh"),
+        "{error}"
+    );
+    let error = of("plate.inp", "*NODE\n", Law::Nhpd);
+    assert!(
+        error.contains("not a Gmsh mesh") && error.contains("--via-meshio"),
+        "{error}"
+    );
+    let error = of("plate.msh", "*NODE\n", Law::Nhpd);
+    assert!(error.contains("cannot use the mesh"), "{error}");
+    let error = of("a.msh", &square(1.0, ["a", "b", "c", "d"]), Law::MbbPd);
+    assert!(error.contains("--lattice"), "{error}");
+    let missing = of_mesh(Path::new("nowhere.msh"), folder.path(), Law::Nhpd).unwrap_err();
+    assert!(
+        missing
+            .to_string()
+            .contains("cannot read the mesh nowhere.msh"),
+        "{missing}"
+    );
+}
+
+/// An existing case is not replaced unless asked for, and an error leaves no file.
+#[test]
+fn cases_are_not_overwritten() {
+    let folder = TempDir::new().unwrap();
+    let mesh = meshes().join("plate-coarse.msh");
+    let mesh = mesh.to_str().unwrap();
+    let wrong = ligament(&["new", "nowhere.msh"], folder.path());
+    assert_eq!(wrong.status.code(), Some(1));
+    assert!(!folder.path().join("case.toml").exists());
+    assert!(ligament(&["new", mesh], folder.path()).status.success());
+    std::fs::write(folder.path().join("case.toml"), "mine").unwrap();
+    let again = ligament(&["new", mesh], folder.path());
+    assert_eq!(again.status.code(), Some(1));
+    let said = String::from_utf8(again.stderr).unwrap();
+    assert!(
+        said.contains("case.toml is there already") && said.contains("--force"),
+        "{said}"
+    );
+    let kept = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    assert_eq!(kept, "mine");
+    assert!(
+        ligament(&["new", mesh, "--force"], folder.path())
+            .status
+            .success()
+    );
+    assert_eq!(ligament(&["new"], folder.path()).status.code(), Some(2));
+    let elsewhere = ligament(&["new", mesh, "--out", "a/b/case.toml"], folder.path());
+    assert!(elsewhere.status.success(), "{elsewhere:?}");
+    assert!(CaseFile::load(&folder.path().join("a/b/case.toml"), &[]).is_ok());
+}

@@ -1,0 +1,173 @@
+//! The body on which fields are drawn, and the fields that do not change.
+
+use std::path::Path;
+
+use super::absence::AbsentBond;
+use crate::Error;
+use crate::vtu::{self, Field, UnstructuredGrid};
+
+/// The body as output files show it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyGrid {
+    /// Positions of the points, shape (n_points), m.
+    pub positions: Vec<[f64; 2]>,
+    /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
+    pub tags: Vec<i64>,
+    /// The noun that tags belong to: `node` or `cell`.
+    pub tagged: &'static str,
+    /// The cells on which the fields of the points are drawn.
+    pub canvas: Canvas,
+}
+
+/// The cells on which the fields of the points are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Canvas {
+    /// Cells between the points, whose fields are point data.
+    Between(Vec<vtu::Cell>),
+    /// A cell of its own for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to
+    /// no other cell: they move with the point, and cracks open.
+    Around(Vec<[[f64; 2]; 4]>),
+}
+
+/// Fields that do not change during a run, beside those of the bond system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FixedFields {
+    /// Horizons, shape (n_points), m.
+    pub horizon: Vec<f64>,
+    /// Share of its bonds that pre-cracks cut, shape (n_points).
+    pub precrack_share: Vec<f64>,
+    /// Energy density over the continuum's for uniaxial x, uniaxial y, biaxial and shear strain, shape (4, n_points).
+    pub energy_ratios: [Vec<f64>; 4],
+    /// Omega of each bond, shape (n_bonds).
+    pub domain_factor: Vec<f64>,
+    /// Points whose bonds never fail, shape (n_points).
+    pub no_fail: Vec<bool>,
+    /// Pairs within a horizon that are no bonds, in the order of their ends.
+    pub absent: Vec<AbsentBond>,
+}
+
+impl FixedFields {
+    pub(super) fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
+        let [uniaxial_x, uniaxial_y, biaxial, shear] = &self.energy_ratios;
+        vec![
+            Field::scalar("volume", volumes),
+            Field::scalar("horizon", &self.horizon),
+            Field::scalar("nearest_distance", spacing),
+            Field::scalar("precrack_share", &self.precrack_share),
+            Field::scalar("energy_ratio_x", uniaxial_x),
+            Field::scalar("energy_ratio_y", uniaxial_y),
+            Field::scalar("energy_ratio_biaxial", biaxial),
+            Field::scalar("energy_ratio_shear", shear),
+        ]
+    }
+}
+
+/// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.
+pub fn point_grid(
+    path: &Path,
+    grid: &BodyGrid,
+    volumes: &[f64],
+    spacing: &[f64],
+    fixed: &FixedFields,
+) -> Result<(), Error> {
+    let mut fields = fixed.fields(volumes, spacing);
+    fields.push(Field::integer(grid.tagged, &grid.tags));
+    grid.write(path, None, &fields)
+}
+
+/// Writes fields of the points (n_points) of a body at rest, with the tags of the points.
+pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
+    let tags = Field::integer(grid.tagged, &grid.tags);
+    let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
+    grid.write(path, None, &all)
+}
+
+impl BodyGrid {
+    /// Writes fields of the points, the displacement first so that readers warp by it.
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        displacement: Option<&[[f64; 3]]>,
+        fields: &[Field<'_>],
+    ) -> Result<(), Error> {
+        let vector = |values| Field::vector("displacement", values);
+        let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
+        all.extend(fields);
+        match &self.canvas {
+            Canvas::Between(cells) => {
+                let grid = UnstructuredGrid {
+                    points: &self.positions,
+                    cells,
+                    point_fields: &all,
+                    cell_fields: &[],
+                };
+                vtu::write_vtu(path, &grid)
+            }
+            Canvas::Around(corners) => {
+                let cells: Vec<vtu::Cell> = (0..corners.len() as u32)
+                    .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
+                    .collect();
+                let of_corners: Option<Vec<[f64; 3]>> = displacement
+                    .map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
+                let of_corners: Vec<Field<'_>> =
+                    of_corners.as_deref().map(vector).into_iter().collect();
+                let grid = UnstructuredGrid {
+                    points: corners.as_flattened(),
+                    cells: &cells,
+                    point_fields: &of_corners,
+                    cell_fields: &all,
+                };
+                vtu::write_vtu(path, &grid)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vtkio::model::{Attribute, DataSet, Piece, Vtk};
+
+    fn names(attributes: &[Attribute]) -> Vec<&str> {
+        attributes.iter().map(Attribute::name).collect()
+    }
+
+    /// Two cells of a lattice: each has four corners of its own, which move with it; all else is cell data.
+    #[test]
+    fn cells_around_points_have_their_own_corners() {
+        let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
+        let grid = BodyGrid {
+            positions: vec![[0.5, 0.5], [1.5, 0.5]],
+            tags: vec![1, 2],
+            tagged: "cell",
+            canvas: Canvas::Around(vec![square(0.0), square(1.0)]),
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.vtu");
+        let (moved, damage) = ([[0.0, 0.0, 0.0], [0.25, -0.5, 0.0]], [0.0, 0.75]);
+        let fields = [
+            Field::scalar("damage", &damage),
+            Field::integer(grid.tagged, &grid.tags),
+        ];
+        grid.write(&path, Some(&moved), &fields).unwrap();
+        let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
+            panic!("not an unstructured grid");
+        };
+        let Piece::Inline(piece) = pieces.into_iter().next().unwrap() else {
+            panic!("not inline");
+        };
+        assert_eq!((piece.num_points(), piece.cells.num_cells()), (8, 2));
+        let (_, vertices) = piece.cells.cell_verts.clone().into_legacy();
+        assert_eq!(vertices, [4, 0, 1, 2, 3, 4, 4, 5, 6, 7]);
+        assert_eq!(names(&piece.data.point), ["displacement"]);
+        assert_eq!(names(&piece.data.cell), ["displacement", "damage", "cell"]);
+        let Attribute::DataArray(array) = &piece.data.point[0] else {
+            panic!("no array");
+        };
+        let expected: Vec<f64> = (moved.iter())
+            .flat_map(|corner| [*corner; 4].concat())
+            .collect();
+        assert_eq!(array.data.clone().into_vec::<f64>().unwrap(), expected);
+    }
+}

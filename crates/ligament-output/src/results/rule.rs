@@ -1,0 +1,42 @@
+//! Rules of what is written, and how often.
+
+use ligament_analysis::ControlKind;
+use ligament_analysis::history::{StepRecord, View};
+
+/// Rules of what is written, and how often.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WriteRule {
+    /// Fields at every so many load steps, besides the first and the last; 0: only these two.
+    pub fields_every: usize,
+    /// Whether to write the bonds as well.
+    pub bonds: bool,
+    /// Whether to write the model, by which a bond can be explained later.
+    pub model: bool,
+    /// Whether the fields have the virial stress.
+    pub virial: bool,
+    /// Whether the fields have the traction on planes through the points.
+    pub traction: bool,
+    /// The quantity that stands for time in the collections.
+    pub time: Time,
+}
+
+/// The quantity that stands for the time of an output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Time {
+    /// The applied displacement, or the applied load where the load is given.
+    Load,
+    /// The number of the row of the history, for a path on which displacement and load go back.
+    Step,
+}
+
+impl Time {
+    pub(super) fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
+        match (self, view.boundary.control.kind) {
+            (Self::Step, _) => record.step as f64,
+            (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {
+                record.displacement
+            }
+            (Self::Load, ControlKind::Force) => record.reaction,
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What decides about the results of a run: its resolved case and the content of the files that it reads.
+
+use std::collections::HashMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use ligament_case::case::{BodySection, CaseFile, TemperatureChange};
+
+/// All inputs of a run as text, the same wherever its files lie and however many threads it has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inputs(String);
+
+/// Contents of files by their path, each read once.
+#[derive(Debug, Default)]
+pub(crate) struct Contents(HashMap<PathBuf, String>);
+
+impl Contents {
+    /// What tells the content of a file: its size and a digest of its bytes.
+    pub(crate) fn of(&mut self, path: &Path) -> io::Result<String> {
+        if let Some(known) = self.0.get(path) {
+            return Ok(known.clone());
+        }
+        let bytes = fs::read(path)?;
+        let digest = twox_hash::XxHash64::oneshot(0, &bytes);
+        let content = format!("{} bytes, xxh64 {digest:016x}", bytes.len());
+        self.0.insert(path.to_owned(), content.clone());
+        Ok(content)
+    }
+}
+
+impl Inputs {
+    /// Those of a case; `mesh` is what stands for the content of its mesh file where that is not there yet.
+    ///
+    /// # Errors
+    ///
+    /// If a file cannot be read, with its path.
+    pub(crate) fn of(
+        case: &CaseFile,
+        mesh: Option<&str>,
+        contents: &mut Contents,
+    ) -> Result<Self, (PathBuf, io::Error)> {
+        let mut plain = case.clone();
+        plain.case.solver.threads = None;
+        let mut content = |path: &PathBuf| contents.of(path).map_err(|error| (path.clone(), error));
+        if let BodySection::Mesh(section) = &mut plain.case.body {
+            let content = match mesh {
+                Some(content) => content.to_owned(),
+                None => content(&section.file)?,
+            };
+            section.file = content.into();
+        }
+        for temperature in &mut plain.case.temperatures {
+            if let TemperatureChange::Table { file } = &mut temperature.change {
+                *file = content(file)?.into();
+            }
+        }
+        // What cannot be written as TOML cannot be run either, and says so there.
+        Ok(Self(plain.resolved_toml().unwrap_or_default()))
+    }
+
+    /// What a record keeps of them.
+    pub fn text(&self) -> &str {
+        &self.0
+    }
+
+    /// How they differ from those of an earlier run, in a few words.
+    pub fn difference(&self, earlier: &str) -> String {
+        let added: Vec<&str> = self.0.lines().filter(|line| !has(earlier, line)).collect();
+        let gone = earlier.lines().filter(|line| !has(&self.0, line)).count();
+        match added.as_slice() {
+            [] => format!("{gone} lines of the case are gone"),
+            [one] => format!("now {one}"),
+            [first, rest @ ..] => format!("now {first}, and {} more", rest.len()),
+        }
+    }
+}
+
+fn has(text: &str, line: &str) -> bool {
+    text.lines().any(|other| other == line)
+}

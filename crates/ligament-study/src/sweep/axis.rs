@@ -1,0 +1,401 @@
+//! The axes of a study: keys and the values that they take.
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_json::Value as Cell;
+
+use super::written;
+use ligament_case::case::Fault;
+use ligament_case::case::decode::decode;
+use ligament_case::case::document::{Node, Value};
+use ligament_case::case::fault::KeyFault;
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::values::{not_exactly_one, require, require_unique};
+
+/// Values that an axis may have.
+const MOST_VALUES: usize = 10_000;
+
+/// Significant digits of the values of a range: those that rounding leaves right, so that 1.5 + 3 * 0.1 is 1.8.
+const DIGITS: usize = 12;
+
+/// A setting of a run, as `--set` takes it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Setting {
+    /// `key=value`.
+    pub(crate) given: String,
+    /// Its place in the study.
+    pub(crate) place: KeyPath,
+}
+
+/// A key, or keys that vary together, with their values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The keys of the case file, or the one number of the geometry.
+    pub keys: Vec<String>,
+    /// Whether it is a number of the geometry.
+    pub of_geometry: bool,
+    /// Whether the study gives labels.
+    pub is_labelled: bool,
+    /// Its values in their order.
+    pub points: Vec<AxisPoint>,
+}
+
+/// A value of an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisPoint {
+    /// A value for each key, for tables.
+    pub cells: Vec<Cell>,
+    /// The same as TOML.
+    pub(crate) texts: Vec<String>,
+    /// What people see of it.
+    pub label: String,
+    /// Its place in the study.
+    pub(crate) place: KeyPath,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAxis {
+    key: Option<String>,
+    keys: Option<Vec<String>>,
+    number: Option<String>,
+    values: Option<IgnoredAny>,
+    range: Option<RawRange>,
+    labels: Option<Vec<String>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawRange {
+    from: f64,
+    to: f64,
+    step: Option<f64>,
+    count: Option<usize>,
+    #[serde(default)]
+    log: bool,
+}
+
+impl RawAxis {
+    /// Checks the axis at a place of the study.
+    pub(super) fn check(self, document: &Node, place: &KeyPath) -> Result<Axis, KeyFault> {
+        let (paired, of_geometry) = (self.keys.is_some(), self.number.is_some());
+        let keys = match (self.key, self.keys, self.number) {
+            (Some(key), None, None) => vec![canonical(key, &place.child("key"))?],
+            (None, Some(keys), None) => {
+                let keys = keys.into_iter().enumerate();
+                let keys = keys.map(|(k, key)| canonical(key, &place.child("keys").child(k)));
+                keys.collect::<Result<_, _>>()?
+            }
+            (None, None, Some(number)) => vec![number],
+            (key, keys, number) => {
+                let given = [
+                    ("key", key.is_some()),
+                    ("keys", keys.is_some()),
+                    ("number", number.is_some()),
+                ];
+                return Err(not_exactly_one(place, &given));
+            }
+        };
+        require(
+            !keys.is_empty(),
+            || place.child("keys"),
+            "one key or more",
+            &keys,
+        )?;
+        let points = match (self.values, self.range) {
+            (Some(_), None) => listed(document, place, &keys, paired, of_geometry)?,
+            (None, Some(range)) if !paired => ranged(document, place, &range)?,
+            (None, Some(_)) => {
+                let fault =
+                    "a range has one number a value: give `values = [[..], ..]` for several `keys`";
+                return Err(KeyFault::new(place.child("range"), fault));
+            }
+            (values, range) => {
+                let given = [("values", values.is_some()), ("range", range.is_some())];
+                return Err(not_exactly_one(place, &given));
+            }
+        };
+        let mut axis = Axis {
+            keys,
+            of_geometry,
+            is_labelled: self.labels.is_some(),
+            points,
+        };
+        if let Some(labels) = self.labels {
+            axis.take_labels(labels, &place.child("labels"))?;
+        }
+        let list = place.child(if axis.is_labelled { "labels" } else { "values" });
+        let labels = axis.points.iter().enumerate();
+        require_unique(
+            labels.map(|(k, point)| (list.child(k), point.label.as_str())),
+            ": the runs of an axis are told apart by their values, or by the labels where there are some",
+        )?;
+        Ok(axis)
+    }
+}
+
+impl Axis {
+    fn take_labels(&mut self, labels: Vec<String>, place: &KeyPath) -> Result<(), KeyFault> {
+        if labels.len() != self.points.len() {
+            let (expected, found) = (self.points.len(), labels.len());
+            let fault = format!("there are {expected} values, but {found} labels");
+            return Err(KeyFault::new(place.clone(), fault));
+        }
+        for (k, (point, label)) in self.points.iter_mut().zip(labels).enumerate() {
+            let fits = !label.trim().is_empty() && !label.chars().any(char::is_control);
+            require(fits, || place.child(k), "a label on one line", &label)?;
+            point.label = label;
+        }
+        Ok(())
+    }
+
+    /// The settings that a value of it makes, `key=value` each.
+    pub(super) fn settings<'a>(&'a self, point: &'a AxisPoint) -> impl Iterator<Item = Setting> {
+        self.keys
+            .iter()
+            .zip(&point.texts)
+            .map(|(key, text)| Setting {
+                given: format!("{key}={text}"),
+                place: point.place.clone(),
+            })
+    }
+}
+
+/// The key as it is written everywhere else.
+fn canonical(key: String, place: &KeyPath) -> Result<String, KeyFault> {
+    match KeyPath::parse(&key) {
+        Some(path) if !path.0.is_empty() => Ok(path.to_string()),
+        _ => {
+            let fault = format!("`{key}` is not a key path such as load.0.displacement.y");
+            Err(KeyFault::new(place.clone(), fault))
+        }
+    }
+}
+
+/// The values of a list.
+fn listed(
+    document: &Node,
+    place: &KeyPath,
+    keys: &[String],
+    paired: bool,
+    of_geometry: bool,
+) -> Result<Vec<AxisPoint>, KeyFault> {
+    let place = place.child("values");
+    let values = list(document, &place)?;
+    let size = values.len();
+    let expected = format!("a list of 1 to {MOST_VALUES} values");
+    require(
+        (1..=MOST_VALUES).contains(&size),
+        || place.clone(),
+        &expected,
+        size,
+    )?;
+    let mut points = Vec::new();
+    for (index, value) in values.iter().enumerate() {
+        let place = place.child(index);
+        let of_keys = if paired {
+            list(document, &place)?
+        } else {
+            std::slice::from_ref(value)
+        };
+        if of_keys.len() != keys.len() {
+            let fault = Fault::WrongType {
+                expected: format!("a list of {}, a value for each of the keys", keys.len()),
+                found: format!("a list of {}", of_keys.len()),
+                unit: None,
+            };
+            return Err(KeyFault::new(place, fault));
+        }
+        if of_geometry {
+            decode::<f64>(value, &place)?;
+        }
+        let texts = of_keys.iter().map(|node| written::toml(node, &place));
+        let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+        let cells = of_keys.iter().zip(&texts);
+        let cells: Vec<Cell> = cells
+            .map(|(node, text)| written::cell(node, text))
+            .collect();
+        points.push(AxisPoint {
+            label: label(&cells),
+            cells,
+            texts,
+            place,
+        });
+    }
+    Ok(points)
+}
+
+/// What people see of values that have no label.
+fn label(cells: &[Cell]) -> String {
+    let words: Vec<String> = cells.iter().map(short_words).collect();
+    words.join(", ")
+}
+
+/// A value in words: of a path the file without folder and ending, of a large or small number its exponent.
+pub(super) fn short_words(cell: &Cell) -> String {
+    match cell {
+        Cell::String(text) if text.contains('/') => {
+            let stem = std::path::Path::new(text).file_stem();
+            stem.map_or(text.clone(), |stem| stem.to_string_lossy().into_owned())
+        }
+        Cell::Number(number) => match number.as_f64() {
+            Some(float)
+                if number.is_f64() && float != 0.0 && !(1e-3..1e5).contains(&float.abs()) =>
+            {
+                format!("{float:e}")
+            }
+            _ => number.to_string(),
+        },
+        other => written::words(other),
+    }
+}
+
+fn list<'a>(document: &'a Node, place: &KeyPath) -> Result<&'a [Node], KeyFault> {
+    match document.at(place).map(|node| &node.value) {
+        Some(Value::List(nodes)) => Ok(nodes),
+        _ => Err(KeyFault::new(place.clone(), "expected a list")),
+    }
+}
+
+/// The values of a range.
+fn ranged(document: &Node, place: &KeyPath, range: &RawRange) -> Result<Vec<AxisPoint>, KeyFault> {
+    let place = place.child("range");
+    let values = numbers(range, &place)?;
+    let is_whole = |key: &str| {
+        let node = document.at(&place.child(key));
+        node.is_none_or(|node| matches!(node.value, Value::Integer(_)))
+    };
+    // A range of whole numbers has whole numbers, for keys that take no others.
+    let are_whole = ["from", "to", "step"].iter().all(|key| is_whole(key))
+        && values.iter().all(|value| value.fract() == 0.0);
+    let point = |value: &f64| {
+        let cell = if are_whole {
+            Cell::from(*value as i64)
+        } else {
+            Cell::from(*value)
+        };
+        AxisPoint {
+            label: short_words(&cell),
+            texts: vec![cell.to_string()],
+            cells: vec![cell],
+            place: place.clone(),
+        }
+    };
+    Ok(values.iter().map(point).collect())
+}
+
+fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
+    let RawRange { from, to, log, .. } = *range;
+    if log {
+        let both = from > 0.0 && to > 0.0;
+        require(
+            both,
+            || place.clone(),
+            "between numbers greater than 0 with `log`",
+            (from, to),
+        )?;
+    }
+    match (range.step, range.count) {
+        (Some(_), None) if log => {
+            let fault = Fault::NotWith {
+                key: "log",
+                setting: "`step`".to_owned(),
+                reason: "its steps are factors; give their `count`",
+            };
+            Err(KeyFault::new(place.child("log"), fault))
+        }
+        (Some(step), None) => {
+            let place = || place.child("step");
+            let leads = step != 0.0 && (to - from) * step >= 0.0;
+            require(
+                leads,
+                place,
+                "other than 0 and lead from `from` to `to`",
+                step,
+            )?;
+            // The end belongs to the range where the steps lead to it but for rounding.
+            let steps = ((to - from) / step + 1e-9).floor();
+            let most = MOST_VALUES as f64;
+            require(
+                steps < most,
+                place,
+                &format!("so large that there are {MOST_VALUES} values at most"),
+                step,
+            )?;
+            Ok((0..=steps as usize)
+                .map(|k| tidy(from + k as f64 * step))
+                .collect())
+        }
+        (None, Some(count)) => {
+            let place = || place.child("count");
+            require(
+                (2..=MOST_VALUES).contains(&count),
+                place,
+                &format!("2 to {MOST_VALUES}"),
+                count,
+            )?;
+            require(
+                from != to,
+                place,
+                "1 value where `from` is `to`: give it by `values`",
+                count,
+            )?;
+            let share = |k: usize| k as f64 / (count - 1) as f64;
+            let value = |k: usize| match log {
+                true => from * (to / from).powf(share(k)),
+                false => from + (to - from) * share(k),
+            };
+            Ok((0..count).map(|k| tidy(value(k))).collect())
+        }
+        (step, count) => {
+            let given = [("step", step.is_some()), ("count", count.is_some())];
+            Err(not_exactly_one(place, &given))
+        }
+    }
+}
+
+/// A number without the digits that rounding put there.
+fn tidy(value: f64) -> f64 {
+    let digits = DIGITS - 1;
+    // What is written here is a number.
+    format!("{value:.digits$e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(from: f64, to: f64, step: Option<f64>, count: Option<usize>, log: bool) -> Vec<f64> {
+        let range = RawRange {
+            from,
+            to,
+            step,
+            count,
+            log,
+        };
+        numbers(&range, &KeyPath::default()).unwrap()
+    }
+
+    #[test]
+    fn ranges_have_tidy_numbers_and_their_ends() {
+        let tenths = range(0.1, 0.7, Some(0.1), None, false);
+        assert_eq!(tenths, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+        assert_eq!(
+            range(3.0, 1.5, Some(-0.5), None, false),
+            [3.0, 2.5, 2.0, 1.5]
+        );
+        assert_eq!(
+            range(0.0, 1.0, Some(0.3), None, false),
+            [0.0, 0.3, 0.6, 0.9]
+        );
+        assert_eq!(
+            range(1.5, 4.0, None, Some(6), false),
+            [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]
+        );
+        assert_eq!(
+            range(1e-3, 10.0, None, Some(5), true),
+            [1e-3, 1e-2, 0.1, 1.0, 10.0]
+        );
+        assert_eq!(range(2.0, 2.0, Some(1.0), None, false), [2.0]);
+    }
+}

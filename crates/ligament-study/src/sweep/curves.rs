@@ -1,0 +1,220 @@
+//! The curves of a study's plots: points of its table, and the lines fitted to them.
+
+use super::plan::Run;
+use super::study::{Study, StudyPlot};
+use super::table::{NoColumn, StudyTable};
+use crate::line_fit::{FitError, LineFit};
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::units::unit_of;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
+
+/// Colours of curves, which begin anew where there are more; black is for what is known.
+const COLOURS: [Colour; 6] = [
+    Colour::Blue,
+    Colour::Vermilion,
+    Colour::Green,
+    Colour::Orange,
+    Colour::Purple,
+    Colour::Sky,
+];
+
+/// Points between which a fitted or known line is drawn.
+const LINE_POINTS: usize = 2;
+
+/// The curves of a plot of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves<'a> {
+    /// What the study says of it.
+    pub plot: &'a StudyPlot,
+    /// Name of its file, without the ending.
+    pub name: String,
+    /// The curves in the order of the axis.
+    pub curves: Vec<Curve>,
+}
+
+/// Runs that have one value of the axis `by`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The label of that value; empty where there is one curve for all.
+    pub label: String,
+    /// Points in the order of x, shape (n, 2); runs without numbers have none.
+    pub points: Vec<[f64; 2]>,
+    /// The line through those in the range of the plot's fit, if it has one.
+    pub fit: Option<Result<LineFit, FitError>>,
+}
+
+impl<'a> Curves<'a> {
+    /// Those of a plot over the runs of a table.
+    ///
+    /// # Errors
+    ///
+    /// If x or y is no column of numbers.
+    pub fn of(
+        study: &Study,
+        plot: &'a StudyPlot,
+        runs: &[Run],
+        table: &StudyTable,
+    ) -> Result<Self, NoColumn> {
+        let (x, y) = (table.numbers(&plot.x)?, table.numbers(&plot.y)?);
+        let by = plot.by.as_ref();
+        let axis = by.and_then(|by| study.axes.iter().position(|axis| axis.keys.contains(by)));
+        let points_of = |value: Option<usize>| {
+            let has_it = |run: &Run| axis.map(|axis| run.place[axis]) == value;
+            let rows = runs.iter().zip(x.iter().zip(&y));
+            let rows = rows.filter(|(run, _)| has_it(run));
+            let points = rows.filter_map(|(_, (x, y))| Some([(*x)?, (*y)?]));
+            let mut points: Vec<[f64; 2]> = points.collect();
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            points
+        };
+        let curve = |label: &str, points: Vec<[f64; 2]>| {
+            let fit = plot.fit.map(|range| {
+                let inside = points.iter().copied().filter(|[x, _]| range.contains(*x));
+                LineFit::of(&inside.collect::<Vec<_>>())
+            });
+            Curve {
+                label: label.to_owned(),
+                points,
+                fit,
+            }
+        };
+        let curves = match axis {
+            None => vec![curve("", points_of(None))],
+            Some(axis) => (study.axes[axis].points.iter().enumerate())
+                .map(|(index, point)| curve(&point.label, points_of(Some(index))))
+                .collect(),
+        };
+        Ok(Self {
+            plot,
+            name: format!("{}-over-{}", file_name(&plot.y), file_name(&plot.x)),
+            curves,
+        })
+    }
+
+    /// Places on x where some curve has a point, ascending.
+    pub fn places(&self) -> Vec<f64> {
+        let mut places: Vec<f64> = self.points().map(|[x, _]| *x).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    }
+
+    fn points(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.curves.iter().flat_map(|curve| &curve.points)
+    }
+
+    /// The plot: the runs, the known line dashed, fitted lines in the colours of their curves.
+    pub fn drawn(&self, title: &str) -> Plot {
+        let plot = self.plot;
+        let places = self.places();
+        let ends = places.first().zip(places.last());
+        let mut series = Vec::new();
+        if let (Some(line), Some((&from, &to))) = (&plot.line, ends) {
+            let label = if line.label.is_empty() {
+                "known"
+            } else {
+                &line.label
+            };
+            let points = straight(from, to, |x| line.slope * x + line.intercept);
+            series.push(Series::new(label, Mark::Dashes, Colour::Black, points));
+        }
+        for (curve, &colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
+            let (means, repeated) = curve.means();
+            let label = if curve.label.is_empty() {
+                "runs"
+            } else {
+                &curve.label
+            };
+            match &curve.fit {
+                Some(Ok(fit)) => {
+                    series.push(Series::new(
+                        label,
+                        Mark::Circles,
+                        colour,
+                        curve.points.clone(),
+                    ));
+                    let inside = curve.points.iter().map(|[x, _]| *x);
+                    let inside =
+                        inside.filter(|x| plot.fit.is_some_and(|range| range.contains(*x)));
+                    let (from, to) =
+                        inside.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+                    let points = straight(from, to, |x| fit.at(x));
+                    series.push(Series::new(&equation(fit), Mark::Curve, colour, points));
+                }
+                _ if repeated => {
+                    series.push(Series::new(
+                        label,
+                        Mark::Circles,
+                        colour,
+                        curve.points.clone(),
+                    ));
+                    series.push(Series::new("mean", Mark::Curve, colour, means));
+                }
+                _ => series.push(Series::new(label, Mark::Line, colour, means)),
+            }
+        }
+        Plot {
+            name: self.name.clone(),
+            title: plot.title.clone().unwrap_or_else(|| title.to_owned()),
+            x: plot.x_label.clone().unwrap_or_else(|| with_unit(&plot.x)),
+            y: plot.y_label.clone().unwrap_or_else(|| with_unit(&plot.y)),
+            series,
+        }
+    }
+}
+
+impl Curve {
+    /// The mean of y at each x, and whether some x has several points.
+    pub fn means(&self) -> (Vec<[f64; 2]>, bool) {
+        let groups = self.points.chunk_by(|a, b| a[0] == b[0]);
+        let mean = |group: &[[f64; 2]]| {
+            let sum: f64 = group.iter().map(|[_, y]| y).sum();
+            [group[0][0], sum / group.len() as f64]
+        };
+        let means: Vec<[f64; 2]> = groups.map(mean).collect();
+        let repeated = means.len() < self.points.len();
+        (means, repeated)
+    }
+}
+
+fn straight(from: f64, to: f64, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let share = |k: usize| k as f64 / (LINE_POINTS - 1) as f64;
+    let place = |k: usize| from + (to - from) * share(k);
+    (0..LINE_POINTS).map(|k| [place(k), y(place(k))]).collect()
+}
+
+/// A fitted line as the legend has it.
+fn equation(fit: &LineFit) -> String {
+    let sign = if fit.intercept < 0.0 { '-' } else { '+' };
+    format!(
+        "{} x {sign} {}",
+        rounded(fit.slope),
+        rounded(fit.intercept.abs())
+    )
+}
+
+/// A number with four digits; whole ones as they are.
+pub(super) fn rounded(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || ((100.0..1e5).contains(&size) && value.fract() == 0.0) {
+        return value.to_string();
+    }
+    if !(1e-3..1e5).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    let decimals = (3 - size.log10().floor() as i32).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+fn with_unit(name: &str) -> String {
+    let unit = KeyPath::parse(name).and_then(|key| unit_of(&key));
+    unit.map_or_else(|| name.to_owned(), |unit| format!("{name}, {unit}"))
+}
+
+fn file_name(column: &str) -> String {
+    let letter = |letter: char| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' => letter,
+        _ => '_',
+    };
+    column.chars().map(letter).collect()
+}

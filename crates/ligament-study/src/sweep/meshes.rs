@@ -1,0 +1,103 @@
+//! Meshes that a study makes from a geometry, one for each combination of its numbers.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::plan::Run;
+use crate::meshing::gmsh_program::{MeshRequest, MeshingError, make_mesh};
+
+/// A mesh to be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshPlan {
+    /// How.
+    pub request: MeshRequest,
+    /// What it is made from, in words.
+    pub content: String,
+}
+
+impl MeshPlan {
+    /// The mesh of a geometry with some numbers. Its name changes with the content of the geometry, so that a mesh that is there
+    /// is the right one.
+    pub(super) fn new(
+        geometry: &Path,
+        numbers: Vec<(String, f64)>,
+        folder: &Path,
+        name: &str,
+        content: &str,
+    ) -> Self {
+        let values = numbers
+            .iter()
+            .map(|(name, value)| format!(", {name} = {value:?}"));
+        let content = format!("meshed from {content}{}", values.collect::<String>());
+        let digest = twox_hash::XxHash64::oneshot(0, content.as_bytes());
+        let file = format!("{name}~{:08x}.msh", digest as u32);
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        Self {
+            request: MeshRequest {
+                geometry: geometry.to_owned(),
+                out: folder.join(file),
+                gmsh: "gmsh".into(),
+                numbers,
+            },
+            content,
+        }
+    }
+}
+
+/// Makes the meshes that some runs still lack, by the program `gmsh`; `tell` hears of each. Gives for each run why it has none.
+///
+/// # Errors
+///
+/// If it is not a matter of one mesh alone: no geometry, no program, a number that the geometry does not have.
+pub(super) fn make<'a>(
+    runs: impl IntoIterator<Item = &'a Run>,
+    gmsh: &Path,
+    tell: &mut dyn FnMut(&str),
+) -> Result<BTreeMap<String, String>, MeshingError> {
+    let mut failed = BTreeMap::new();
+    let mut tried: BTreeMap<&Path, Option<String>> = BTreeMap::new();
+    for run in runs {
+        let Some(plan) = &run.mesh else { continue };
+        let out = plan.request.out.as_path();
+        if !tried.contains_key(out) {
+            let reason = if out.is_file() {
+                None
+            } else {
+                make_one(plan, gmsh, tell)?
+            };
+            tried.insert(out, reason);
+        }
+        if let Some(Some(reason)) = tried.get(out) {
+            failed.insert(run.name.clone(), reason.clone());
+        }
+    }
+    Ok(failed)
+}
+
+/// Makes a mesh; gives the reason where gmsh cannot.
+fn make_one(
+    plan: &MeshPlan,
+    gmsh: &Path,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Option<String>, MeshingError> {
+    let request = MeshRequest {
+        gmsh: gmsh.to_owned(),
+        ..plan.request.clone()
+    };
+    match make_mesh(&request) {
+        Ok(mesh) => {
+            let name = request.out.display();
+            tell(&format!("meshed {name}: {} nodes", mesh.positions.len()));
+            Ok(None)
+        }
+        Err(error @ (MeshingError::Gmsh { .. } | MeshingError::Unusable { .. })) => {
+            let lines: Vec<String> = error
+                .to_string()
+                .lines()
+                .map(|line| line.trim().to_owned())
+                .collect();
+            Ok(Some(lines.join("; ")))
+        }
+        Err(error) => Err(error),
+    }
+}

@@ -1,0 +1,311 @@
+//! `ligament sweep`: a base case over all combinations of some of its settings.
+//!
+//! A study file ([`study`]) names the case and axes ([`axis`]); [`plan`] lists the runs and checks the case of each. Runs
+//! are processes of their own (`launch`), in a folder ([`folder`]) that remembers what was computed from which inputs
+//! ([`record`]), so that the same command goes on where it was stopped. At the end there is a [`table`] of all runs, with
+//! [`curves`] and fitted lines ([`crate::line_fit`]).
+
+pub mod axis;
+pub mod curves;
+mod error;
+mod estimate;
+pub mod folder;
+mod launch;
+pub mod meshes;
+pub mod plan;
+mod progress;
+pub mod record;
+mod report;
+pub mod study;
+pub mod table;
+mod written;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use ligament_case::progress::ProgressMode;
+
+pub use error::StudyError;
+pub use launch::take_leash;
+
+use estimate::Estimates;
+use folder::{MARKER, Shard, StudyFolder};
+use launch::Room;
+use plan::Run;
+use progress::{StudyProgress, seconds};
+use record::Status;
+use study::Study;
+use table::Row;
+
+/// What is asked of a study.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// The study file.
+    pub study: PathBuf,
+    /// Its folder; `results/NAME` without it.
+    pub out: Option<PathBuf>,
+    /// What to do.
+    pub task: Task,
+}
+
+/// What to do with the runs of a study.
+#[derive(Debug, Clone)]
+pub enum Task {
+    /// Do what is not done yet.
+    Run(Settings),
+    /// List them.
+    List,
+    /// Make the tables and plots of what is done, in the study's folder or in those named here.
+    Collect(Vec<PathBuf>),
+}
+
+/// How runs are done.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// The part of the runs to do.
+    pub shard: Option<Shard>,
+    /// Runs at once; as many as processors without it.
+    pub jobs: Option<usize>,
+    /// Memory for the runs, GB; what is available without it.
+    pub memory: Option<f64>,
+    /// Do also what is done.
+    pub force: bool,
+    /// The program gmsh.
+    pub gmsh: PathBuf,
+    /// How progress is shown.
+    pub progress: ProgressMode,
+}
+
+/// Does what is asked, with the results on `out`.
+///
+/// # Errors
+///
+/// If the study or its case is wrong, its folder is not one of a study or in use, or runs failed.
+pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
+    let study = Study::load(&request.study)?;
+    let path = match &request.out {
+        Some(path) => path.clone(),
+        None => Path::new("results").join(study.name()),
+    };
+    match &request.task {
+        Task::Run(settings) => run(&study, &path, settings, out),
+        Task::List => list(&study, &path, out),
+        Task::Collect(from) => collect(&study, &path, from, out),
+    }
+}
+
+/// Does the runs that are not done.
+fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<()> {
+    let runs = plan::runs(study, &StudyFolder::at(path).meshes())?;
+    // Nothing is written before the cases of all runs were found good.
+    let folder = StudyFolder::open(path, study)?;
+    let claim = folder.claim(settings.shard)?;
+    let mine: Vec<&Run> = (runs.iter().enumerate())
+        .filter(|(index, _)| settings.shard.is_none_or(|shard| shard.contains(*index)))
+        .map(|(_, run)| run)
+        .collect();
+    let mut todo = Vec::new();
+    let mut notes = Vec::new();
+    for run in &mine {
+        if settings.force {
+            record::forget(run, &folder)?;
+        }
+        match Status::of(run, &folder) {
+            Status::Done(_) => continue,
+            Status::Changed(how) => {
+                notes.push(format!(
+                    "{}: done anew, its inputs changed ({how})",
+                    run.words(study)
+                ));
+            }
+            Status::Failed(_) | Status::Missing => {}
+        }
+        todo.push(*run);
+    }
+    let before = mine.len() - todo.len();
+    let mut progress = StudyProgress::new(study, settings.progress, todo.len());
+    if let Some(Shard { number, count }) = settings.shard {
+        progress.tell(&format!(
+            "shard {number} of {count}: {} of {} runs",
+            mine.len(),
+            runs.len()
+        ));
+    }
+    if before > 0 {
+        progress.tell(&format!("{before} of {} runs were done before", mine.len()));
+    }
+    notes.iter().for_each(|note| progress.tell(note));
+    let unmeshed = meshes::make(todo.iter().copied(), &settings.gmsh, &mut |line| {
+        progress.tell(line)
+    })?;
+    for (name, reason) in &unmeshed {
+        if let Some(run) = todo.iter().find(|run| run.name == *name) {
+            record::fail(run, &folder, reason)?;
+            launch::Audience::ends(
+                &mut progress,
+                run,
+                &Status::Failed(reason.clone()),
+                Duration::ZERO,
+            );
+        }
+    }
+    todo.retain(|run| !unmeshed.contains_key(&run.name));
+    let room = Room::new(settings.jobs, settings.memory);
+    let sum = launch::all(&todo, &folder, &claim.runs, room, &mut progress)?;
+    let (wall, failed) = progress.finish();
+
+    if settings.shard.is_none() {
+        let problems = make_report(study, &runs, &[(&folder, &runs)], &folder, out)?;
+        tell_problems(&problems)?;
+        write_times(out, wall, sum, before)?;
+        writeln!(out, "  results in {}", path.display())?;
+        if failed == 0 && !problems.is_empty() {
+            anyhow::bail!(
+                "not all that the study names could be made; the runs are kept, so mend it and run it again"
+            );
+        }
+    } else {
+        writeln!(out, "{}: {} runs", study.title, mine.len())?;
+        write_times(out, wall, sum, before)?;
+        writeln!(
+            out,
+            "  results in {}; its tables and plots: ligament sweep --collect",
+            path.display()
+        )?;
+    }
+    match failed {
+        0 => Ok(()),
+        failed => Err(StudyError::Failed {
+            failed,
+            total: mine.len(),
+        }
+        .into()),
+    }
+}
+
+fn write_times(
+    out: &mut dyn Write,
+    wall: Duration,
+    sum: Duration,
+    before: usize,
+) -> io::Result<()> {
+    writeln!(
+        out,
+        "  time {}, {} of all runs together; {before} were done before",
+        seconds(wall),
+        seconds(sum)
+    )
+}
+
+fn tell_problems(problems: &[String]) -> io::Result<()> {
+    let mut stderr = io::stderr().lock();
+    problems
+        .iter()
+        .try_for_each(|problem| writeln!(stderr, "warning: {problem}"))
+}
+
+/// Makes the tables and plots of runs that lie in one or several folders, each with the runs as they are there.
+fn make_report(
+    study: &Study,
+    runs: &[Run],
+    folders: &[(&StudyFolder, &[Run])],
+    to: &StudyFolder,
+    out: &mut dyn Write,
+) -> anyhow::Result<Vec<String>> {
+    let row = |(index, run)| {
+        let mut found = Status::Missing;
+        let mut path = String::new();
+        for (folder, there) in folders {
+            let status = Status::of(&there[index], folder);
+            let is_better = match status {
+                Status::Done(_) => true,
+                Status::Failed(_) => !matches!(found, Status::Failed(_)),
+                Status::Missing | Status::Changed(_) => false,
+            };
+            if is_better {
+                path = folder.run(&there[index]).to_string_lossy().into_owned();
+                found = status;
+            }
+            if matches!(found, Status::Done(_)) {
+                break;
+            }
+        }
+        Row {
+            run,
+            status: found,
+            folder: path,
+        }
+    };
+    let rows: Vec<Row<'_>> = runs.iter().enumerate().map(row).collect();
+    report::write(study, runs, &rows, to, out)
+}
+
+/// Makes the tables and plots of what is done.
+fn collect(
+    study: &Study,
+    path: &Path,
+    from: &[PathBuf],
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let own = [path.to_owned()];
+    let paths = if from.is_empty() { &own[..] } else { from };
+    let mut folders = Vec::new();
+    for path in paths {
+        let folder = StudyFolder::at(path);
+        if !folder.is_marked() {
+            let (folder, marker) = (path.clone(), MARKER);
+            return Err(StudyError::NoStudy { folder, marker }.into());
+        }
+        let runs = plan::runs(study, &folder.meshes())?;
+        folders.push((folder, runs));
+    }
+    let to = StudyFolder::open(path, study)?;
+    let runs = plan::runs(study, &to.meshes())?;
+    let there: Vec<(&StudyFolder, &[Run])> = folders
+        .iter()
+        .map(|(folder, runs)| (folder, runs.as_slice()))
+        .collect();
+    let problems = make_report(study, &runs, &there, &to, out)?;
+    tell_problems(&problems)?;
+    writeln!(out, "  tables and plots in {}", path.display())?;
+    Ok(())
+}
+
+/// Lists the runs, whether they are done, and the memory that they take.
+fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
+    let folder = StudyFolder::at(path);
+    let runs = plan::runs(study, &folder.meshes())?;
+    let width = runs.len().to_string().len();
+    let mut estimates = Estimates::default();
+    let mut todo = 0;
+    for (index, run) in runs.iter().enumerate() {
+        let word = match Status::of(run, &folder) {
+            Status::Changed(_) => "changed",
+            status => status.word(),
+        };
+        todo += usize::from(word != "done");
+        let memory = match estimate::has_mesh(&run.case) {
+            true => estimates.of(&run.case).map_or_else(
+                || "no model".to_owned(),
+                |bytes| format!("{:.0} MB", bytes as f64 / 1e6),
+            ),
+            false => "no mesh yet".to_owned(),
+        };
+        let words = run.words(study);
+        writeln!(
+            out,
+            "{:>width$}  {word:<7}  {memory:>11}  {words}",
+            index + 1
+        )?;
+    }
+    if let Some(bytes) = estimate::available() {
+        writeln!(out, "memory available: {:.1} GB", bytes as f64 / 1e9)?;
+    }
+    Ok(writeln!(
+        out,
+        "{} runs, {todo} to do, in {}",
+        runs.len(),
+        path.display()
+    )?)
+}

@@ -1,0 +1,365 @@
+//! The runs of a study: all combinations of the values of its axes, each with a name and a checked case.
+
+use std::fs;
+use std::path::Path;
+
+use super::axis::{Axis, AxisPoint, Setting, short_words};
+use super::error::StudyError;
+use super::meshes::MeshPlan;
+use super::study::Study;
+use super::written::quoted;
+use crate::inputs::{Contents, Inputs};
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::{CaseError, CaseFile, Location};
+
+/// Runs that a study may have.
+const MOST_RUNS: usize = 100_000;
+
+/// Longest name of a run, in bytes: file systems take 255, and files beside it have longer names.
+const LONGEST_NAME: usize = 200;
+
+/// Longest part of a name that a value has.
+const LONGEST_LABEL: usize = 48;
+
+/// A run of a study.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Its name, which is that of its folder; it depends on the run's own values alone.
+    pub name: String,
+    /// Index of its value on each axis.
+    pub place: Vec<usize>,
+    /// The settings that make its case out of the base case, `key=value` each.
+    pub overrides: Vec<String>,
+    /// Its case, checked.
+    pub case: CaseFile,
+    /// The mesh that has to be made for it.
+    pub mesh: Option<MeshPlan>,
+    /// What decides about its results.
+    pub inputs: Inputs,
+}
+
+impl Run {
+    /// Its value on each axis.
+    pub fn points<'a>(
+        &'a self,
+        study: &'a Study,
+    ) -> impl Iterator<Item = (&'a Axis, &'a AxisPoint)> {
+        let axes = study.axes.iter().zip(&self.place);
+        axes.map(|(axis, &index)| (axis, &axis.points[index]))
+    }
+
+    /// Its values in words: "horizon_factor = 2.5, file = 4 mm".
+    pub fn words(&self, study: &Study) -> String {
+        let keys = short_keys(&study.axes);
+        let parts = self.points(study).zip(&keys);
+        let parts = parts.flat_map(|((axis, point), keys)| parts_of(axis, point, keys));
+        let words = parts.map(|(key, label)| format!("{key} = {label}"));
+        words.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// What a value of an axis is called, by its keys: each with its value, or the first one with the label.
+fn parts_of<'a>(
+    axis: &'a Axis,
+    point: &'a AxisPoint,
+    keys: &'a [String],
+) -> impl Iterator<Item = (&'a str, String)> {
+    let shown = if axis.is_labelled { 1 } else { keys.len() };
+    let label = |cell| match axis.is_labelled {
+        true => point.label.clone(),
+        false => short_words(cell),
+    };
+    let cells = keys.iter().zip(&point.cells).take(shown);
+    cells.map(move |(key, cell)| (key.as_str(), label(cell)))
+}
+
+/// Lists the runs of a study, the last axis varying fastest, and checks the case of each; meshes that have to be made lie in
+/// `meshes`.
+///
+/// # Errors
+///
+/// If there are too many runs, or the case of one is wrong; the error tells the place in the study that makes it so.
+pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
+    let sizes = study.axes.iter().map(|axis| axis.points.len());
+    let total = sizes.fold(1, usize::saturating_mul);
+    if total > MOST_RUNS {
+        return Err(StudyError::TooMany {
+            path: study.path.clone(),
+            runs: total,
+            most: MOST_RUNS,
+        });
+    }
+    let text = fs::read_to_string(&study.case).map_err(|source| CaseError::Read {
+        path: study.case.clone(),
+        source,
+    })?;
+    let names = names(&study.axes);
+    let mut contents = Contents::default();
+    let run = |number| {
+        run(
+            study,
+            &text,
+            &names,
+            place(&study.axes, number),
+            meshes,
+            &mut contents,
+        )
+    };
+    (0..total).map(run).collect()
+}
+
+/// The value of each axis for the run of a number.
+fn place(axes: &[Axis], number: usize) -> Vec<usize> {
+    let mut rest = number;
+    let mut place: Vec<usize> = (axes.iter().rev())
+        .map(|axis| {
+            let index = rest % axis.points.len();
+            rest /= axis.points.len();
+            index
+        })
+        .collect();
+    place.reverse();
+    place
+}
+
+fn run(
+    study: &Study,
+    text: &str,
+    names: &[Vec<String>],
+    place: Vec<usize>,
+    meshes: &Path,
+    contents: &mut Contents,
+) -> Result<Run, StudyError> {
+    let points = || {
+        study
+            .axes
+            .iter()
+            .zip(&place)
+            .map(|(axis, &k)| (axis, &axis.points[k]))
+    };
+    let parts = names
+        .iter()
+        .zip(&place)
+        .map(|(names, &k)| names[k].as_str());
+    let name = shortened(parts.collect::<Vec<_>>().join(","), LONGEST_NAME);
+
+    let mut settings = study.settings.clone();
+    let of_case = points().filter(|(axis, _)| !axis.of_geometry);
+    settings.extend(of_case.flat_map(|(axis, point)| axis.settings(point)));
+    let mesh = match &study.geometry {
+        None => None,
+        Some(geometry) => {
+            let numbers = points().filter(|(axis, _)| axis.of_geometry);
+            let numbers = numbers.filter_map(|(axis, point)| {
+                Some((axis.keys.first()?.clone(), point.cells.first()?.as_f64()?))
+            });
+            let name = (points().zip(names).zip(&place))
+                .filter(|(((axis, _), _), _)| axis.of_geometry)
+                .map(|((_, names), &k)| names[k].as_str());
+            let name = name.collect::<Vec<_>>().join(",");
+            let source = KeyPath(vec!["geometry".to_owned()]);
+            let content = contents.of(geometry).map_err(|error| StudyError::Input {
+                location: study.location(&source),
+                run: self::shortened(name.clone(), LONGEST_NAME),
+                path: geometry.clone(),
+                source: error,
+            })?;
+            let plan = MeshPlan::new(geometry, numbers.collect(), meshes, &name, &content);
+            settings.push(Setting {
+                given: format!("mesh.file={}", quoted(&plan.request.out.to_string_lossy())),
+                place: source,
+            });
+            Some(plan)
+        }
+    };
+    let overrides: Vec<String> = settings.iter().map(|it| it.given.clone()).collect();
+    let case = CaseFile::parse(&study.case, text.to_owned(), &overrides)
+        .map_err(|error| blame(study, &name, &settings, error))?;
+    let content = mesh.as_ref().map(|plan| plan.content.as_str());
+    let inputs = Inputs::of(&case, content, contents).map_err(|(path, source)| {
+        let names_it = |it: &&Setting| {
+            let stem = path.file_name().unwrap_or_default().to_string_lossy();
+            it.given.contains(&*stem)
+        };
+        let by = settings.iter().rev().find(names_it);
+        StudyError::Input {
+            location: study.location(&by.map_or_else(case_key, |it| it.place.clone())),
+            run: name.clone(),
+            path,
+            source,
+        }
+    })?;
+    Ok(Run {
+        name,
+        place,
+        overrides,
+        case,
+        mesh,
+        inputs,
+    })
+}
+
+fn case_key() -> KeyPath {
+    KeyPath(vec!["case".to_owned()])
+}
+
+/// The error of a case, at the value of the study that makes it wrong; where it is the case file itself, as it is.
+fn blame(study: &Study, run: &str, settings: &[Setting], source: CaseError) -> StudyError {
+    let given = match &source {
+        CaseError::Override { given, .. }
+        | CaseError::Key {
+            location: Location::Override { given },
+            ..
+        } => given,
+        _ => return source.into(),
+    };
+    let setting = settings.iter().rfind(|it| it.given == *given);
+    StudyError::Run {
+        location: study.location(&setting.map_or_else(case_key, |it| it.place.clone())),
+        run: run.to_owned(),
+        source: Box::new(source),
+    }
+}
+
+/// The part that each value of each axis has in the names of runs, `horizon_factor=2.5`; shape (n_axes, n_values).
+fn names(axes: &[Axis]) -> Vec<Vec<String>> {
+    let keys = short_keys(axes);
+    let of_axis = |(axis, keys): (&Axis, &Vec<String>)| {
+        let name = |point| {
+            let parts = parts_of(axis, point, keys);
+            let parts =
+                parts.map(|(key, label)| safe(key) + "=" + &shortened(safe(&label), LONGEST_LABEL));
+            parts.collect::<Vec<_>>().join(",")
+        };
+        let names: Vec<String> = axis.points.iter().map(name).collect();
+        let clashes = |name: &String| {
+            names
+                .iter()
+                .filter(|it| it.eq_ignore_ascii_case(name))
+                .count()
+                > 1
+        };
+        let unique = |(point, name): (&AxisPoint, &String)| match clashes(name) {
+            // Labels that differ in letters that file systems do not tell apart.
+            true => format!("{name}~{:08x}", digest(&point.label) as u32),
+            false => name.clone(),
+        };
+        axis.points.iter().zip(&names).map(unique).collect()
+    };
+    axes.iter().zip(&keys).map(of_axis).collect()
+}
+
+/// The shortest end of each key of each axis that says what it is and is that of no other; shape (n_axes, n_keys).
+pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
+    let path = |key: &String| KeyPath::parse(key).unwrap_or_default().0;
+    let paths: Vec<Vec<String>> = axes.iter().flat_map(|axis| &axis.keys).map(path).collect();
+    let end = |path: &[String], parts: usize| path[path.len().saturating_sub(parts)..].join(".");
+    // A number or a single letter says nothing: `displacement.y` instead of `y`.
+    let least = |path: &[String]| {
+        let says = |part: &&String| part.chars().count() > 1 && part.parse::<usize>().is_err();
+        let silent = path.iter().rev().take_while(|part| !says(part)).count();
+        (silent + 1).min(path.len())
+    };
+    let name = |path: Vec<String>| {
+        let others = || paths.iter().filter(|other| **other != path);
+        let differs =
+            |parts: &usize| others().all(|other| end(other, *parts) != end(&path, *parts));
+        let parts = (least(&path)..=path.len()).find(differs);
+        end(&path, parts.unwrap_or(path.len()))
+    };
+    let of_axis = |axis: &Axis| axis.keys.iter().map(|key| name(path(key))).collect();
+    axes.iter().map(of_axis).collect()
+}
+
+/// A text in letters that every file system takes.
+fn safe(text: &str) -> String {
+    let letter = |letter: char| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' | '+' => letter,
+        _ => '_',
+    };
+    text.trim().chars().map(letter).collect()
+}
+
+/// A name of at most so many bytes (of safe letters); a longer one is cut and told apart by a digest.
+fn shortened(name: String, longest: usize) -> String {
+    if name.len() <= longest {
+        return name;
+    }
+    let mark = format!("~{:016x}", digest(&name));
+    let keep = longest - mark.len();
+    name.chars().take(keep).collect::<String>() + &mark
+}
+
+/// A number that tells texts apart.
+fn digest(text: &str) -> u64 {
+    twox_hash::XxHash64::oneshot(0, text.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    use serde_json::json;
+
+    fn axis(key: &str, labels: &[&str]) -> Axis {
+        let point = |label: &&str| AxisPoint {
+            cells: vec![json!(label)],
+            texts: vec![quoted(label)],
+            label: (*label).to_owned(),
+            place: KeyPath::default(),
+        };
+        Axis {
+            keys: vec![key.to_owned()],
+            of_geometry: false,
+            is_labelled: true,
+            points: labels.iter().map(point).collect(),
+        }
+    }
+
+    #[test]
+    fn the_last_axis_varies_fastest() {
+        let axes = [axis("a", &["1", "2"]), axis("b", &["1", "2", "3"])];
+        let places: Vec<Vec<usize>> = (0..6).map(|number| place(&axes, number)).collect();
+        assert_eq!(places, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
+    }
+
+    #[test]
+    fn names_are_short_and_say_what_varies() {
+        let axes = [
+            axis("model.horizon_factor", &["2.5"]),
+            axis("mesh.file", &["4 mm"]),
+            axis("load.0.displacement.y", &["-1e-4"]),
+            axis("support.1.displacement.y", &["0.0"]),
+            axis("precrack.0.points.1.0", &["3"]),
+        ];
+        let keys = short_keys(&axes).concat();
+        assert_eq!(keys[0], "horizon_factor");
+        assert_eq!(keys[1], "file");
+        assert_eq!(keys[2], "0.displacement.y");
+        assert_eq!(keys[3], "1.displacement.y");
+        assert_eq!(keys[4], "points.1.0");
+        assert_eq!(names(&axes)[1], ["file=4_mm"]);
+    }
+
+    #[test]
+    fn labels_that_file_systems_confuse_are_told_apart() {
+        let long = "x".repeat(300);
+        let axes = [axis("a", &["p/q", "p_q", "P_q", "é", "ü", "r", &long])];
+        let names = &names(&axes)[0];
+        let lower: BTreeSet<String> = names.iter().map(|name| name.to_lowercase()).collect();
+        assert_eq!(lower.len(), names.len(), "{names:?}");
+        assert_eq!(names[5], "a=r");
+        assert!(
+            names.iter().all(|name| name.len() <= LONGEST_LABEL + 2),
+            "{names:?}"
+        );
+        assert!(
+            names
+                .iter()
+                .all(|name| name.is_ascii() && !name.contains('/'))
+        );
+        // Without its neighbours a label keeps its name, unless it was told apart from one of them.
+        assert_eq!(super::names(&[axis("a", &["r"])])[0], ["a=r"]);
+    }
+}

@@ -1,0 +1,168 @@
+//! How far a study is: a line a run on stderr, and on a terminal what is running.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::launch::Audience;
+use super::plan::Run;
+use super::record::Status;
+use super::report::unknown_names;
+use super::study::Study;
+use crate::quantities::Quantities;
+use ligament_case::progress::{ProgressMode, duration_text};
+
+/// Shows how far a study is.
+pub(super) struct StudyProgress<'a> {
+    study: &'a Study,
+    mode: ProgressMode,
+    bar: Option<ProgressBar>,
+    /// Runs that this sweep does, and those that ended.
+    total: usize,
+    ended: usize,
+    failed: usize,
+    /// Whether the names of results in the study were looked up in a run that has some.
+    names_are_known: bool,
+    begun: Instant,
+    /// Names of those that go on.
+    running: BTreeMap<String, String>,
+}
+
+impl<'a> StudyProgress<'a> {
+    /// For so many runs to do.
+    pub(super) fn new(study: &'a Study, mode: ProgressMode, total: usize) -> Self {
+        let bar = (mode == ProgressMode::Terminal && total > 0).then(|| {
+            let bar = ProgressBar::new(total as u64);
+            let template = "{pos}/{len} [{bar:24}] {elapsed} so far, {msg}";
+            // The template is a constant, so the fallback is never seen.
+            let style = ProgressStyle::with_template(template);
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar.enable_steady_tick(Duration::from_millis(200));
+            bar
+        });
+        Self {
+            study,
+            mode,
+            bar,
+            total,
+            ended: 0,
+            failed: 0,
+            names_are_known: false,
+            begun: Instant::now(),
+            running: BTreeMap::new(),
+        }
+    }
+
+    /// Tells of something in a line of its own.
+    pub(super) fn tell(&self, line: &str) {
+        match (&self.bar, self.mode) {
+            (_, ProgressMode::Quiet) => {}
+            (Some(bar), _) => bar.println(line),
+            // Progress that cannot be written (a closed pipe) must not end the study.
+            (None, _) => {
+                // One write, so that lines of several shards in one log stay whole.
+                let _ = io::stderr()
+                    .lock()
+                    .write_all(format!("{line}\n").as_bytes());
+            }
+        }
+    }
+
+    /// Ends the live line; gives the wall time and the number of runs that failed.
+    pub(super) fn finish(self) -> (Duration, usize) {
+        if let Some(bar) = self.bar {
+            bar.finish_and_clear();
+        }
+        (self.begun.elapsed(), self.failed)
+    }
+
+    fn show_running(&self) {
+        if let Some(bar) = &self.bar {
+            let words: Vec<&str> = self.running.values().map(String::as_str).collect();
+            bar.set_message(format!("running: {}", words.join("; ")));
+        }
+    }
+}
+
+impl Audience for StudyProgress<'_> {
+    fn begins(&mut self, run: &Run, threads: usize) {
+        let mut words = run.words(self.study);
+        if threads > 1 {
+            words += &format!(" ({threads} threads)");
+        }
+        self.running.insert(run.name.clone(), words);
+        self.show_running();
+    }
+
+    fn ends(&mut self, run: &Run, status: &Status, time: Duration) {
+        self.ended += 1;
+        self.running.remove(&run.name);
+        let what = match status {
+            Status::Done(results) => format!("{}, {}", outcome(results), seconds(time)),
+            Status::Failed(reason) => {
+                self.failed += 1;
+                format!("failed: {reason}")
+            }
+            // A run that has ended is neither.
+            Status::Missing | Status::Changed(_) => "no results".to_owned(),
+        };
+        let width = self.total.to_string().len();
+        self.tell(&format!(
+            "[{:>width$}/{}] {}: {what}",
+            self.ended,
+            self.total,
+            run.words(self.study)
+        ));
+        if let Status::Done(results) = status
+            && !self.names_are_known
+        {
+            self.names_are_known = true;
+            // A misspelt result costs no run, but is better mended before the last one is through.
+            for unknown in unknown_names(self.study, run, results) {
+                self.tell(&format!("warning: {unknown}"));
+            }
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_position(self.ended as u64);
+        }
+        self.show_running();
+    }
+}
+
+/// What a run came to, in a few words.
+fn outcome(results: &Quantities) -> String {
+    let number = |name: &str| results.number(name).ok();
+    let word = |name: &str| {
+        results
+            .get(name)
+            .and_then(|it| it.as_str())
+            .unwrap_or_default()
+    };
+    let mut parts = Vec::new();
+    if let Some(peak) = number("first_peak.reaction").or_else(|| number("peak.reaction")) {
+        parts.push(format!("peak {peak:.4e} {}", word("units.force")));
+    }
+    if let Some(broken) = number("broken_bonds") {
+        parts.push(format!("{broken} broken"));
+    }
+    if let Some(rigid) = number("rigid_motions")
+        && let Some(frequency) = number(&format!("modes.{rigid}.frequency"))
+    {
+        parts.push(format!("first frequency {frequency:.4e} Hz"));
+    }
+    let end = word("termination_message");
+    if !end.is_empty() {
+        parts.push(end.to_owned());
+    }
+    parts.join(", ")
+}
+
+/// A time: to tenths where it is short.
+pub(super) fn seconds(time: Duration) -> String {
+    if time < Duration::from_secs(60) {
+        return format!("{:.1} s", time.as_secs_f64());
+    }
+    duration_text(time)
+}

@@ -1,0 +1,374 @@
+//! What a study leaves: its table, its fits and plots, and the short text at its end.
+
+use std::io::{self, Write};
+
+use ligament_output::csv::{self, Value};
+use ligament_output::replace_file;
+
+use super::curves::{Curve, Curves, rounded};
+use super::folder::StudyFolder;
+use super::plan::{Run, short_keys};
+use super::record::Status;
+use super::study::Study;
+use super::table;
+use super::table::{NoColumn, Row, StudyTable};
+use crate::quantities::{Quantities, QuantityError};
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::{CaseError, Fault};
+use ligament_plot::plots::Paper;
+use ligament_plot::plots::png::to_png;
+
+/// Width of a plot, mm, ...
+const WIDTH: f64 = 160.0;
+
+/// ... and dots per inch of its PNG.
+const DPI: f64 = 300.0;
+
+/// Runs that are listed by name at the end where they lack.
+const LISTED: usize = 20;
+
+/// The columns of `fits.csv`.
+const FIT_COLUMNS: [&str; 12] = [
+    "plot",
+    "x",
+    "y",
+    "by",
+    "curve",
+    "slope",
+    "slope_error",
+    "intercept",
+    "intercept_error",
+    "r_squared",
+    "points",
+    "remark",
+];
+
+/// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and what people want to see of them;
+/// gives what could not be made.
+pub(super) fn write(
+    study: &Study,
+    runs: &[Run],
+    rows: &[Row<'_>],
+    folder: &StudyFolder,
+    out: &mut dyn Write,
+) -> anyhow::Result<Vec<String>> {
+    let table = StudyTable::of(study, rows);
+    table.write_csv(&folder.path().join("table.csv"))?;
+
+    let title = if study.title.is_empty() {
+        study.name()
+    } else {
+        study.title.clone()
+    };
+    writeln!(out, "{title}")?;
+    write_counts(rows, out)?;
+    let some_done = rows.iter().find_map(|row| match &row.status {
+        Status::Done(results) => Some((row.run, results)),
+        _ => None,
+    });
+    let Some((run, results)) = some_done else {
+        writeln!(out, "  no run has results to plot")?;
+        return Ok(Vec::new());
+    };
+    let mut problems: Vec<String> = (unknown_names(study, run, results).iter())
+        .map(ToString::to_string)
+        .collect();
+    let mut drawn: Vec<Curves<'_>> = Vec::new();
+    for (index, plot) in study.plots.iter().enumerate() {
+        match Curves::of(study, plot, runs, &table) {
+            Ok(mut curves) => {
+                let same = drawn
+                    .iter()
+                    .filter(|other| other.name == curves.name)
+                    .count();
+                if same > 0 {
+                    curves.name = format!("{}-{}", curves.name, index + 1);
+                }
+                drawn.push(curves);
+            }
+            Err(NoColumn { name, .. })
+                if problems.iter().any(|it| it.contains(&format!("`{name}`"))) => {}
+            Err(missing) => {
+                let place = KeyPath(vec!["plot".to_owned(), index.to_string()]);
+                problems.push(study.error(place, missing.to_string()).to_string());
+            }
+        }
+    }
+    for curves in &drawn {
+        write_pivot(study, curves, out)?;
+        write_fits(curves, out)?;
+        let plot = curves.drawn(&title);
+        match plot.on(Paper::new(WIDTH, &plot.series)) {
+            Ok(svg) => {
+                let file = |ending| folder.path().join(format!("{}.{ending}", curves.name));
+                replace_file(&file("svg"), svg.as_bytes())?;
+                replace_file(&file("png"), &to_png(&svg, DPI)?)?;
+            }
+            Err(error) => problems.push(error.to_string()),
+        }
+    }
+    if drawn.iter().any(|curves| curves.plot.fit.is_some()) {
+        replace_file(&folder.path().join("fits.csv"), fits(&drawn).as_bytes())?;
+    }
+    Ok(problems)
+}
+
+/// Results that the study names and a run does not have, each at its place in the study.
+pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> Vec<CaseError> {
+    let mut unknown = Vec::new();
+    let is_input = |name: &str| table::inputs(run).iter().any(|(other, _)| other == name);
+    let is_known = |name: &str| {
+        let is_axis = study
+            .axes
+            .iter()
+            .any(|axis| axis.keys.iter().any(|key| key == name));
+        let is_derived = study.derived.iter().any(|derived| derived.name == name);
+        is_axis || is_derived || is_input(name.strip_prefix(table::INPUT).unwrap_or(name))
+    };
+    let mut look = |place: [&str; 3], name: &str, known: Vec<String>| {
+        if let Err(QuantityError::Unknown { known: results, .. }) = results.number(name) {
+            let key = KeyPath(place.map(str::to_owned).to_vec());
+            let fault =
+                Fault::unknown_name("result of the runs", name, known.into_iter().chain(results));
+            unknown.push(study.error(key, fault));
+        }
+    };
+    for (index, derived) in study.derived.iter().enumerate() {
+        look(
+            ["result", &index.to_string(), "of"],
+            &derived.of,
+            Vec::new(),
+        );
+    }
+    for (index, plot) in study.plots.iter().enumerate() {
+        for (key, name) in [("x", &plot.x), ("y", &plot.y)] {
+            if !is_known(name) {
+                let axes = study.axes.iter().flat_map(|axis| axis.keys.iter().cloned());
+                let derived = study.derived.iter().map(|derived| derived.name.clone());
+                look(
+                    ["plot", &index.to_string(), key],
+                    name,
+                    axes.chain(derived).collect(),
+                );
+            }
+        }
+    }
+    unknown
+}
+
+fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
+    let named = |word: &str| -> Vec<&str> {
+        let rows = rows.iter().filter(|row| row.status.word() == word);
+        rows.map(|row| row.run.name.as_str()).collect()
+    };
+    let (done, failed, missing) = (named("done"), named("failed"), named("missing"));
+    let counts = [done.len(), failed.len(), missing.len()];
+    let [done, n_failed, n_missing] = counts;
+    writeln!(
+        out,
+        "  {} runs: {done} done, {n_failed} failed, {n_missing} missing",
+        rows.len()
+    )?;
+    for (word, names) in [("failed", failed), ("missing", missing)] {
+        for name in names.iter().take(LISTED) {
+            writeln!(out, "  {word}: {name}")?;
+        }
+        if names.len() > LISTED {
+            writeln!(
+                out,
+                "  {word}: {} more, see table.csv",
+                names.len() - LISTED
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// The plotted results: a row for each x, a column for each curve; means where several runs share a place.
+fn write_pivot(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let plot = curves.plot;
+    let shown = |key: &str| {
+        let axis = study
+            .axes
+            .iter()
+            .position(|axis| axis.keys.first().is_some_and(|it| it == key));
+        axis.map_or_else(
+            || key.to_owned(),
+            |axis| short_keys(&study.axes)[axis][0].clone(),
+        )
+    };
+    write!(out, "{} over {}", plot.y, plot.x)?;
+    match &plot.by {
+        Some(by) => writeln!(out, ", by {by}")?,
+        None => writeln!(out)?,
+    }
+    let all: Vec<(Vec<[f64; 2]>, bool)> = curves.curves.iter().map(Curve::means).collect();
+    let mut lines = vec![vec![shown(&plot.x)]];
+    for curve in &curves.curves {
+        let label = if curve.label.is_empty() {
+            &plot.y
+        } else {
+            &curve.label
+        };
+        lines[0].push(label.clone());
+    }
+    if plot.line.is_some() {
+        lines[0].push(known_label(curves));
+    }
+    for x in curves.places() {
+        let mut line = vec![x.to_string()];
+        for (means, _) in &all {
+            let at = means.iter().find(|point| point[0] == x);
+            line.push(at.map_or_else(|| "-".to_owned(), |[_, y]| rounded(*y)));
+        }
+        if let Some(known) = &plot.line {
+            line.push(rounded(known.slope * x + known.intercept));
+        }
+        lines.push(line);
+    }
+    write_aligned(&lines, out)?;
+    if all.iter().any(|(_, repeated)| *repeated) {
+        writeln!(out, "  (means of the runs that share a place)")?;
+    }
+    Ok(())
+}
+
+fn known_label(curves: &Curves<'_>) -> String {
+    let label = curves.plot.line.as_ref().map(|line| line.label.clone());
+    label
+        .filter(|label| !label.is_empty())
+        .unwrap_or_else(|| "known".to_owned())
+}
+
+fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Some(range) = curves.plot.fit else {
+        return Ok(());
+    };
+    let words = match (range.from, range.to) {
+        (Some(from), Some(to)) => format!(", {from} <= x <= {to}"),
+        (Some(from), None) => format!(", x >= {from}"),
+        (None, Some(to)) => format!(", x <= {to}"),
+        (None, None) => String::new(),
+    };
+    writeln!(out, "lines of least squares{words}")?;
+    let heads = ["", "slope", "+-", "intercept", "+-", "R^2", "points"];
+    let mut lines = vec![heads.map(str::to_owned).to_vec()];
+    for curve in &curves.curves {
+        let name = if curve.label.is_empty() {
+            "runs"
+        } else {
+            &curve.label
+        };
+        match &curve.fit {
+            Some(Ok(fit)) => {
+                let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), rounded);
+                lines.push(vec![
+                    name.to_owned(),
+                    rounded(fit.slope),
+                    error(fit.slope_error),
+                    rounded(fit.intercept),
+                    error(fit.intercept_error),
+                    format!("{:.5}", fit.r_squared),
+                    fit.points.to_string(),
+                ]);
+            }
+            Some(Err(error)) => lines.push(vec![name.to_owned(), error.to_string()]),
+            None => {}
+        }
+    }
+    if let Some(known) = &curves.plot.line {
+        let numbers = [
+            rounded(known.slope),
+            String::new(),
+            rounded(known.intercept),
+        ];
+        lines.push([vec![known_label(curves)], numbers.to_vec()].concat());
+    }
+    write_aligned(&lines, out)
+}
+
+/// Columns of equal width; of the first, the text is at the left.
+fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
+    let columns = lines.iter().map(Vec::len).max().unwrap_or_default();
+    // A remark in place of numbers has no column.
+    let cells = |column: usize| {
+        lines
+            .iter()
+            .filter(move |line| line.len() > 2 || columns == 2)
+            .filter_map(move |line| line.get(column))
+    };
+    let width = |column: usize| {
+        cells(column)
+            .map(|cell| cell.chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    for line in lines {
+        let mut text = String::new();
+        for (column, (cell, &width)) in line.iter().zip(&widths).enumerate() {
+            text += &match column {
+                0 => format!("{cell:<width$}"),
+                _ => format!("  {cell:>width$}"),
+            };
+        }
+        writeln!(out, "  {}", text.trim_end())?;
+    }
+    Ok(())
+}
+
+/// All fitted lines, and the known ones beside them.
+fn fits(all: &[Curves<'_>]) -> String {
+    let mut text = csv::line(&FIT_COLUMNS.map(Value::Text));
+    for curves in all.iter().filter(|curves| curves.plot.fit.is_some()) {
+        let plot = curves.plot;
+        let head = |curve| {
+            let by = plot.by.as_deref().map_or(Value::Missing, Value::Text);
+            [
+                Value::Text(&curves.name),
+                Value::Text(&plot.x),
+                Value::Text(&plot.y),
+                by,
+                curve,
+            ]
+        };
+        let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
+        for curve in &curves.curves {
+            let label = match curve.label.as_str() {
+                "" => Value::Missing,
+                label => Value::Text(label),
+            };
+            let reason;
+            let cells = match &curve.fit {
+                Some(Ok(fit)) => [
+                    fit.slope.into(),
+                    number(fit.slope_error),
+                    fit.intercept.into(),
+                    number(fit.intercept_error),
+                    fit.r_squared.into(),
+                    fit.points.into(),
+                    "fitted".into(),
+                ],
+                other => {
+                    reason = match other {
+                        Some(Err(error)) => error.to_string(),
+                        _ => "not fitted".to_owned(),
+                    };
+                    let mut cells = [Value::Missing; 7];
+                    cells[6] = Value::Text(&reason);
+                    cells
+                }
+            };
+            text += &csv::line(&[&head(label)[..], &cells].concat());
+        }
+        if let Some(known) = &plot.line {
+            let label = known_label(curves);
+            let mut cells = [Value::Missing; 7];
+            cells[0] = known.slope.into();
+            cells[2] = known.intercept.into();
+            cells[6] = "known".into();
+            text += &csv::line(&[&head(Value::Text(&label))[..], &cells].concat());
+        }
+    }
+    text
+}

@@ -1,0 +1,385 @@
+//! The study file: a base case, axes, derived results and plots, in TOML.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use super::axis::{Axis, RawAxis, Setting};
+use super::error::StudyError;
+use super::written;
+use ligament_case::case::decode::decode;
+use ligament_case::case::document::{Node, Value};
+use ligament_case::case::fault::KeyFault;
+use ligament_case::case::file::{Source, syntax_error};
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::values::{require, require_column_name, require_unique};
+use ligament_case::case::{CaseError, Fault, Location};
+
+/// A study: which cases to run and what to make of their results.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The study file, as it was given.
+    pub path: PathBuf,
+    /// One line on what is studied.
+    pub title: String,
+    /// The file of the base case.
+    pub case: PathBuf,
+    /// The geometry whose numbers are axes, if there is one.
+    pub geometry: Option<PathBuf>,
+    /// Settings of all runs.
+    pub(crate) settings: Vec<Setting>,
+    /// The axes; the first one varies slowest.
+    pub axes: Vec<Axis>,
+    /// Columns that are made from results.
+    pub derived: Vec<Derived>,
+    /// Plots over the runs.
+    pub plots: Vec<StudyPlot>,
+    text: String,
+    document: Node,
+}
+
+/// A column that is made from a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derived {
+    /// Name of the column.
+    pub name: String,
+    /// The result by its name (see [`crate::quantities`]).
+    pub of: String,
+    /// What it is divided by.
+    pub over: f64,
+}
+
+/// A plot over the runs of a study.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudyPlot {
+    /// The column along x: a key of an axis, a derived column or a result.
+    pub x: String,
+    /// The column along y, likewise.
+    pub y: String,
+    /// A key of an axis, each value of which has a curve.
+    pub by: Option<String>,
+    /// Title; that of the study without it.
+    pub title: Option<String>,
+    /// Words along x, with the unit; the name of the column without them.
+    pub x_label: Option<String>,
+    /// Words along y, likewise.
+    pub y_label: Option<String>,
+    /// A known line beside the curves.
+    pub line: Option<KnownLine>,
+    /// The range of x over which each curve has a line fitted.
+    pub fit: Option<FitRange>,
+}
+
+/// A line that is known from elsewhere.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnownLine {
+    /// Its slope.
+    pub slope: f64,
+    /// Its y at x = 0.
+    pub intercept: f64,
+    /// What it is.
+    #[serde(default)]
+    pub label: String,
+}
+
+/// The range of x of a fit; open where nothing is given.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FitRange {
+    /// Smallest x.
+    pub from: Option<f64>,
+    /// Largest x.
+    pub to: Option<f64>,
+}
+
+impl FitRange {
+    /// Whether it has the place x; its ends belong to it.
+    pub fn contains(&self, x: f64) -> bool {
+        self.from.is_none_or(|from| x >= from) && self.to.is_none_or(|to| x <= to)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawStudy {
+    #[serde(default)]
+    title: String,
+    case: String,
+    geometry: Option<String>,
+    #[serde(rename = "set")]
+    _set: Option<IgnoredAny>,
+    #[serde(default)]
+    axis: Vec<RawAxis>,
+    #[serde(default)]
+    result: Vec<RawDerived>,
+    #[serde(default)]
+    plot: Vec<StudyPlot>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawDerived {
+    name: String,
+    of: String,
+    over: Option<f64>,
+}
+
+impl Study {
+    /// Reads a study file and checks what can be checked without its case.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read, is not TOML, or a key or value of it is wrong.
+    pub fn load(path: &Path) -> Result<Self, StudyError> {
+        let text = fs::read_to_string(path).map_err(|source| StudyError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        let document =
+            Node::parse_document(&text).map_err(|error| syntax_error(path, &text, &error))?;
+        let source = Source {
+            path,
+            text: &text,
+            overrides: &[],
+            document: &document,
+        };
+        let raw: RawStudy = decode(&document, &KeyPath::default())
+            .map_err(|fault| source.error(in_study(fault)))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let checked = Checked::of(&document, raw).map_err(|fault| source.error(fault))?;
+        Ok(Self {
+            path: path.to_owned(),
+            title: checked.title,
+            case: folder.join(checked.case),
+            geometry: checked.geometry.map(|geometry| folder.join(geometry)),
+            settings: checked.settings,
+            axes: checked.axes,
+            derived: checked.derived,
+            plots: checked.plots,
+            text,
+            document,
+        })
+    }
+
+    /// The study's own name: that of its folder if the file is called `study.toml`, else the file's own without its extension.
+    pub fn name(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or_default();
+        let stem = stem.to_string_lossy().into_owned();
+        if stem != "study" {
+            return stem;
+        }
+        let absolute = std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone());
+        let folder = absolute.parent().and_then(Path::file_name);
+        folder.map_or(stem, |name| name.to_string_lossy().into_owned())
+    }
+
+    /// The place of a key in the study file, or of the table that would have it.
+    pub(crate) fn location(&self, key: &KeyPath) -> Location {
+        self.source().location(self.document.origin_of(key))
+    }
+
+    /// The error for a fault that is found later, with the place of its key.
+    pub(crate) fn error(&self, key: KeyPath, fault: impl Into<Fault>) -> CaseError {
+        self.source().error(KeyFault::new(key, fault))
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source {
+            path: &self.path,
+            text: &self.text,
+            overrides: &[],
+            document: &self.document,
+        }
+    }
+}
+
+/// What is checked of a study before its text is kept with it.
+struct Checked {
+    title: String,
+    case: String,
+    geometry: Option<String>,
+    settings: Vec<Setting>,
+    axes: Vec<Axis>,
+    derived: Vec<Derived>,
+    plots: Vec<StudyPlot>,
+}
+
+impl Checked {
+    fn of(document: &Node, raw: RawStudy) -> Result<Self, KeyFault> {
+        let root = KeyPath::default();
+        require(
+            !raw.case.is_empty(),
+            || root.child("case"),
+            "a path",
+            &raw.case,
+        )?;
+        let mut axes = Vec::new();
+        for (index, axis) in raw.axis.into_iter().enumerate() {
+            axes.push(axis.check(document, &root.child("axis").child(index))?);
+        }
+        if axes.is_empty() {
+            let fault = Fault::MissingSection {
+                section: "[[axis]]".to_owned(),
+                purpose: "one or more, each with a `key` of the case and its `values`",
+            };
+            return Err(KeyFault::new(root.child("axis"), fault));
+        }
+        check_geometry(&axes, raw.geometry.is_some())?;
+        require_unique(
+            axes.iter().enumerate().flat_map(|(index, axis)| {
+                let place = root.child("axis").child(index);
+                axis.keys
+                    .iter()
+                    .map(move |key| (place.clone(), key.as_str()))
+            }),
+            ": a key belongs to one axis; keys that vary together are `keys` of one",
+        )?;
+        let derived = each_derived(raw.result, &root)?;
+        for (index, plot) in raw.plot.iter().enumerate() {
+            check_plot(plot, &axes, &root.child("plot").child(index))?;
+        }
+        Ok(Self {
+            title: raw.title,
+            case: raw.case,
+            geometry: raw.geometry,
+            settings: settings(document)?,
+            axes,
+            derived,
+            plots: raw.plot,
+        })
+    }
+}
+
+/// The root of a study is no case file.
+fn in_study(mut fault: KeyFault) -> KeyFault {
+    if let Fault::UnknownKey { table, .. } | Fault::MissingKey { table, .. } = &mut fault.fault
+        && fault.key.0.len() == 1
+    {
+        *table = "the study file".to_owned();
+    }
+    fault
+}
+
+fn check_geometry(axes: &[Axis], has_geometry: bool) -> Result<(), KeyFault> {
+    let place = |index: usize| KeyPath::default().child("axis").child(index);
+    let number = axes.iter().position(|axis| axis.of_geometry);
+    match (number, has_geometry) {
+        (Some(index), false) => {
+            let fault = Fault::Required {
+                key: "geometry",
+                reason: "by an axis with a `number`: the Gmsh file of which it is one, relative to the folder of the study"
+                    .to_owned(),
+            };
+            Err(KeyFault::new(place(index), fault))
+        }
+        (None, true) => {
+            let fault = "no axis has a `number` of the geometry, so nothing would be meshed: add one, or name meshes by \
+                         the key mesh.file";
+            Err(KeyFault::new(KeyPath::default().child("geometry"), fault))
+        }
+        (Some(_), true) => {
+            let meshes = |axis: &Axis| axis.keys.iter().any(|key| key == "mesh.file");
+            match axes
+                .iter()
+                .position(|axis| !axis.of_geometry && meshes(axis))
+            {
+                None => Ok(()),
+                Some(index) => {
+                    let fault = "the meshes are made from `geometry`: an axis cannot name others";
+                    Err(KeyFault::new(place(index), fault))
+                }
+            }
+        }
+        (None, false) => Ok(()),
+    }
+}
+
+fn each_derived(raw: Vec<RawDerived>, root: &KeyPath) -> Result<Vec<Derived>, KeyFault> {
+    let place = |index: usize| root.child("result").child(index);
+    let mut derived = Vec::new();
+    for (index, RawDerived { name, of, over }) in raw.into_iter().enumerate() {
+        require_column_name(|| place(index).child("name"), &name)?;
+        let over = over.unwrap_or(1.0);
+        require(
+            over != 0.0,
+            || place(index).child("over"),
+            "other than 0",
+            over,
+        )?;
+        derived.push(Derived { name, of, over });
+    }
+    let names = derived.iter().enumerate();
+    require_unique(
+        names.map(|(index, it)| (place(index).child("name"), it.name.as_str())),
+        "",
+    )?;
+    Ok(derived)
+}
+
+fn check_plot(plot: &StudyPlot, axes: &[Axis], place: &KeyPath) -> Result<(), KeyFault> {
+    let keys: Vec<&String> = axes.iter().flat_map(|axis| &axis.keys).collect();
+    if let Some(by) = &plot.by
+        && !keys.contains(&by)
+    {
+        let fault = Fault::unknown_name("key of an axis", by, keys.into_iter().cloned());
+        return Err(KeyFault::new(place.child("by"), fault));
+    }
+    if let Some(FitRange {
+        from: Some(from),
+        to: Some(to),
+    }) = plot.fit
+    {
+        require(
+            from < to,
+            || place.child("fit"),
+            "a range with from < to",
+            (from, to),
+        )?;
+    }
+    Ok(())
+}
+
+/// The settings of `[set]`: keys that are quoted paths, or tables whose keys are set one by one.
+fn settings(document: &Node) -> Result<Vec<Setting>, KeyFault> {
+    let mut settings = Vec::new();
+    let place = KeyPath::default().child("set");
+    if let Some(node) = document.get("set") {
+        if !matches!(node.value, Value::Table(_)) {
+            return Err(KeyFault::new(
+                place,
+                "expected a table of keys of the case file",
+            ));
+        }
+        collect(node, &place, &KeyPath::default(), &mut settings)?;
+    }
+    Ok(settings)
+}
+
+fn collect(
+    table: &Node,
+    place: &KeyPath,
+    above: &KeyPath,
+    out: &mut Vec<Setting>,
+) -> Result<(), KeyFault> {
+    for entry in table.entries() {
+        let place = place.child(&entry.key);
+        let Some(path) = KeyPath::parse(&entry.key) else {
+            let fault = "is not a key path such as load.0.displacement.y";
+            return Err(KeyFault::new(place, fault));
+        };
+        let key = KeyPath(above.0.iter().cloned().chain(path.0).collect());
+        if let Value::Table(_) = entry.node.value {
+            collect(&entry.node, &place, &key, out)?;
+        } else {
+            out.push(Setting {
+                given: format!("{key}={}", written::toml(&entry.node, &place)?),
+                place,
+            });
+        }
+    }
+    Ok(())
+}

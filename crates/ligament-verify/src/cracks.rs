@@ -1,0 +1,135 @@
+//! Plates of imaginary elements with cracks and a hole in tension (MBB-PD section 4.3).
+
+use anyhow::{Context, bail};
+use ligament_analysis::driver::Outcome;
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::table::{Extent, Known, Labels};
+use super::trial::{Memory, Template};
+use super::{Experiment, Findings};
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "cracks",
+    title: "Cracks in plates of imaginary elements",
+    source: "linear elastic fracture mechanics, independent calculation; Masoumi, Ravandi and Salehi (MBB-PD), section 4.3",
+    setup: "Plate 100 x 100 x 1 mm, E = 65.8 GPa, nu = 0.3, G_c = 6137 J/m^2, plane stress, m = 3, pulled by u_y of the upper row, the \
+            lower one held in y; no failure within three rows of either. A central crack of 10 mm across the load (central), cracks of 10 \
+            mm from the middle of the left, right and upper side (three), a hole of 10 x 10 mm (hole). The exact path until the load \
+            has fallen to 0.8 of its largest.",
+    cases: &[
+        "cases/mbb-central-crack/case.toml",
+        "cases/three-cracks/case.toml",
+        "cases/square-hole/case.toml",
+    ],
+    compute,
+};
+
+static CENTRAL: Template = Template {
+    path: "cases/mbb-central-crack/case.toml",
+    text: include_str!("../../../cases/mbb-central-crack/case.toml"),
+};
+
+static THREE: Template = Template {
+    path: "cases/three-cracks/case.toml",
+    text: include_str!("../../../cases/three-cracks/case.toml"),
+};
+
+static HOLE: Template = Template {
+    path: "cases/square-hole/case.toml",
+    text: include_str!("../../../cases/square-hole/case.toml"),
+};
+
+/// Side of the plate, m.
+const SIDE: f64 = 0.1;
+
+/// Its section, m^2.
+const SECTION: f64 = SIDE * 1e-3;
+
+const MEGAPASCALS: f64 = 1e-6;
+
+/// What the tables read in a run, MPa.
+#[derive(Debug, Clone)]
+struct Failure {
+    first: f64,
+    peak: f64,
+    /// Strain (%) and stress that a test with a rising displacement shows.
+    curve: Vec<[f64; 2]>,
+}
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let table = |name, text| Known::parse(name, text);
+    let mut runs = Memory::default();
+    let mut curves = Vec::new();
+    let mut failure = |labels: Labels<'_>| -> anyhow::Result<Failure> {
+        let (case, d) = (labels.text("case")?, labels.number("d")?);
+        let cells = (1e3 * SIDE / d).round() as u32;
+        let trial = (template(case)?.trial())
+            .set("lattice.cells", [cells, cells])
+            .set("lattice.spacing", 1e-3 * d)
+            .set("fracture.stop.load_fraction", 0.8);
+        runs.of(trial.command(), || {
+            let failure = Failure::of(&trial.solve()?.outcome)?;
+            curves.push((format!("{case}, {d} mm"), failure.curve.clone()));
+            Ok(failure)
+        })
+    };
+    let peaks = table("mbb-peaks", include_str!("published/mbb-peaks.csv"))?;
+    let peaks = peaks.judge(extent, |labels| {
+        let failure = failure(labels)?;
+        match labels.text("of")? {
+            "first" => Ok(failure.first),
+            "peak" => Ok(failure.peak),
+            other => bail!("of is `first` or `peak`, not `{other}`"),
+        }
+    })?;
+    let griffith = table("mbb-griffith", include_str!("published/mbb-griffith.csv"))?
+        .judge(extent, |labels| Ok(failure(labels)?.peak))?;
+    let colours = [
+        Colour::Blue,
+        Colour::Sky,
+        Colour::Vermilion,
+        Colour::Green,
+        Colour::Orange,
+        Colour::Purple,
+    ];
+    let series = curves.into_iter().zip(colours);
+    let plot = Plot {
+        name: "mbb-fracture".to_owned(),
+        title: "Plates with cracks and a hole".to_owned(),
+        x: "strain, %".to_owned(),
+        y: "stress on the whole section, MPa".to_owned(),
+        series: series
+            .map(|((label, curve), colour)| Series::new(&label, Mark::Curve, colour, curve))
+            .collect(),
+    };
+    Ok(Findings {
+        tables: vec![peaks, griffith],
+        plots: vec![plot],
+    })
+}
+
+fn template(case: &str) -> anyhow::Result<&'static Template> {
+    match case {
+        "central" => Ok(&CENTRAL),
+        "three" => Ok(&THREE),
+        "hole" => Ok(&HOLE),
+        other => bail!("no plate `{other}`"),
+    }
+}
+
+impl Failure {
+    fn of(outcome: &Outcome) -> anyhow::Result<Self> {
+        let stress = |force: f64| MEGAPASCALS * force / SECTION;
+        let first = outcome.first_break.context("no bond breaks")?;
+        let peak = outcome.peak().context("the run has no state at rest")?;
+        let curve = outcome.envelope();
+        Ok(Self {
+            first: stress(first.reaction),
+            peak: stress(peak.reaction),
+            curve: (curve.iter())
+                .map(|point| [100.0 * point.displacement / SIDE, stress(point.reaction)])
+                .collect(),
+        })
+    }
+}

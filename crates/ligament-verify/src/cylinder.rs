@@ -1,0 +1,73 @@
+//! A thick cylinder of imaginary elements under internal pressure (MBB-PD section 4.2).
+
+use ligament_analysis::COMPONENTS;
+
+use super::table::{Extent, Known};
+use super::trial::Template;
+use super::{Experiment, Findings};
+use ligament_case::solve::Solution;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "cylinder",
+    title: "Thick cylinder of imaginary elements",
+    source: "Lame's solution, independent calculation; Masoumi, Ravandi and Salehi (MBB-PD), section 4.2",
+    setup: "Ring from 1.5 to 2.2 m on a square lattice, E = 65.8 GPa, plane strain, m = 3, 400 MPa on the faces of the cells at the \
+            hole. u_r of all points, less the rigid motion that leaves nothing of it in the mean, against Lame's solution.",
+    cases: &["cases/thick-cylinder/case.toml"],
+    compute,
+};
+
+static RING: Template = Template {
+    path: "cases/thick-cylinder/case.toml",
+    text: include_str!("../../../cases/thick-cylinder/case.toml"),
+};
+
+const INNER: f64 = 1.5;
+const OUTER: f64 = 2.2;
+const YOUNG: f64 = 65.8e9;
+const PRESSURE: f64 = 400e6;
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let known = Known::parse("mbb-cylinder", include_str!("published/mbb-cylinder.csv"))?;
+    let table = known.judge(extent, |labels| {
+        let (spacing, nu) = (1e-3 * labels.number("d")?, labels.number("nu")?);
+        let cells = 2 * (OUTER / spacing).round() as u32;
+        let trial = (RING.trial())
+            .set("lattice.cells", [cells, cells])
+            .set("lattice.spacing", spacing)
+            .set("material.poisson", nu);
+        Ok(100.0 * difference(&trial.solve()?, nu))
+    })?;
+    Ok(Findings {
+        tables: vec![table],
+        plots: Vec::new(),
+    })
+}
+
+/// L2 norm over the points of the difference from Lame's u_r over that of u_r, where
+///
+/// u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2).
+fn difference(solution: &Solution, nu: f64) -> f64 {
+    let cloud = &solution.model.system.cloud;
+    let places = cloud.positions.iter();
+    let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
+    let motions = solution.outcome.state.displacement.chunks_exact(COMPONENTS);
+    let points: Vec<([f64; 2], [f64; 2])> = places
+        .zip(motions.map(|motion| [motion[0], motion[1]]))
+        .collect();
+    // The lattice is symmetric about the centre: the least rigid motion is the mean displacement and the mean rotation. A
+    // rotation has no u_r.
+    let count = points.len() as f64;
+    let mean = [0, 1].map(|axis| points.iter().map(|(_, u)| u[axis]).sum::<f64>() / count);
+    let constant = PRESSURE * INNER.powi(2) / (OUTER.powi(2) - INNER.powi(2));
+    let (mut apart, mut size) = (0.0, 0.0);
+    for ([x, y], [u, v]) in points {
+        let r = x.hypot(y);
+        let found = ((u - mean[0]) * x + (v - mean[1]) * y) / r;
+        let exact = (1.0 + nu) / YOUNG * constant * ((1.0 - 2.0 * nu) * r + OUTER.powi(2) / r);
+        apart += (found - exact).powi(2);
+        size += exact.powi(2);
+    }
+    (apart / size).sqrt()
+}

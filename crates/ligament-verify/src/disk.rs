@@ -1,0 +1,92 @@
+//! The strength of the Brazilian disk grows with the horizon factor: NHPD eq. 22.
+
+use std::f64::consts::PI;
+
+use anyhow::Context;
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::table::{Extent, Known, Labels};
+use super::trial::{StoredMesh, Template};
+use super::{Experiment, Findings};
+use ligament_case::summary::DROP;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "disk",
+    title: "Brazilian disk: strength and horizon factor",
+    source: "Zhang, Yang and Zhuang (NHPD), eq. 22",
+    setup: "Disk of diameter 0.1 m, t = 1 m, E = 15 GPa, nu = 0.21, F_t = 3.81 MPa, plane stress, NHPD on triangle \
+            meshes of 3 mm (1,440 points) and 2 mm (2,948 points). The platens are the nodes of the rim with |x| <= \
+            1.5 mm, moved together in steps of 4 um, five bonds an iteration. The peak is the largest load before \
+            the load first falls.",
+    cases: &["cases/brazilian-disk/case.toml"],
+    compute,
+};
+
+const TABLE: &str = include_str!("published/disk-peak.csv");
+
+static CASE: Template = Template {
+    path: "cases/brazilian-disk/case.toml",
+    text: include_str!("../../../cases/brazilian-disk/case.toml"),
+};
+
+static COARSE: StoredMesh = StoredMesh {
+    path: "../../meshes/disk-3mm-platen-1.5mm.msh",
+    bytes: include_bytes!("../../../meshes/disk-3mm-platen-1.5mm.msh"),
+};
+
+static FINE: StoredMesh = StoredMesh {
+    path: "../../meshes/disk-2mm-platen-1.5mm.msh",
+    bytes: include_bytes!("../../../meshes/disk-2mm-platen-1.5mm.msh"),
+};
+
+/// Load at which a disk of a material with this strength splits: pi D t F_t/2, N.
+const CLOSED_FORM: f64 = 0.5 * PI * 0.1 * 1.0 * 3.81e6;
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let known = Known::parse("disk-peak", TABLE)?;
+    let table = known.judge(extent, relative_peak)?;
+    let curve = |mesh: &str, colour| {
+        let points = table.computed("lambda", &[("mesh", mesh)])?;
+        anyhow::Ok(Series::new(
+            &format!("computed, {mesh}"),
+            Mark::Line,
+            colour,
+            points,
+        ))
+    };
+    let eq_22 = (8..=16)
+        .map(|quarters| 0.25 * f64::from(quarters))
+        .map(|l| [l, (3.0 * l - 1.0) / 8.0]);
+    let plot = Plot {
+        name: "disk-peak".to_owned(),
+        title: "Strength of the Brazilian disk".to_owned(),
+        x: "horizon factor lambda".to_owned(),
+        y: "peak load / (pi D t F_t/2)".to_owned(),
+        series: vec![
+            Series::new("NHPD eq. 22", Mark::Dashes, Colour::Black, eq_22.collect()),
+            curve("3 mm", Colour::Blue)?,
+            curve("2 mm", Colour::Vermilion)?,
+        ],
+    };
+    Ok(Findings {
+        tables: vec![table],
+        plots: vec![plot],
+    })
+}
+
+fn relative_peak(labels: Labels<'_>) -> anyhow::Result<f64> {
+    let mesh = match labels.text("mesh")? {
+        "3 mm" => &COARSE,
+        _ => &FINE,
+    };
+    let trial = CASE
+        .trial()
+        .set("model.horizon_factor", labels.number("lambda")?);
+    let solution = trial.solve_on(mesh)?;
+    let peak = solution
+        .outcome
+        .first_peak(DROP)
+        .context("the run has no state at rest")?;
+    Ok(peak.reaction / CLOSED_FORM)
+}

@@ -1,0 +1,352 @@
+//! Cracks that the fracture energy drives: failure stress of a plate with a central crack, energy and straightness of a crack.
+
+use std::f64::consts::PI;
+
+use anyhow::{Context, ensure};
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::table::{Extent, Known, Labels};
+use super::trial::{Memory, StoredMesh, Template, Trial};
+use super::{Experiment, Findings};
+use ligament_case::solve::Solution;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "griffith",
+    title: "Cracks driven by the fracture energy",
+    source: "linear elastic fracture mechanics (Griffith; Tada, Paris and Irwin)",
+    setup: "Plate 100 mm wide and 200 mm high, t = 10 mm, E = 15 GPa, G_c = 20 J/m^2, plane stress; on a lattice, or on \
+            irregular meshes of 2,231 to 4,038 points that are finer along the crack. A central crack of half-length a = \
+            15.2 mm, a line that bonds do not cross, under equal forces on the ends: the largest force of the exact path \
+            over that at which K = sqrt(E G_c). And an edge crack of 30 mm, opened until the plate is in two.",
+    cases: &[
+        "cases/central-crack/case.toml",
+        "cases/central-crack/lattice.toml",
+        "cases/central-crack/mode-one.toml",
+    ],
+    compute,
+};
+
+static ON_MESH: Template = Template {
+    path: "cases/central-crack/case.toml",
+    text: include_str!("../../../cases/central-crack/case.toml"),
+};
+
+static ON_LATTICE: Template = Template {
+    path: "cases/central-crack/lattice.toml",
+    text: include_str!("../../../cases/central-crack/lattice.toml"),
+};
+
+static MODE_ONE: Template = Template {
+    path: "cases/central-crack/mode-one.toml",
+    text: include_str!("../../../cases/central-crack/mode-one.toml"),
+};
+
+/// Meshes by their size along the crack, mm.
+static MESHES: [(f64, StoredMesh); 3] = [
+    (
+        2.0,
+        StoredMesh {
+            path: "../../meshes/central-crack-2mm.msh",
+            bytes: include_bytes!("../../../meshes/central-crack-2mm.msh"),
+        },
+    ),
+    (
+        1.4,
+        StoredMesh {
+            path: "../../meshes/central-crack-1.4mm.msh",
+            bytes: include_bytes!("../../../meshes/central-crack-1.4mm.msh"),
+        },
+    ),
+    (
+        1.0,
+        StoredMesh {
+            path: "../../meshes/central-crack-1mm.msh",
+            bytes: include_bytes!("../../../meshes/central-crack-1mm.msh"),
+        },
+    ),
+];
+
+/// Half of the plate's width, W, m.
+const HALF_WIDTH: f64 = 0.05;
+
+/// Half of its height, m.
+const HALF_HEIGHT: f64 = 0.1;
+
+/// Its thickness t, m.
+const THICKNESS: f64 = 0.01;
+
+/// Half-length a of the central crack, m.
+const HALF_LENGTH: f64 = 0.0152;
+
+/// Where the tip of the edge crack stands, m.
+const EDGE_TIP: f64 = -0.02;
+
+/// How far the part of the line whose crossings are counted stands aside, m: bonds of a lattice cross at its places, and
+/// its ends should lie between them.
+const ASIDE: f64 = 1.1e-4;
+
+/// E, Pa.
+const YOUNG: f64 = 15e9;
+
+/// G_c, J/m^2.
+const FRACTURE_ENERGY: f64 = 20.0;
+
+/// Distance from the crack within which the horizon is averaged: half the height of the fine strip of the meshes, m.
+const STRIP: f64 = 0.005;
+
+/// Share of delta/a by which the label of an entry may be off.
+const LABEL_TOLERANCE: f64 = 5e-3;
+
+/// What the tables of the edge crack read in the same run.
+#[derive(Debug, Clone, Copy)]
+struct Separation {
+    /// Energy that the breakages released over the new surface, over G_c.
+    work: f64,
+    /// Energy of the broken bonds at their limits over the new surface, over G_c.
+    energy: f64,
+    /// Largest distance of the middle of a broken bond from the line of the crack over the horizon there.
+    deviation: f64,
+}
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let table = |name, text| Known::parse(name, text);
+    let strength = table("griffith", include_str!("published/griffith.csv"))?
+        .judge(extent, relative_strength)?;
+    let crossing = table(
+        "fracture-energy-crossing",
+        include_str!("published/fracture-energy-crossing.csv"),
+    )?
+    .judge(extent, crossing_energy)?;
+    let mut memory = Memory::default();
+    let mut separated = |labels: Labels<'_>| -> anyhow::Result<Separation> {
+        let trial = with_labels(MODE_ONE.trial(), labels)?;
+        let mesh = mesh(labels)?;
+        memory.of(format!("{} {}", trial.command(), mesh.path), || {
+            Separation::of(&trial.solve_on(mesh)?)
+        })
+    };
+    let work = table(
+        "fracture-energy-released",
+        include_str!("published/fracture-energy-released.csv"),
+    )?
+    .judge(extent, |labels| Ok(separated(labels)?.work))?;
+    let energy = table(
+        "fracture-energy-separation",
+        include_str!("published/fracture-energy-separation.csv"),
+    )?
+    .judge(extent, |labels| Ok(separated(labels)?.energy))?;
+    let deviation = table("mode-one", include_str!("published/mode-one.csv"))?
+        .judge(extent, |labels| Ok(separated(labels)?.deviation))?;
+    let curve = |label: &str, mark, colour, of: &[(&str, &str)]| {
+        let points = strength.computed("delta/a", of)?;
+        anyhow::Ok(Series::new(label, mark, colour, points))
+    };
+    let plot = Plot {
+        name: "griffith".to_owned(),
+        title: "Failure stress of a plate with a central crack".to_owned(),
+        x: "horizon / half-length of the crack".to_owned(),
+        y: "failure stress over LEFM".to_owned(),
+        series: vec![
+            Series::new(
+                "LEFM",
+                Mark::Dashes,
+                Colour::Black,
+                vec![[0.1, 1.0], [0.7, 1.0]],
+            ),
+            curve(
+                "lattice, bbpd",
+                Mark::Line,
+                Colour::Sky,
+                &[("body", "lattice"), ("law", "bbpd"), ("lambda", "4")],
+            )?,
+            curve(
+                "lattice, nhpd",
+                Mark::Line,
+                Colour::Blue,
+                &[
+                    ("body", "lattice"),
+                    ("law", "nhpd"),
+                    ("lambda", "4"),
+                    ("nu", "0.2"),
+                ],
+            )?,
+            curve(
+                "mesh, bbpd",
+                Mark::Line,
+                Colour::Orange,
+                &[("body", "mesh"), ("law", "bbpd")],
+            )?,
+            curve(
+                "mesh, nhpd, energy",
+                Mark::Line,
+                Colour::Vermilion,
+                &[
+                    ("body", "mesh"),
+                    ("nu", "0.2"),
+                    ("criterion", "bond-energy"),
+                ],
+            )?,
+            curve(
+                "mesh, nhpd, stretch",
+                Mark::Line,
+                Colour::Purple,
+                &[
+                    ("body", "mesh"),
+                    ("nu", "0.2"),
+                    ("criterion", "critical-stretch"),
+                ],
+            )?,
+            curve(
+                "5/3 mm, m = 2 to 6",
+                Mark::Circles,
+                Colour::Green,
+                &[("size", "5/3"), ("law", "nhpd"), ("nu", "1/3")],
+            )?,
+        ],
+    };
+    Ok(Findings {
+        tables: vec![strength, crossing, work, energy, deviation],
+        plots: vec![plot],
+    })
+}
+
+/// Failure stress of a plate of width 2W with a central crack of length 2a:
+///
+/// sigma = sqrt(E G_c/(pi a))/F, F = (1 - 0.025 (a/W)^2 + 0.06 (a/W)^4) sqrt(sec(pi a/(2W)))
+///
+/// (Tada, Paris and Irwin 2000, The Stress Analysis of Cracks Handbook, section 2.1: 0.1 % off for a long plate).
+fn failure_stress() -> f64 {
+    let ratio = HALF_LENGTH / HALF_WIDTH;
+    let width = 1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4);
+    let secant = 1.0 / (0.5 * PI * ratio).cos();
+    (YOUNG * FRACTURE_ENERGY / (PI * HALF_LENGTH)).sqrt() / (width * secant.sqrt())
+}
+
+/// The trial with law, Poisson's ratio, criterion and horizon factor of an entry; keys that its table does not have stay.
+fn with_labels(trial: Trial, labels: Labels<'_>) -> anyhow::Result<Trial> {
+    let trial = trial
+        .set("material.poisson", labels.number("nu")?)
+        .set("model.horizon_factor", labels.number("lambda")?)
+        .set("fracture.criterion.0.kind", labels.text("criterion")?);
+    Ok(match labels.text("law") {
+        Ok(law) => trial.set("model.law", law),
+        Err(_) => trial,
+    })
+}
+
+fn mesh(labels: Labels<'_>) -> anyhow::Result<&'static StoredMesh> {
+    let size = labels.number("size")?;
+    let found = MESHES.iter().find(|(of_mesh, _)| *of_mesh == size);
+    let (_, mesh) = found.with_context(|| format!("no mesh of {size} mm"))?;
+    Ok(mesh)
+}
+
+/// Runs the plate with a central crack, on a lattice or a mesh; without the crack if `intact`, for its model alone.
+fn central_crack(labels: Labels<'_>, intact: bool) -> anyhow::Result<Solution> {
+    let is_lattice = labels.text("body")? == "lattice";
+    let template = if is_lattice { &ON_LATTICE } else { &ON_MESH };
+    let mut trial = with_labels(template.trial(), labels)?;
+    if intact {
+        // A line beside the plate cuts nothing, and a load that breaks nothing ends the run at once.
+        trial = trial
+            .set("precrack.0.points", [[1.0, 0.0], [2.0, 0.0]])
+            .set("load.0.force_per_length.y", 1.0)
+            .set("load.1.force_per_length.y", -1.0);
+    }
+    if !is_lattice {
+        return trial.solve_on(mesh(labels)?);
+    }
+    let columns = (2e3 * HALF_WIDTH / labels.number("size")?).round();
+    let rows = columns * HALF_HEIGHT / HALF_WIDTH;
+    trial
+        .set("lattice.cells", [columns as u32, rows as u32])
+        .set("lattice.spacing", 2.0 * HALF_WIDTH / columns)
+        .solve()
+}
+
+fn relative_strength(labels: Labels<'_>) -> anyhow::Result<f64> {
+    let solution = central_crack(labels, false)?;
+    let (labelled, found) = (labels.number("delta/a")?, horizon(&solution) / HALF_LENGTH);
+    ensure!(
+        (found - labelled).abs() < LABEL_TOLERANCE,
+        "delta/a is {found:.3}, its label says {labelled}"
+    );
+    let peak = solution
+        .outcome
+        .peak()
+        .context("the run has no state at rest")?;
+    Ok(peak.reaction / (2.0 * HALF_WIDTH * THICKNESS) / failure_stress())
+}
+
+/// Mean horizon of the points along the crack, m.
+fn horizon(solution: &Solution) -> f64 {
+    let model = &solution.model;
+    let cloud = &model.system.cloud;
+    let near = cloud.positions.iter().zip(&model.fixed.horizon);
+    let near = near.filter(|([_, y], _)| (y + cloud.origin[1]).abs() <= STRIP);
+    let (sum, count) = near.fold((0.0, 0.0), |(sum, count), (_, h)| (sum + h, count + 1.0));
+    sum / count
+}
+
+/// Energy at the limits of the bonds that cross the middle part of the line y = 0 of a plate without crack, over G_c times
+/// the surface t dx of that part.
+fn crossing_energy(labels: Labels<'_>) -> anyhow::Result<f64> {
+    let solution = central_crack(labels, true)?;
+    let half = 0.5 * HALF_WIDTH;
+    let crosses = |bond: usize| {
+        let [[x, y], [other_x, other_y]] = ends(&solution, bond);
+        let at = x + (other_x - x) * y / (y - other_y);
+        y * other_y < 0.0 && (at - ASIDE).abs() < half
+    };
+    let bonds = (0..solution.model.system.bonds.len()).filter(|&bond| crosses(bond));
+    let surface = 2.0 * half * THICKNESS;
+    Ok(energy_at_limits(&solution, bonds) / (FRACTURE_ENERGY * surface))
+}
+
+/// Sum of 1/2 R s_0^2, R = Omega alpha V_A V_B k_n l, J.
+fn energy_at_limits(solution: &Solution, bonds: impl Iterator<Item = usize>) -> f64 {
+    let model = &solution.model;
+    let limits = &model.criteria.list[0].limit;
+    bonds
+        .map(|bond| 0.5 * model.system.rigidities.axial[bond] * limits[bond].powi(2))
+        .sum()
+}
+
+/// Places of the ends of a bond, m.
+fn ends(solution: &Solution, bond: usize) -> [[f64; 2]; 2] {
+    let system = &solution.model.system;
+    let [x, y] = system.cloud.origin;
+    system.bonds.ends[bond].map(|end| {
+        let place = system.cloud.positions[end as usize];
+        [place[0] + x, place[1] + y]
+    })
+}
+
+impl Separation {
+    fn of(solution: &Solution) -> anyhow::Result<Self> {
+        let intact = &solution.outcome.state.intact;
+        let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
+        let reached = broken.iter().map(|&bond| {
+            let [[x, _], [other_x, _]] = ends(solution, bond);
+            0.5 * (x + other_x)
+        });
+        let far = reached.fold(EDGE_TIP, f64::max);
+        ensure!(
+            HALF_WIDTH - far < horizon(solution),
+            "the crack ends at x = {far:.4} m, inside the plate"
+        );
+        let separating = FRACTURE_ENERGY * (HALF_WIDTH - EDGE_TIP) * THICKNESS;
+        let last = solution.outcome.history.last();
+        let horizons = &solution.model.system.bonds.horizon;
+        let deviations = broken.iter().map(|&bond| {
+            let [[_, y], [_, other_y]] = ends(solution, bond);
+            0.5 * (y + other_y).abs() / horizons[bond]
+        });
+        Ok(Self {
+            work: last.context("the run has no state")?.released_energy / separating,
+            energy: energy_at_limits(solution, broken.iter().copied()) / separating,
+            deviation: deviations.fold(0.0, f64::max),
+        })
+    }
+}

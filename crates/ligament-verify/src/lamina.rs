@@ -1,0 +1,212 @@
+//! Natural frequencies of an orthotropic lamina with a hole, and their convergence (OMPPD Tables 3 to 5, Fig. 18).
+
+use super::named_modes::Frequencies;
+use super::plots::{Colour, Mark, Plot, Series};
+use super::table::{Extent, Known, LabelError, Row, Table};
+use super::trial::{Memory, Template};
+use super::{Experiment, Findings};
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "lamina",
+    title: "Natural frequencies of an orthotropic lamina with a hole",
+    source: "Diana and Casolo (OMPPD), Tables 3 to 5 and Fig. 18",
+    setup: "400 x 200 mm with a central hole of radius 40 mm, 80 x 40 cells of 5 mm less those whose centre lies in \
+            the hole (2,992 points), no bonds across the hole, m = 3.2. E_1 = 15 GPa, E_2 = 5 GPa, nu_12 = 0.25, G \
+            = 4.8 GPa, 2500 kg/m^3, plane stress, axis 1 turned by the angle (degrees). The two columns at the left \
+            end are held in all unknowns. k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface \
+            correction by volumes. The coarse and the fine lattice have 748 and 11,988 points (cells of 10 and 2.5 \
+            mm).",
+    cases: &["cases/verification/lamina-modes.toml"],
+    compute,
+};
+
+static CASE: Template = Template {
+    path: "cases/verification/lamina-modes.toml",
+    text: include_str!("../../../cases/verification/lamina-modes.toml"),
+};
+
+/// The lamina sticks out along x.
+const ALONG: usize = 0;
+
+/// A table and the mode it is of.
+type OfMode = (&'static str, &'static str, fn(Frequencies) -> f64);
+
+const TABLES: [OfMode; 3] = [
+    (
+        "omppd-table-3",
+        include_str!("published/omppd-table-3.csv"),
+        |it| it.flexural,
+    ),
+    (
+        "omppd-table-4",
+        include_str!("published/omppd-table-4.csv"),
+        |it| it.axial,
+    ),
+    (
+        "omppd-table-5",
+        include_str!("published/omppd-table-5.csv"),
+        |it| it.second_flexural,
+    ),
+];
+
+const DEVIATION: &str = include_str!("published/omppd-deviation.csv");
+const CONVERGENCE: &str = include_str!("published/omppd-convergence.csv");
+
+/// Cells along x: half of them along y.
+const COARSE: u32 = 40;
+const MIDDLE: u32 = 80;
+const FINE: u32 = 160;
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let mut memory = Memory::default();
+    let middle = tables(extent, &mut memory, MIDDLE)?;
+    let mut findings = Findings {
+        plots: middle.iter().map(of_angle).collect::<Result<_, _>>()?,
+        tables: middle.clone(),
+    };
+    if extent == Extent::Full {
+        let coarse = tables(extent, &mut memory, COARSE)?;
+        let fine = tables(extent, &mut memory, FINE)?;
+        findings.tables.push(deviation(&middle)?);
+        findings.tables.push(convergence(&coarse, &middle, &fine)?);
+        findings
+            .plots
+            .push(of_horizon([&coarse[0], &middle[0], &fine[0]])?);
+    }
+    Ok(findings)
+}
+
+/// Tables 3 to 5 on a lattice with so many cells along x.
+fn tables(
+    extent: Extent,
+    memory: &mut Memory<Frequencies>,
+    cells: u32,
+) -> anyhow::Result<Vec<Table>> {
+    let table = |(name, text, frequency): OfMode| {
+        Known::parse(name, text)?.judge(extent, |labels| {
+            let trial = CASE.trial();
+            let trial = trial.set("material.angle", labels.number("angle")?.to_radians());
+            let trial = trial.set("lattice.cells", [cells, cells / 2]);
+            let trial = trial.set("lattice.spacing", 0.4 / f64::from(cells));
+            let trial = trial.set("lattice.set.end.left", cells / COARSE);
+            memory
+                .of(trial.command(), || Frequencies::of(&trial, ALONG))
+                .map(frequency)
+        })
+    };
+    TABLES.into_iter().map(table).collect()
+}
+
+/// Median and largest difference from the 15 printed frequencies.
+fn deviation(middle: &[Table]) -> anyhow::Result<Table> {
+    let printed = differences(middle.iter().flat_map(|table| {
+        let rows = rows_of(table, "lattice");
+        rows.map(|row| (row.computed, row.entry.known.value()))
+    }));
+    Known::parse("omppd-deviation", DEVIATION)?.judge(Extent::Full, |labels| {
+        Ok(match labels.text("statistic")? {
+            "median" => printed[printed.len() / 2],
+            _ => printed[printed.len() - 1],
+        })
+    })
+}
+
+/// Largest change of a frequency from the coarse lattice, and largest difference of the fine one from finite elements.
+fn convergence(coarse: &[Table], middle: &[Table], fine: &[Table]) -> anyhow::Result<Table> {
+    let changes = differences(coarse.iter().zip(middle).flat_map(|(coarse, middle)| {
+        let rows = rows_of(coarse, "lattice").zip(rows_of(middle, "lattice"));
+        rows.map(|(coarse, middle)| (coarse.computed, middle.computed))
+    }));
+    let errors = differences(fine.iter().flat_map(|table| {
+        let rows = rows_of(table, "finite elements");
+        rows.map(|row| (row.computed, row.entry.known.value()))
+    }));
+    Known::parse("omppd-convergence", CONVERGENCE)?.judge(Extent::Full, |labels| {
+        let all = match labels.text("points")? {
+            "748" => &changes,
+            _ => &errors,
+        };
+        Ok(all[all.len() - 1])
+    })
+}
+
+/// The rows that compare with the paper's lattice or with its finite elements.
+fn rows_of<'a>(table: &'a Table, of: &'a str) -> impl Iterator<Item = &'a Row> {
+    let belongs = move |row: &&Row| table.labels(row).text("of") == Ok(of);
+    table.rows.iter().filter(belongs)
+}
+
+/// |one/other - 1| of pairs, %, ascending.
+fn differences(pairs: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
+    let mut all: Vec<f64> = pairs
+        .map(|(one, other)| 100.0 * (one / other - 1.0).abs())
+        .collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// A frequency over the angle of the axes.
+fn of_angle(table: &Table) -> Result<Plot, LabelError> {
+    let of = |from| [("of", from)];
+    let elements = table.known("angle", &of("finite elements"))?;
+    let printed = table.known("angle", &of("lattice"))?;
+    let computed = table.computed("angle", &of("lattice"))?;
+    Ok(Plot {
+        name: table.heading.name.clone(),
+        title: table.heading.title.clone(),
+        x: "angle of axis 1, degrees".to_owned(),
+        y: "frequency, Hz".to_owned(),
+        series: vec![
+            Series::new(
+                "finite elements, printed",
+                Mark::Dashes,
+                Colour::Black,
+                elements,
+            ),
+            Series::new(
+                "lattice, printed",
+                Mark::Circles,
+                Colour::Vermilion,
+                printed,
+            ),
+            Series::new("lattice, computed", Mark::Line, Colour::Vermilion, computed),
+        ],
+    })
+}
+
+/// The first flexural frequency over that of finite elements, on three lattices.
+fn of_horizon(tables: [&Table; 3]) -> Result<Plot, LabelError> {
+    let angles = [
+        ("0", Colour::Blue),
+        ("30", Colour::Vermilion),
+        ("45", Colour::Green),
+        ("60", Colour::Orange),
+        ("90", Colour::Purple),
+    ];
+    let mut series = Vec::new();
+    for (angle, colour) in angles {
+        let mut points = Vec::new();
+        for (table, horizon) in tables.iter().zip([32.0, 16.0, 8.0]) {
+            let of = [("of", "finite elements"), ("angle", angle)];
+            let (known, computed) = (table.known("angle", &of)?, table.computed("angle", &of)?);
+            let pairs = known.iter().zip(&computed);
+            points.extend(
+                pairs.map(|(known, computed)| [horizon, 100.0 * (computed[1] / known[1] - 1.0)]),
+            );
+        }
+        series.push(Series::new(
+            &format!("{angle} degrees"),
+            Mark::Line,
+            colour,
+            points,
+        ));
+    }
+    Ok(Plot {
+        name: "omppd-convergence".to_owned(),
+        title: "First flexural frequency: difference from finite elements".to_owned(),
+        x: "horizon, mm".to_owned(),
+        y: "difference, %".to_owned(),
+        series,
+    })
+}

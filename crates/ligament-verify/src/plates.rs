@@ -1,0 +1,244 @@
+//! Plates of imaginary elements in tension, in shear and heated (MBB-PD section 4.1).
+
+use anyhow::{Context, bail};
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::published::numbers;
+use super::table::{Extent, Known, Labels, Table};
+use super::trial::{Memory, Template, Trial, displacement_at, probe};
+use super::{Experiment, Findings};
+use ligament_case::solve::Solution;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "plates",
+    title: "Plates of imaginary elements",
+    source: "closed form, finite elements, independent calculation; Masoumi, Ravandi and Salehi (MBB-PD), section 4.1",
+    setup: "Plate 100 x 100 x 1 mm, E = 65.8 GPa, plane stress, m = 3. Tension: 200 MPa on the outer rows of points along y, or \
+            columns along x. Shear: u_x = 1 mm and u_y = 0 on the upper row, the lower one held, nu = 0.3. Heated by 50 K: nu = 0.4, \
+            23e-6 1/K, upper and lower row held (thermal), and the left column too (thermal-left). The elements end at the rows \
+            that are prescribed.",
+    cases: &[
+        "cases/mbb-plate/tension.toml",
+        "cases/mbb-plate/tension-x.toml",
+        "cases/mbb-plate/shear.toml",
+        "cases/thermal-plates/case.toml",
+        "cases/thermal-plates/three-edges.toml",
+    ],
+    compute,
+};
+
+static TENSION_Y: Template = Template {
+    path: "cases/mbb-plate/tension.toml",
+    text: include_str!("../../../cases/mbb-plate/tension.toml"),
+};
+
+static TENSION_X: Template = Template {
+    path: "cases/mbb-plate/tension-x.toml",
+    text: include_str!("../../../cases/mbb-plate/tension-x.toml"),
+};
+
+static SHEAR: Template = Template {
+    path: "cases/mbb-plate/shear.toml",
+    text: include_str!("../../../cases/mbb-plate/shear.toml"),
+};
+
+static THERMAL: Template = Template {
+    path: "cases/thermal-plates/case.toml",
+    text: include_str!("../../../cases/thermal-plates/case.toml"),
+};
+
+static THERMAL_LEFT: Template = Template {
+    path: "cases/thermal-plates/three-edges.toml",
+    text: include_str!("../../../cases/thermal-plates/three-edges.toml"),
+};
+
+/// Problem, d, x, y (mm), u_x, u_y (um) by finite elements.
+const ELEMENTS: &str = include_str!("../../../tests/reference/mbb-pd-elements.csv");
+
+/// Side of the plate, m.
+const SIDE: f64 = 0.1;
+
+const MICROMETRES: f64 = 1e6;
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let known = |name, text| Known::parse(name, text);
+    let mut narrowing = Memory::default();
+    let mut across = |labels: Labels<'_>| -> anyhow::Result<f64> {
+        let (case, nu) = (tension(labels)?, labels.number("nu")?);
+        let trial = on_lattice(case.trial(), spacing(labels)?).set("material.poisson", nu);
+        let half = narrowing.of(trial.command(), || {
+            Ok(0.5 * probe(&trial.solve()?, "narrowing")?)
+        })?;
+        Ok(MICROMETRES * half)
+    };
+    let closed_form = known("mbb-tension", include_str!("published/mbb-tension.csv"))?;
+    let lattice = include_str!("published/mbb-tension-lattice.csv");
+    let mut tables = vec![
+        closed_form.judge(extent, &mut across)?,
+        known("mbb-tension-lattice", lattice)?.judge(extent, |labels| {
+            Ok(across(labels)? - MICROMETRES * narrowing_by_hooke(labels)?)
+        })?,
+    ];
+    let elements = elements()?;
+    let mut states = Memory::default();
+    let mut plate = |labels: Labels<'_>| -> anyhow::Result<Compared> {
+        let trial = on_lattice(problem(labels)?, spacing(labels)?);
+        let wanted = (labels.text("problem")?, labels.number("d")?);
+        states.of(trial.command(), || {
+            Compared::of(&trial.solve()?, spacing(labels)?, &elements, wanted)
+        })
+    };
+    let plates = include_str!("published/mbb-plates.csv");
+    tables.push(known("mbb-plates", plates)?.judge(extent, |labels| {
+        let component = usize::from(labels.text("component")? == "u_y");
+        Ok(100.0 * plate(labels)?.difference[component])
+    })?);
+    let values = include_str!("published/mbb-plates-elements.csv");
+    tables.push(
+        known("mbb-plates-elements", values)?.judge(extent, |labels| {
+            let compared = plate(labels)?;
+            Ok(match labels.text("of")? {
+                "force" => compared.force,
+                _ => MICROMETRES * compared.middle,
+            })
+        })?,
+    );
+    let plots = vec![plot(&tables[0])?];
+    Ok(Findings { tables, plots })
+}
+
+fn tension(labels: Labels<'_>) -> anyhow::Result<&'static Template> {
+    match labels.text("along")? {
+        "x" => Ok(&TENSION_X),
+        "y" => Ok(&TENSION_Y),
+        other => bail!("along is `x` or `y`, not `{other}`"),
+    }
+}
+
+fn problem(labels: Labels<'_>) -> anyhow::Result<Trial> {
+    match labels.text("problem")? {
+        "shear" => Ok(SHEAR.trial()),
+        "thermal" => Ok(THERMAL.trial()),
+        "thermal-left" => Ok(THERMAL_LEFT.trial()),
+        other => bail!("no problem `{other}`"),
+    }
+}
+
+/// Spacing of an entry, m; its label is in mm.
+fn spacing(labels: Labels<'_>) -> anyhow::Result<f64> {
+    Ok(1e-3 * labels.number("d")?)
+}
+
+/// The plate on the lattice of a spacing.
+fn on_lattice(trial: Trial, spacing: f64) -> Trial {
+    let cells = (SIDE / spacing).round() as u32;
+    trial
+        .set("lattice.cells", [cells, cells])
+        .set("lattice.spacing", spacing)
+}
+
+/// u at the middle of a free side, -nu s/E (L - d)/2, m.
+fn narrowing_by_hooke(labels: Labels<'_>) -> anyhow::Result<f64> {
+    Ok(-labels.number("nu")? * 200e6 / 65.8e9 * 0.5 * (SIDE - spacing(labels)?))
+}
+
+/// Where finite elements give displacements, and these.
+#[derive(Debug, Clone, PartialEq)]
+struct Elements {
+    problem: String,
+    /// Spacing of the lattice, mm.
+    spacing: f64,
+    /// x, y, m.
+    place: [f64; 2],
+    /// u_x, u_y, m.
+    displacement: [f64; 2],
+}
+
+fn elements() -> anyhow::Result<Vec<Elements>> {
+    let rows = ELEMENTS.split_inclusive('\n').skip(1);
+    rows.enumerate()
+        .map(|(line, row)| {
+            let (problem, rest) = row.split_once(',').context("a row has a problem")?;
+            let name = format!("mbb-pd-elements, row {}", line + 1);
+            let [[spacing, x, y, u_x, u_y]] = numbers::<5>(&name, &format!("\n{rest}"))?[..] else {
+                bail!("{name} is no row");
+            };
+            Ok(Elements {
+                problem: problem.to_owned(),
+                spacing,
+                place: [1e-3 * x, 1e-3 * y],
+                displacement: [u_x / MICROMETRES, u_y / MICROMETRES],
+            })
+        })
+        .collect()
+}
+
+/// A plate against finite elements.
+#[derive(Debug, Clone, Copy)]
+struct Compared {
+    /// L2 norm of the difference of u_x and u_y over that by finite elements.
+    difference: [f64; 2],
+    /// u_x at the right end of the row above the middle, m.
+    middle: f64,
+    /// Force of the first load, N.
+    force: f64,
+}
+
+impl Compared {
+    fn of(
+        solution: &Solution,
+        spacing: f64,
+        elements: &[Elements],
+        (problem, label): (&str, f64),
+    ) -> anyhow::Result<Self> {
+        let (mut apart, mut size) = ([0.0; 2], [0.0; 2]);
+        let of = |it: &&Elements| it.problem == problem && it.spacing == label;
+        for element in elements.iter().filter(of) {
+            let found = displacement_at(solution, element.place);
+            for axis in 0..2 {
+                apart[axis] += (found[axis] - element.displacement[axis]).powi(2);
+                size[axis] += element.displacement[axis].powi(2);
+            }
+        }
+        let end = [0.5 * (SIDE - spacing), 0.5 * spacing];
+        let last = solution.outcome.history.last();
+        Ok(Self {
+            difference: [0, 1].map(|axis| (apart[axis] / size[axis]).sqrt()),
+            middle: displacement_at(solution, end)[0],
+            force: last.context("the run has no state")?.reaction,
+        })
+    }
+}
+
+/// u_A over Poisson's ratio.
+fn plot(table: &Table) -> anyhow::Result<Plot> {
+    let of = |along| [("d", "2"), ("along", along)];
+    let series = |label: &str, mark, colour, points| Series::new(label, mark, colour, points);
+    Ok(Plot {
+        name: table.heading.name.clone(),
+        title: "Plate in tension: displacement across the load".to_owned(),
+        x: "Poisson's ratio".to_owned(),
+        y: "u_A, um".to_owned(),
+        series: vec![
+            series(
+                "closed form",
+                Mark::Dashes,
+                Colour::Black,
+                table.known("nu", &of("y"))?,
+            ),
+            series(
+                "along y",
+                Mark::Line,
+                Colour::Blue,
+                table.computed("nu", &of("y"))?,
+            ),
+            series(
+                "along x",
+                Mark::Circles,
+                Colour::Vermilion,
+                table.computed("nu", &of("x"))?,
+            ),
+        ],
+    })
+}

@@ -1,0 +1,117 @@
+//! Poisson's ratio from uniaxial tension: what a test would read off the model.
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::table::{Extent, Known, LabelError, Labels, Table};
+use super::trial::{StoredMesh, Template, probe};
+use super::{Experiment, Findings};
+use ligament_case::solve::Solution;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "poisson",
+    title: "Poisson's ratio from uniaxial tension",
+    source: "closed form",
+    setup: "On a lattice: plate 0.2 x 0.1 m of 80 x 40 points, m = 3, E = 15 GPa, plane stress, PDS and MPPD \
+            (constant k_t); gauges in the middle, 97.5 mm along and 47.5 mm across. On a mesh: plate 0.2 x 0.1 m on \
+            an irregular mesh of 4 mm (1,543 points), E = 15 GPa, plane stress, NHPD; pulled along x, free to \
+            contract. Two strain gauges in the middle, 100 mm along and 55.4 mm across, give nu.",
+    cases: &[
+        "cases/verification/lattice-tension.toml",
+        "cases/plate-tension/case.toml",
+    ],
+    compute,
+};
+
+static LATTICE: Template = Template {
+    path: "cases/verification/lattice-tension.toml",
+    text: include_str!("../../../cases/verification/lattice-tension.toml"),
+};
+
+static PLATE: Template = Template {
+    path: "cases/plate-tension/case.toml",
+    text: include_str!("../../../cases/plate-tension/case.toml"),
+};
+
+static MESH: StoredMesh = StoredMesh {
+    path: "../../meshes/plate.msh",
+    bytes: include_bytes!("../../../meshes/plate.msh"),
+};
+
+/// Lengths of the gauges along and across, m.
+const ON_LATTICE: [f64; 2] = [2.0 * 0.048_75, 2.0 * 0.023_75];
+const ON_MESH: [f64; 2] = [0.1, 0.079_215 - 0.023_790];
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let lattice = Known::parse(
+        "poisson-lattice",
+        include_str!("published/poisson-lattice.csv"),
+    )?;
+    let lattice = lattice.judge(extent, on_lattice)?;
+    let mesh = Known::parse("poisson-mesh", include_str!("published/poisson-mesh.csv"))?;
+    let mesh = mesh.judge(extent, on_mesh)?;
+    let by_law = [("PDS", Colour::Blue), ("MPPD", Colour::Vermilion)];
+    let by_lambda = [
+        ("2", Colour::Orange),
+        ("3", Colour::Blue),
+        ("4", Colour::Vermilion),
+    ];
+    let plots = vec![
+        plot(&lattice, "law", &by_law)?,
+        plot(&mesh, "lambda", &by_lambda)?,
+    ];
+    Ok(Findings {
+        tables: vec![lattice, mesh],
+        plots,
+    })
+}
+
+fn on_lattice(labels: Labels<'_>) -> anyhow::Result<f64> {
+    let trial = LATTICE
+        .trial()
+        .set("material.poisson", labels.number("nu")?);
+    let trial = trial.set("model.law", labels.text("law")?.to_lowercase());
+    ratio(&trial.solve()?, ON_LATTICE)
+}
+
+fn on_mesh(labels: Labels<'_>) -> anyhow::Result<f64> {
+    let trial = PLATE.trial().set("material.poisson", labels.number("nu")?);
+    let trial = trial.set("model.horizon_factor", labels.number("lambda")?);
+    ratio(&trial.solve_on(&MESH)?, ON_MESH)
+}
+
+/// Poisson's ratio from two gauges of these lengths along and across.
+fn ratio(solution: &Solution, [along, across]: [f64; 2]) -> anyhow::Result<f64> {
+    let strain = probe(solution, "gauge-x")? / along;
+    let contraction = -probe(solution, "gauge-y")? / across;
+    Ok(contraction / strain)
+}
+
+/// What the input is missed by, for each label of a key.
+fn plot(table: &Table, key: &str, curves: &[(&str, Colour)]) -> Result<Plot, LabelError> {
+    let mut series = vec![Series::new(
+        "closed form",
+        Mark::Dashes,
+        Colour::Black,
+        vec![[-0.5, 0.0], [0.38, 0.0]],
+    )];
+    for (label, colour) in curves {
+        let computed = table.computed("nu", &[(key, label)])?;
+        let missed = computed
+            .into_iter()
+            .map(|[input, found]| [input, found - input])
+            .collect();
+        series.push(Series::new(
+            &format!("{key} {label}"),
+            Mark::Line,
+            *colour,
+            missed,
+        ));
+    }
+    Ok(Plot {
+        name: table.heading.name.clone(),
+        title: table.heading.title.clone(),
+        x: "Poisson's ratio, input".to_owned(),
+        y: "from strain gauges, less input".to_owned(),
+        series,
+    })
+}

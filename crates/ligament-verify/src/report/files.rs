@@ -1,0 +1,99 @@
+//! The tables of a report as CSV, and its plots as SVG.
+
+use ligament_output::csv;
+use ligament_output::folder::ResultFolder;
+
+use crate::entry::Verdict;
+use crate::table::Table;
+use crate::tally::Tally;
+use crate::{Experiment, Findings};
+
+/// The file by which a folder is known to hold a report: a row an experiment.
+pub const SUMMARY: &str = "verification.csv";
+
+/// The table of experiments, which grows while they are run.
+pub struct Summary(csv::Table);
+
+impl Summary {
+    /// Creates the table in a folder.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be written.
+    pub fn create(folder: &ResultFolder) -> Result<Self, ligament_output::Error> {
+        let columns = ["experiment", "source", "entries"].into_iter();
+        let columns: Vec<&str> = columns.chain(Verdict::ALL.map(Verdict::words)).collect();
+        csv::Table::create(folder.file(SUMMARY), &columns).map(Self)
+    }
+
+    /// Adds an experiment.
+    ///
+    /// # Errors
+    ///
+    /// If the table cannot be written.
+    pub fn append(
+        &mut self,
+        experiment: &Experiment,
+        tally: &Tally,
+    ) -> Result<(), ligament_output::Error> {
+        let head = [
+            experiment.name.into(),
+            experiment.source.into(),
+            tally.entries().into(),
+        ];
+        let row: Vec<csv::Value<'_>> = head
+            .into_iter()
+            .chain(tally.counts().map(csv::Value::from))
+            .collect();
+        self.0.append(&row)
+    }
+}
+
+/// Writes the tables of an experiment as CSV and its plots as SVG.
+///
+/// # Errors
+///
+/// If a file cannot be written, or a plot has no points.
+pub fn write(folder: &ResultFolder, findings: &Findings) -> anyhow::Result<()> {
+    for table in &findings.tables {
+        write_csv(folder, table)?;
+    }
+    for plot in &findings.plots {
+        folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
+    }
+    Ok(())
+}
+
+fn write_csv(folder: &ResultFolder, table: &Table) -> Result<(), ligament_output::Error> {
+    let path = folder.file(&format!("{}.csv", table.heading.name));
+    let labels = table.heading.keys.iter().map(String::as_str);
+    let values = [
+        "known", "computed", "allowed", "verdict", "instead", "reason",
+    ];
+    let columns: Vec<&str> = labels.chain(values).collect();
+    let mut file = csv::Table::create(path, &columns)?;
+    for row in &table.rows {
+        let entry = &row.entry;
+        let (known, allowed) = (entry.known.to_string(), entry.allowed.to_string());
+        let instead = entry
+            .standing
+            .instead()
+            .map(ToString::to_string)
+            .unwrap_or_default();
+        let mut cells: Vec<csv::Value<'_>> = entry
+            .labels
+            .iter()
+            .map(|label| label.as_str().into())
+            .collect();
+        cells.extend([
+            csv::Value::from(known.as_str()),
+            row.computed.into(),
+            allowed.as_str().into(),
+            row.verdict.words().into(),
+            instead.as_str().into(),
+            entry.standing.reason().unwrap_or_default().into(),
+        ]);
+        file.append(&cells)?;
+    }
+    Ok(())
+}

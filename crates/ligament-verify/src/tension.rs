@@ -1,0 +1,131 @@
+//! An orthotropic lamina with a hole in tension against finite elements (OMPPD Figs 16, 17).
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::published::numbers;
+use super::table::{Extent, Known};
+use super::trial::{Memory, Template, displacement_at};
+use super::{Experiment, Findings};
+use ligament_case::solve::Solution;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "tension",
+    title: "Orthotropic lamina with a hole in tension",
+    source: "finite elements, as in Diana and Casolo (OMPPD), Figs 16 and 17",
+    setup: "The lamina of the natural frequencies (2,992 points, m = 3.2), u_x = -0.5 and 0.5 mm in the three \
+            columns at its ends, free along y (u_y is given less its mean over all points). Displacements of the \
+            upper row of cells against an independent solution by finite elements at the same points.",
+    cases: &["cases/verification/lamina-tension.toml"],
+    compute,
+};
+
+static CASE: Template = Template {
+    path: "cases/verification/lamina-tension.toml",
+    text: include_str!("../../../cases/verification/lamina-tension.toml"),
+};
+
+const TABLE: &str = include_str!("published/omppd-tension.csv");
+
+/// Angle (degrees), x, y (m), u_x, u_y (m) by finite elements along the upper edge.
+const ELEMENTS: &str = include_str!("../../../tests/reference/fem-hole-edge.csv");
+
+const MILLIMETRES: f64 = 1e3;
+
+/// Displacements along the upper edge at one angle of the axes.
+#[derive(Debug, Clone)]
+struct Edge {
+    angle: f64,
+    /// x, m.
+    along: Vec<f64>,
+    /// By finite elements, m.
+    elements: Vec<[f64; 2]>,
+    /// By the lattice, m.
+    lattice: Vec<[f64; 2]>,
+}
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let elements = numbers::<5>("fem-hole-edge", ELEMENTS)?;
+    let mut memory = Memory::default();
+    let mut edges: Vec<Edge> = Vec::new();
+    let table = Known::parse("omppd-tension", TABLE)?.judge(extent, |labels| {
+        let angle = labels.number("angle")?;
+        let trial = CASE.trial().set("material.angle", angle.to_radians());
+        let edge = memory.of(trial.command(), || {
+            let edge = Edge::of(&trial.solve()?, &elements, angle);
+            edges.push(edge.clone());
+            Ok(edge)
+        })?;
+        Ok(edge.difference(usize::from(labels.text("component")? == "u_y")))
+    })?;
+    Ok(Findings {
+        tables: vec![table],
+        plots: vec![plot(&edges, 0), plot(&edges, 1)],
+    })
+}
+
+impl Edge {
+    fn of(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
+        let all = solution.outcome.state.displacement.chunks_exact(3);
+        let mean =
+            all.map(|motion| motion[1]).sum::<f64>() / solution.model.system.cloud.len() as f64;
+        let mut edge = Self {
+            angle,
+            along: Vec::new(),
+            elements: Vec::new(),
+            lattice: Vec::new(),
+        };
+        for [_, x, y, along, across] in elements.iter().filter(|row| row[0] == angle) {
+            let [u_x, u_y] = displacement_at(solution, [*x, *y]);
+            edge.along.push(*x);
+            edge.elements.push([*along, *across]);
+            edge.lattice.push([u_x, u_y - mean]);
+        }
+        edge
+    }
+
+    /// Largest difference of a component over the largest by finite elements; NaN without points.
+    fn difference(&self, component: usize) -> f64 {
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::NAN, f64::max);
+        let pairs = || self.elements.iter().zip(&self.lattice);
+        largest(&mut pairs().map(|(one, other)| (one[component] - other[component]).abs()))
+            / largest(&mut pairs().map(|(one, _)| one[component].abs()))
+    }
+
+    fn curve(&self, of: &[[f64; 2]], component: usize) -> Vec<[f64; 2]> {
+        let points = self.along.iter().zip(of);
+        points
+            .map(|(x, u)| [MILLIMETRES * x, MILLIMETRES * u[component]])
+            .collect()
+    }
+}
+
+fn plot(edges: &[Edge], component: usize) -> Plot {
+    let colours = [
+        Colour::Blue,
+        Colour::Vermilion,
+        Colour::Green,
+        Colour::Orange,
+        Colour::Purple,
+    ];
+    let mut series = Vec::new();
+    for (edge, colour) in edges.iter().zip(colours) {
+        let label = format!("{} degrees", edge.angle);
+        let lattice = edge.curve(&edge.lattice, component);
+        series.push(Series::new(&label, Mark::Curve, colour, lattice));
+        let label = if series.len() == 1 {
+            "finite elements"
+        } else {
+            ""
+        };
+        let elements = edge.curve(&edge.elements, component);
+        series.push(Series::new(label, Mark::Dashes, Colour::Black, elements));
+    }
+    let name = ["u_x", "u_y"][component];
+    Plot {
+        name: format!("omppd-tension-{name}"),
+        title: format!("Upper edge of the lamina in tension: {name}"),
+        x: "x, mm".to_owned(),
+        y: format!("{name}, mm"),
+        series,
+    }
+}

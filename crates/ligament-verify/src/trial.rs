@@ -1,0 +1,180 @@
+//! A case of the repository, run in memory with settings of its own.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::Context;
+use ligament_analysis::modal::Mode;
+use ligament_analysis::{COMPONENTS, Termination};
+use ligament_mesh::gmsh;
+
+use ligament_case::body::{self, Body};
+use ligament_case::case::{Case, CaseError, CaseFile};
+use ligament_case::model::{Model, build_model, model_of};
+use ligament_case::progress::{Progress, ProgressMode};
+use ligament_case::solve::{Solution, modes, solve};
+use ligament_case::stages::Stages;
+
+/// A case file of the repository, as it was when the program was built.
+pub(super) struct Template {
+    /// Its path in the repository.
+    pub(super) path: &'static str,
+    /// Its text.
+    pub(super) text: &'static str,
+}
+
+/// A mesh of the repository, as it was when the program was built.
+pub(super) struct StoredMesh {
+    /// Its path from the folder of a case.
+    pub(super) path: &'static str,
+    /// Its bytes.
+    pub(super) bytes: &'static [u8],
+}
+
+/// A case and the settings (`key=value`, as with `--set`) that it is run with.
+pub(super) struct Trial {
+    template: &'static Template,
+    settings: Vec<String>,
+}
+
+impl Template {
+    /// A trial of the case as it is.
+    pub(super) fn trial(&'static self) -> Trial {
+        Trial {
+            template: self,
+            settings: Vec::new(),
+        }
+    }
+}
+
+impl Trial {
+    /// The trial with one more setting.
+    pub(super) fn set(mut self, key: &str, value: impl std::fmt::Debug) -> Self {
+        self.settings.push(format!("{key}={value:?}"));
+        self
+    }
+
+    /// Runs the case, as `ligament run` does.
+    pub(super) fn solve(&self) -> anyhow::Result<Solution> {
+        self.run(None).with_context(|| self.command())
+    }
+
+    /// Runs the case on a stored mesh, as `ligament run` does where the file is.
+    pub(super) fn solve_on(self, mesh: &StoredMesh) -> anyhow::Result<Solution> {
+        let trial = self.set("mesh.file", mesh.path);
+        let body = body::of_mesh(gmsh::parse(mesh.bytes)?);
+        trial.run(Some(body)).with_context(|| trial.command())
+    }
+
+    /// The discrete model of the case, as `ligament run` builds it.
+    pub(super) fn model(&self) -> anyhow::Result<Model> {
+        self.model_with(|_| {})
+    }
+
+    /// The discrete model of the case after a change that no setting makes.
+    pub(super) fn model_with(&self, change: impl FnOnce(&mut Case)) -> anyhow::Result<Model> {
+        let build = || {
+            let mut case = self.case()?;
+            change(&mut case.case);
+            let progress = Progress::new(ProgressMode::Quiet);
+            build_model(&case, &mut Stages::default(), &progress)
+        };
+        build().with_context(|| self.command())
+    }
+
+    /// The discrete model of the case on a stored mesh.
+    pub(super) fn model_on(self, mesh: &StoredMesh) -> anyhow::Result<Model> {
+        let trial = self.set("mesh.file", mesh.path);
+        let build = || {
+            let body = body::of_mesh(gmsh::parse(mesh.bytes)?);
+            let progress = Progress::new(ProgressMode::Quiet);
+            model_of(&trial.case()?, body, &mut Stages::default(), &progress)
+        };
+        build().with_context(|| trial.command())
+    }
+
+    /// The natural modes of the case, as `ligament run` finds them.
+    pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
+        let case = self.case()?;
+        let found = modes(&case).with_context(|| self.command())?;
+        match found.notices.first() {
+            Some(notice) => Err(anyhow::anyhow!("{notice}")).with_context(|| self.command()),
+            None => Ok(found.modes),
+        }
+    }
+
+    fn case(&self) -> Result<CaseFile, CaseError> {
+        let text = self.template.text.to_owned();
+        CaseFile::parse(Path::new(self.template.path), text, &self.settings)
+    }
+
+    fn run(&self, body: Option<Box<dyn Body>>) -> anyhow::Result<Solution> {
+        let solution = solve(&self.case()?, body)?;
+        match &solution.outcome.termination {
+            Termination::NoEquilibrium { .. } | Termination::NotAtRest { .. } => {
+                Err(anyhow::anyhow!("{}", solution.outcome.termination))
+            }
+            _ => Ok(solution),
+        }
+    }
+
+    /// The command that runs the same case.
+    pub(super) fn command(&self) -> String {
+        let settings = self.settings.iter();
+        let words: Vec<String> = settings
+            .map(|setting| format!(" --set {setting}"))
+            .collect();
+        format!("ligament run {}{}", self.template.path, words.concat())
+    }
+}
+
+/// The value of a probe in the last state of a run.
+pub(super) fn probe(solution: &Solution, name: &str) -> anyhow::Result<f64> {
+    let place = solution.probes.iter().position(|probe| probe.name == name);
+    let last = solution.outcome.history.last();
+    place
+        .zip(last)
+        .and_then(|(place, last)| last.probes.get(place).copied())
+        .with_context(|| format!("the run has no probe `{name}`"))
+}
+
+/// The displacement of the point nearest to a place, in the last state of a run, m.
+pub(super) fn displacement_at(solution: &Solution, place: [f64; 2]) -> [f64; 2] {
+    let point = solution.model.system.cloud.nearest_point(place) as usize;
+    let motion = &solution.outcome.state.displacement[COMPONENTS * point..];
+    [motion[0], motion[1]]
+}
+
+/// The largest |u_x| and |u_y| of all points in the last state of a run, m.
+pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64; 2]> {
+    let motions = solution.outcome.state.displacement.chunks_exact(COMPONENTS);
+    Ok(motions.fold([0.0, 0.0], |[x, y], motion| {
+        [motion[0].abs().max(x), motion[1].abs().max(y)]
+    }))
+}
+
+/// What runs that several entries share came to, by their commands.
+#[derive(Debug)]
+pub(super) struct Memory<T>(BTreeMap<String, T>);
+
+impl<T: Clone> Memory<T> {
+    /// What the run came to; it is done if it was not yet.
+    pub(super) fn of(
+        &mut self,
+        command: String,
+        run: impl FnOnce() -> anyhow::Result<T>,
+    ) -> anyhow::Result<T> {
+        if let Some(result) = self.0.get(&command) {
+            return Ok(result.clone());
+        }
+        let result = run()?;
+        self.0.insert(command, result.clone());
+        Ok(result)
+    }
+}
+
+impl<T> Default for Memory<T> {
+    fn default() -> Self {
+        Self(BTreeMap::new())
+    }
+}

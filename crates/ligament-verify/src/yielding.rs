@@ -1,0 +1,176 @@
+//! First yield of lattices: the printed errors over orientation, and the calibration of the criteria on a bar.
+
+use anyhow::Context;
+use ligament_model::failure::frictional::Calibration;
+use ligament_model::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
+
+use super::plots::{Colour, Mark, Plot, Series};
+use super::table::{Extent, Known, Labels, Table};
+use super::trial::Template;
+use super::{Experiment, Findings};
+use ligament_case::case::{After, Criterion, CriterionKind, FrictionCalibration};
+use ligament_study::yielding::criteria::{Combination, Strengths};
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "yielding",
+    title: "First yield of lattices",
+    source: "Diana and Casolo 2019 (MPPD), Tables 7 to 9; closed form",
+    setup: "Families of a square lattice with horizons of m = 2 to 5 spacings (12 to 80 bonds) under a uniform strain with \
+            the principal stretches s_1 and s_2, turned by 0 to 90 degrees in 101 steps; nu = 0, compressive limit three \
+            times the tensile one. The error is the one of the orientation that yields last, as `ligament yield` computes \
+            it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
+            bonds of a lattice, in the worst direction of a bond.",
+    cases: &["cases/verification/lattice.toml"],
+    compute,
+};
+
+static CASE: Template = Template {
+    path: "cases/verification/lattice.toml",
+    text: include_str!("../../../cases/verification/lattice.toml"),
+};
+
+/// As in the paper's tables.
+const STRENGTHS: Strengths = Strengths {
+    poisson: 0.0,
+    ratio: 3.0,
+    calibration: Calibration::Printed,
+};
+
+/// Young's modulus and tensile strength of the bar, Pa.
+const YOUNG: f64 = 70e9;
+const TENSILE_STRENGTH: f64 = 1e6;
+
+const RATIOS: [(f64, Colour); 5] = [
+    (2.0, Colour::Blue),
+    (3.0, Colour::Vermilion),
+    (3.2, Colour::Green),
+    (4.0, Colour::Purple),
+    (5.0, Colour::Orange),
+];
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let printed = |name, text, criterion: &str| -> anyhow::Result<Table> {
+        let combination = named(criterion)?;
+        Known::parse(name, text)?.judge(extent, |labels| {
+            let directions = lattice::directions(labels.number("m")?);
+            let worst = combination.printed_measure(&STRENGTHS, &directions, path(labels)?)?;
+            Ok(100.0 * worst.context("nothing yields")?.error)
+        })
+    };
+    let frictional = named("frictional")?;
+    let first_yield = Known::parse(
+        "first-yield-frictional",
+        include_str!("published/first-yield-frictional.csv"),
+    )?;
+    let first_yield = first_yield.judge(extent, |labels| {
+        let directions = lattice::directions(labels.number("m")?);
+        let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
+        let family = Family::of_directions(&directions, &criteria);
+        let worst = family.worst_of(path(labels)?, printed_orientations());
+        Ok(100.0 * worst.context("nothing yields")?.error)
+    })?;
+    let bar = Known::parse("bar-yield", include_str!("published/bar-yield.csv"))?;
+    let tables = vec![
+        printed(
+            "mppd-table-7",
+            include_str!("published/mppd-table-7.csv"),
+            "stretch",
+        )?,
+        printed(
+            "mppd-table-8",
+            include_str!("published/mppd-table-8.csv"),
+            "sliding",
+        )?,
+        printed(
+            "mppd-table-9",
+            include_str!("published/mppd-table-9.csv"),
+            "frictional",
+        )?,
+        first_yield,
+        bar.judge(extent, bar_yield)?,
+    ];
+    let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
+    Ok(Findings {
+        tables,
+        plots: plots.into_iter().collect::<anyhow::Result<_>>()?,
+    })
+}
+
+fn named(criterion: &str) -> anyhow::Result<Combination> {
+    criterion.parse().map_err(anyhow::Error::msg)
+}
+
+fn path(labels: Labels<'_>) -> anyhow::Result<PrincipalStretches> {
+    Ok(PrincipalStretches::new(
+        labels.number("s1")?,
+        labels.number("s2")?,
+    ))
+}
+
+/// Stress of a bar at first yield over its tensile strength, for the criterion that a case gives its bonds.
+fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
+    let kinds = match (labels.text("criterion")?, labels.text("calibration")?) {
+        ("stretch", _) => vec![
+            CriterionKind::Tension { limit: None },
+            CriterionKind::Compression { limit: None },
+        ],
+        ("sliding", _) => vec![CriterionKind::Sliding { limit: None }],
+        (_, "two-point") => vec![CriterionKind::Frictional {
+            calibration: FrictionCalibration::TwoPoint,
+        }],
+        _ => vec![CriterionKind::Frictional {
+            calibration: FrictionCalibration::Printed,
+        }],
+    };
+    let nu = labels.number("nu")?;
+    let trial = CASE.trial().set("material.poisson", nu);
+    let trial = trial
+        .set("material.tensile_strength", TENSILE_STRENGTH)
+        .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)
+        .set("fracture.steps", 1);
+    let model = trial.model_with(|case| {
+        let brittle = |kind| Criterion {
+            kind,
+            after: After::Brittle,
+        };
+        if let Some(fracture) = &mut case.fracture {
+            fracture.criteria = kinds.into_iter().map(brittle).collect();
+        }
+    })?;
+    let middle = model.system.cloud.nearest_point([0.0, 0.0]);
+    let family = Family::of_point(&model.system, &model.criteria, middle);
+    let sign = match labels.text("bar")? {
+        "tension" => 1.0,
+        _ => -1.0,
+    };
+    let strain = sign * TENSILE_STRENGTH / YOUNG;
+    let strains = PrincipalStretches::new(strain, -nu * strain);
+    Ok(1.0 / family.theoretical_utilisation(strains))
+}
+
+/// Errors of a simple extension over its orientation (MPPD Figs 28 and 30).
+fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
+    let combination = named(criterion)?;
+    let extension = PrincipalStretches::new(1.0, 0.0);
+    let mut series = Vec::new();
+    for (ratio, colour) in RATIOS {
+        let directions = lattice::directions(ratio);
+        let criteria = combination.criteria(&STRENGTHS, directions.len())?;
+        let family = Family::of_directions(&directions, &criteria);
+        let point = |orientation: f64| {
+            let error = family.error(extension, orientation)?;
+            Some([orientation.to_degrees(), 100.0 * error])
+        };
+        let points = printed_orientations().filter_map(point).collect();
+        let name = format!("m = {ratio}");
+        series.push(Series::new(&name, Mark::Curve, colour, points));
+    }
+    Ok(Plot {
+        name: format!("first-yield-{criterion}"),
+        title: format!("Simple extension, error of first yield: {criterion}"),
+        x: "orientation, degrees".to_owned(),
+        y: "error, %".to_owned(),
+        series,
+    })
+}
