@@ -12,8 +12,9 @@ use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
 use ligament_cli::check::{Extent, check};
-use ligament_model::element::BondElement;
+use ligament_model::Bonds;
 use ligament_model::failure::{Criteria, Criterion, Measure};
+use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
 use verification::numbers::{deviation, relative_error};
@@ -342,10 +343,12 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 let u: Vec<f64> = of_points
                     .flat_map(|&it| motion([strain, 0.0], angle, it))
                     .collect();
+                let intact = vec![true; system.bonds.len()];
+                let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
                 let utilisation = |&bond: &u32| {
                     let bond = bond as usize;
                     let criteria = &bench.model.criteria;
-                    criteria.utilisation(bond, &BondElement::of(system, &[], bond).deformation(&u))
+                    criteria.utilisation(bond, &deformations[bond])
                 };
                 let family = system.bonds.incidence.at(middle).iter();
                 100.0 * (1.0 / family.map(utilisation).fold(0.0, f64::max) - 1.0)

@@ -6,9 +6,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use ligament_model::element::BondElement;
+use ligament_model::Bonds;
+use ligament_model::element::Remaining;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
 use ligament_model::law::bbpd;
+use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
 use verification::numbers::relative_error;
@@ -323,9 +325,11 @@ impl Separation {
         let motions: Vec<[f64; 3]> = is_left
             .map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] })
             .collect();
+        let intact = vec![true; system.bonds.len()];
+        let deformations =
+            system.deformations(&intact, motions.as_flattened(), ThermalStrain::NONE);
         for bond in segment.crossing(bench) {
-            let element = BondElement::of(system, &[], bond);
-            let deformation = element.deformation(motions.as_flattened());
+            let deformation = deformations[bond];
             let ratio = bench.model.criteria.utilisation(bond, &deformation);
             if ratio == 0.0 {
                 sum.unbroken += 1;
@@ -336,7 +340,9 @@ impl Separation {
                 0.5 * system.rigidities.axial[bond] * deformation.stretch.max(0.0).powi(2);
             let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear.powi(2);
             sum.counted += (opening + sliding) * per_energy;
-            sum.stored += element.energy(&deformation) * per_energy;
+            let both = [&deformation; 2];
+            let energy = system.mutual_energy(&intact, bond, &Remaining::WHOLE, both);
+            sum.stored += energy * per_energy;
         }
         sum
     }

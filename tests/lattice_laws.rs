@@ -5,7 +5,6 @@
 use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_analysis::stress::{traction, virial};
 use ligament_case::progress::ProgressMode;
 use ligament_case::run;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
@@ -266,8 +265,8 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
             let deformations =
                 internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;
-            let virial = virial::stress(system, BondsLeft::whole(&intact), &deformations);
-            let traction = traction::stress(system, BondsLeft::whole(&intact), &deformations);
+            let virial = system.virial_stresses(BondsLeft::whole(&intact), &deformations);
+            let traction = system.tractions(BondsLeft::whole(&intact), &deformations);
             let largest: f64 = expected
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.abs()));

@@ -8,6 +8,7 @@ use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::{COMPONENTS, Termination};
+use ligament_model::Bonds;
 use tempfile::TempDir;
 use verification::bench::Bench;
 use verification::numbers::{deviation, relative_error, short};
@@ -114,7 +115,7 @@ fn strains_of_bonds_beside_cracks() {
     let bench = Bench::new(PLATE, &[CRACKS, "model.horizon_factor=2.0"]);
     let run = bench.solve();
     let (system, intact) = (&bench.model.system, &run.state().intact);
-    let found = internal::deformations(system, intact, run.displacement(), ThermalStrain::NONE);
+    let found = system.deformations(intact, run.displacement(), ThermalStrain::NONE);
     let bonds = &system.bonds;
     let size = 1e-3;
     let mut worst = [0.0_f64; 3];

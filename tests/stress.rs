@@ -4,7 +4,6 @@
 use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_analysis::stress::{traction, virial};
 use ligament_mesh::Mesh;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
@@ -33,10 +32,10 @@ fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f
     let system = &bench.model.system;
     let deformations =
         internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
-    let of_bonds = virial::stress(system, BondsLeft::whole(intact), &deformations);
+    let left = BondsLeft::whole(intact);
     (
-        of_bonds,
-        traction::stress(system, BondsLeft::whole(intact), &deformations),
+        system.virial_stresses(left, &deformations),
+        system.tractions(left, &deformations),
     )
 }
 

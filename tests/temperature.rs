@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::{ControlKind, internal};
+use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
 use verification::numbers::{component, largest, relative_error};
@@ -62,12 +63,13 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
     let expansion = bench.boundary.thermal_strain_at(run.state().load_factor);
     let intact = &run.state().intact;
-    internal::deformations(&bench.model.system, intact, run.displacement(), expansion)
+    let system = &bench.model.system;
+    system.deformations(intact, run.displacement(), expansion)
 }
 
 /// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
 fn free_strain(bench: &Bench) -> [f64; 3] {
-    bench.boundary.thermal_strain[0]
+    bench.boundary.thermal_strain.at_points[0]
 }
 
 /// A body that nothing but three gauges holds takes the shape of its thermal strain: displacements are (eps_xx x + gamma_xy y/2,
@@ -346,7 +348,7 @@ fn a_linear_temperature_bends_free_bodies() {
                 path.display()
             );
             let (bench, run) = solved(&text, &settings);
-            let strains = bench.boundary.thermal_strain.as_flattened();
+            let strains = bench.boundary.thermal_strain.at_points.as_flattened();
             let size = largest(strains.iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(

@@ -17,8 +17,9 @@ pub fn damage(system: &dyn Bonds, intact: &[bool]) -> Vec<f64> {
 /// Damage of one point, see [`damage`].
 pub fn point_damage(system: &dyn Bonds, intact: &[bool], point: u32) -> f64 {
     let (mut broken, mut all) = (0.0, 0.0);
+    let weights = system.weights();
     for &bond in system.incidence().at(point) {
-        let weight = system.weights()[bond as usize];
+        let weight = weights[bond as usize];
         all += weight;
         if !intact[bond as usize] {
             broken += weight;
@@ -81,9 +82,10 @@ pub fn point_damage_by(
             .fold(1.0, f64::min)
     };
     let (mut lost, mut all) = (0.0, 0.0);
-    for &bond in system.incidence().at(point) {
-        let volume = system.volumes()[system.topology().neighbour(bond, point) as usize];
-        let weight = system.weights()[bond as usize] * volume;
+    let (topology, volumes, weights) = (system.topology(), system.volumes(), system.weights());
+    for &bond in topology.incidence.at(point) {
+        let volume = volumes[topology.neighbour(bond, point) as usize];
+        let weight = weights[bond as usize] * volume;
         all += weight;
         lost += (1.0 - force(bond as usize)) * weight;
     }

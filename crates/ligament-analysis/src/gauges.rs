@@ -12,10 +12,6 @@ use crate::boundary::Boundary;
 use crate::connectivity::{Fragments, Hold};
 use crate::unknowns::Unknowns;
 
-/// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
-/// spread over many points, and below what results are read to.
-const BALANCE_TOLERANCE: f64 = 1e-6;
-
 /// A connected part of the intact body that can move rigidly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreeBody {
@@ -31,15 +27,10 @@ pub struct FreeBody {
     pub gauges: Vec<usize>,
 }
 
-/// Whether loads are in equilibrium along a free motion.
-fn is_balanced(motion: &FreeMotion) -> bool {
-    motion.imbalance <= BALANCE_TOLERANCE
-}
-
 impl FreeBody {
     /// Whether the loads are in equilibrium without supports, so that gauges carry nothing.
     pub fn is_balanced(&self) -> bool {
-        self.motions.iter().all(is_balanced)
+        self.motions.iter().all(FreeMotion::is_balanced)
     }
 }
 

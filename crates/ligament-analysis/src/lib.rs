@@ -30,6 +30,7 @@ pub use boundary::{Boundary, BoundaryError, Control, ControlKind};
 pub use equilibrium::{Equilibrium, SetupError};
 pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
+pub use ligament_model::{Bonds, interface};
 pub use probe::Probe;
 pub use state::State;
 pub use stiffness::SolverSettings;

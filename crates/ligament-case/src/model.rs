@@ -4,8 +4,7 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
-use ligament_model::law::mbb_pd;
-use ligament_model::{BondSet, BondStiffness, BondSystem, ElementKind, Horizons, PointCloud};
+use ligament_model::{BondSet, BondStiffness, BondSystem, Horizons, PointCloud};
 use ligament_output::results::{Absence, AbsentBond, FixedFields};
 
 use crate::body::{self, Body};
@@ -106,13 +105,7 @@ pub fn model_of(
     let (alpha, omega) = (correction.length_factor, &fixed.domain_factor);
     let system = stages.time("rigidities", || {
         let element = formulation::element(&case.case.model);
-        let mut system = BondSystem::new(cloud, bonds, element, stiffness, alpha, omega);
-        if element == ElementKind::Pairwise
-            && let Some(elements) = &mut system.imaginary
-        {
-            elements.row_factors = mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud);
-        }
-        system
+        BondSystem::new(cloud, bonds, element, stiffness, alpha, omega)
     });
     let criteria = stages.time("criteria", || {
         failure::criteria(case, &system, &fixed.no_fail)

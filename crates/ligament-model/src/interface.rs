@@ -50,6 +50,9 @@ pub trait Bonds: Sync {
     /// Distance of each point from its nearest one, shape (n_points), m.
     fn spacing(&self) -> &[f64];
 
+    /// Horizon of each bond, shape (n_bonds), m.
+    fn horizons(&self) -> &[f64];
+
     /// Weight of each bond in the damage of its ends, shape (n_bonds).
     fn weights(&self) -> &[f64];
 
@@ -150,6 +153,14 @@ pub trait Bonds: Sync {
         point: u32,
     ) -> Vec<f64>;
 
+    /// Stress of every point in one reading of the forces of the bonds.
+    fn stresses(
+        &self,
+        reading: StressReading,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+    ) -> Stresses;
+
     /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
     /// bonds of two points alone.
     fn force_through(
@@ -228,6 +239,24 @@ pub struct PointStiffness {
     pub force: f64,
     /// Moment for a rotation of 1 rad, in the units of what it is compared with.
     pub moment: f64,
+}
+
+/// Readings of the forces of the bonds as stresses, see [`crate::stress`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StressReading {
+    /// The mean of the force dyads of a point's bonds.
+    Virial,
+    /// The force through small planes at a point.
+    Traction,
+}
+
+/// Stresses of all points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stresses {
+    /// Names of the components.
+    pub names: &'static [&'static str],
+    /// Values, shape (n_points, n_components), Pa.
+    pub values: Vec<f64>,
 }
 
 /// The rigid motions of a body about the centre of its masses.
@@ -313,6 +342,10 @@ impl Bonds for BondSystem {
 
     fn spacing(&self) -> &[f64] {
         &self.cloud.spacing
+    }
+
+    fn horizons(&self) -> &[f64] {
+        &self.bonds.horizon
     }
 
     fn weights(&self) -> &[f64] {
@@ -492,6 +525,24 @@ impl Bonds for BondSystem {
         point: u32,
     ) -> Vec<f64> {
         typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
+    }
+
+    fn stresses(
+        &self,
+        reading: StressReading,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+    ) -> Stresses {
+        match reading {
+            StressReading::Virial => Stresses {
+                names: &["xx", "yy", "xy"],
+                values: self.virial_stresses(bonds, deformations).into_flattened(),
+            },
+            StressReading::Traction => Stresses {
+                names: &["xx", "yx", "yy", "xy"],
+                values: self.tractions(bonds, deformations).into_flattened(),
+            },
+        }
     }
 
     fn force_through(

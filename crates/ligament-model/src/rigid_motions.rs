@@ -6,6 +6,10 @@ use crate::layout::Component;
 /// Below this sine of the angle to what is held already, a degree of freedom holds no further rigid motion.
 const RANK_TOLERANCE: f64 = 1e-6;
 
+/// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
+/// spread over many points, and below what results are read to.
+const BALANCE_TOLERANCE: f64 = 1e-6;
+
 /// A rigid motion: displacements along x and y at the middle, and the angle times the radius.
 type Motion = [f64; UNKNOWNS];
 
@@ -256,6 +260,13 @@ pub struct FreeMotion {
     pub load: f64,
     /// Its work relative to the sizes of the loads on the part, 0 to 1.
     pub imbalance: f64,
+}
+
+impl FreeMotion {
+    /// Whether the loads are in equilibrium along it.
+    pub fn is_balanced(&self) -> bool {
+        self.imbalance <= BALANCE_TOLERANCE
+    }
 }
 
 /// Degrees of freedom of some points, in their order.

@@ -21,7 +21,7 @@ pub(super) fn boundary(
     let mut boundary = Boundary::new(cloud.len(), places.control(heating.as_ref())?);
     if let Some(Heating { change, strain }) = heating {
         boundary.temperature_change = change;
-        boundary.thermal_strain = strain;
+        boundary.thermal_strain.at_points = strain;
     }
     for (index, support) in case.case.supports.iter().enumerate() {
         let key = format!("support.{index}");
@@ -80,8 +80,7 @@ pub(super) fn couples_have_stiffness(
             && boundary.prescribed[dof].is_none()
             && unknowns.number(dof).is_none()
     };
-    let rotations =
-        (0..boundary.force.len()).filter(|&dof| Component::of(dof) == Component::Rotation);
+    let rotations = (0..boundary.force.len()).filter(|&dof| Component::at(dof).is_rotation());
     let idle = rotations.filter(|&dof| is_idle(dof)).count();
     if idle == 0 {
         return Ok(());

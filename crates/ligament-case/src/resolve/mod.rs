@@ -15,7 +15,7 @@ use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::probe::{PointField, Probe, Reading, StressComponent};
 use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
-use ligament_model::bonds::precrack::{Ends, PreCrack};
+use ligament_model::bonds::precrack::{self, Ends, PreCrack};
 use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::failure::Weakened;
 use ligament_model::{BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud};
@@ -250,7 +250,11 @@ fn reading(
                 case::Axis::X => Component::X,
                 case::Axis::Y => Component::Y,
             };
-            Reading::section(system, start, end, component)
+            let (bonds, cloud) = (&system.bonds, &system.cloud);
+            Reading::SectionForce {
+                bonds: precrack::crossing_bonds(bonds, cloud, start, end),
+                component,
+            }
         }
     }
 }
