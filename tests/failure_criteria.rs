@@ -13,7 +13,7 @@ use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
 use ligament_cli::check::{Extent, check};
 use ligament_model::Bonds;
-use ligament_model::failure::{Criteria, Criterion, Measure};
+use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
@@ -586,21 +586,16 @@ fn both_drivers_break_by_the_same_criteria() {
     assert!(counts.iter().all(|&count| count > 5));
 }
 
-/// Every kind of criterion with what it is asked for.
-const KINDS: [&str; 7] = [
-    "strength",
-    "tension",
-    "compression",
-    "sliding",
-    "frictional",
-    "critical-stretch",
-    "bond-energy",
-];
+/// The words of all kinds of criteria for bonds between two points.
+fn kinds() -> impl Iterator<Item = &'static str> {
+    let of_points = KINDS.iter().filter(|kind| !kind.takes_strains());
+    of_points.map(|kind| kind.word)
+}
 
 /// No bond with an end in a protected part has a limit, and every other one has, whatever the criterion.
 #[test]
 fn protected_bonds_have_no_limit() {
-    for kind in KINDS {
+    for kind in kinds() {
         let bench = patch(
             &format!("kind = \"{kind}\""),
             &["no_fail=[{ box = [[-0.0021, -0.0021], [0.0021, 0.0021]] }]"],

@@ -6,6 +6,7 @@ use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::{Component, ControlKind, SetupError, fields};
 use ligament_model::failure::softening::exponential::LAST_FORCE;
+use ligament_model::failure::softening::{bilinear, exponential, plastic};
 use ligament_model::failure::{AfterLimit, Weakened};
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};
@@ -44,14 +45,12 @@ fn series(after: AfterLimit) -> Truss {
 
 fn laws() -> [(&'static str, AfterLimit); 3] {
     [
-        ("bilinear", AfterLimit::Bilinear { end: vec![5.0; 2] }),
+        ("bilinear", AfterLimit::new(bilinear::LAW, vec![5.0; 2])),
         (
             "exponential",
-            AfterLimit::Exponential {
-                scale: vec![2.0; 2],
-            },
+            AfterLimit::new(exponential::LAW, vec![2.0; 2]),
         ),
-        ("plastic", AfterLimit::Plastic),
+        ("plastic", AfterLimit::new(plastic::LAW, Vec::new())),
     ]
 }
 
@@ -378,7 +377,7 @@ fn threads_do_not_change_a_bit() {
 /// The exact path has nothing to say of bonds that bend its lines.
 #[test]
 fn the_exact_path_refuses_softening() {
-    let truss = series(AfterLimit::Plastic);
+    let truss = series(AfterLimit::new(plastic::LAW, Vec::new()));
     let (problem, mut watch) = (truss.problem(), bench::Watch::default());
     let settings = verification::trusses::settings(StopRules::NONE);
     let refused = ligament_analysis::driver::event::run(&problem, &settings, &mut watch);

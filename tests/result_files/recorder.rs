@@ -5,7 +5,6 @@ use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecor
 use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
 use ligament_case::model::Model;
-use ligament_model::failure::AfterLimit;
 use ligament_output::results::Absence;
 
 use crate::bodies::Canvas;
@@ -161,13 +160,11 @@ impl<'a> Recorder<'a> {
         }
         let mut criteria = Rows::new(["criterion", "measure", "after"]);
         for (criterion, label) in self.problem.criteria.list.iter().zip(&self.labels) {
-            let after = match criterion.after {
-                AfterLimit::Brittle => "brittle",
-                AfterLimit::Bilinear { .. } => "bilinear",
-                AfterLimit::Exponential { .. } => "exponential",
-                AfterLimit::Plastic => "plastic",
-            };
-            let row = [label.as_str(), criterion.measure.word(), after];
+            let row = [
+                label.as_str(),
+                criterion.measure.word(),
+                criterion.after.word(),
+            ];
             criteria.push(row.map(Entry::from));
         }
         criteria.into_expected("criteria.csv", &mut expected);
@@ -350,11 +347,10 @@ impl<'a> Recorder<'a> {
                 let values = (0..n_bonds).map(|bond| criterion.coefficients(bond)[place]);
                 expected.reals(cell(&format!("{name}.{label}")), values.chain(none()));
             }
-            let parameters = match &criterion.after {
-                AfterLimit::Bilinear { end } => end,
-                AfterLimit::Exponential { scale } => scale,
-                AfterLimit::Brittle | AfterLimit::Plastic => continue,
-            };
+            let parameters = criterion.after.parameter();
+            if parameters.is_empty() {
+                continue;
+            }
             let values = parameters.iter().copied().chain(none());
             expected.reals(cell(&format!("after.{label}")), values);
         }

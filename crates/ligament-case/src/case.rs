@@ -32,6 +32,7 @@ mod solver;
 mod temperature;
 pub mod units;
 pub mod values;
+mod word;
 
 use std::path::Path;
 
@@ -42,7 +43,6 @@ pub use analysis::{Analysis, MOST_MODES, Modal, Rotations};
 pub use body_section::BodySection;
 pub use conditions::{Displacement, Support, Vector};
 pub use correction::{Alpha, Correction, CorrectionDomain, CorrectionRule, Iteration, Surface};
-pub use criterion::{After, Criterion, CriterionKind, FrictionCalibration, MixedModeLimits};
 pub use expansion::Expansion;
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;

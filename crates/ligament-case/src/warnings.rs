@@ -1,11 +1,12 @@
 //! What a user should know about a model before trusting its results.
 
 use ligament_model::correction::CorrectionReport;
+use ligament_model::failure::Measure;
 use ligament_model::{ElementKind, Isotropic, Plane};
 use ligament_output::results::FixedFields;
 
 use crate::body::Body;
-use crate::case::{CaseFile, CriterionKind, ModelSection};
+use crate::case::{CaseFile, ModelSection};
 use crate::formulation;
 use crate::resolve;
 
@@ -104,19 +105,20 @@ fn sliding_warning(case: &CaseFile) -> Option<String> {
     if formulation::element(&case.case.model) != ElementKind::Spring {
         return None;
     }
-    let sees_rotations = |kind: &CriterionKind| match kind {
-        CriterionKind::Sliding { .. } | CriterionKind::Frictional { .. } => true,
+    let sees_rotations = |measure: &Measure| match measure {
+        Measure::Sliding | Measure::Friction => true,
         // Without a shear stiffness there is no energy of shear.
-        CriterionKind::BondEnergy { .. } => !law.fixes_poisson(),
+        Measure::Energy => !law.fixes_poisson(),
         _ => false,
     };
     let kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
-    let mut kinds = kinds.map(|it| it.kind).filter(sees_rotations);
-    kinds.next().map(|kind| {
+    let mut kinds = kinds.map(|it| it.kind);
+    let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
+    kind.map(|kind| {
         format!(
             "criterion \"{}\": under law = \"{}\" points have no rotations, so that where the body turns its rotation counts \
              as sliding of the bonds; \"mppd\" tells them apart",
-            kind.word(),
+            kind.word,
             law.word()
         )
     })
@@ -125,7 +127,7 @@ fn sliding_warning(case: &CaseFile) -> Option<String> {
 /// Where shear gives energy back, bonds nearly along a crack have none to reach a limit with.
 fn energy_warning(case: &CaseFile, material: &Isotropic, plane: Plane) -> Option<String> {
     let mut kinds = case.case.fracture.iter().flat_map(|it| &it.criteria);
-    let looks_at_energy = kinds.any(|it| matches!(it.kind, CriterionKind::BondEnergy { .. }));
+    let looks_at_energy = kinds.any(|it| it.kind.measures.contains(&Measure::Energy));
     let limit = Isotropic::central_force_poisson(plane);
     let gives_energy = material.poisson > limit && !case.case.model.law.fixes_poisson();
     (looks_at_energy && gives_energy).then(|| {

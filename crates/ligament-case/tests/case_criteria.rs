@@ -4,10 +4,15 @@
 
 use std::path::Path;
 
-use ligament_case::case::{
-    After, CaseError, CaseFile, Criterion, CriterionKind as Kind, FrictionCalibration,
-    MixedModeLimits,
-};
+use ligament_case::case::{CaseError, CaseFile};
+use ligament_model::failure::fracture_energy::{BOND_ENERGY, CRITICAL_STRETCH};
+use ligament_model::failure::frictional::FRICTIONAL;
+use ligament_model::failure::mixed_mode::MIXED_MODE;
+use ligament_model::failure::sliding::SLIDING;
+use ligament_model::failure::softening::{Law, bilinear, exponential, plastic};
+use ligament_model::failure::strength::STRENGTH;
+use ligament_model::failure::stretch::{COMPRESSION, TENSION};
+use ligament_model::failure::{After, Calibration, Choice, Kind};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -31,7 +36,7 @@ fn error_of(text: String) -> String {
     message.strip_prefix("case.toml:").unwrap().to_owned()
 }
 
-fn criteria_of(text: String, overrides: &[&str]) -> Vec<Criterion> {
+fn criteria_of(text: String, overrides: &[&str]) -> Vec<Choice> {
     let case = read(text, overrides).unwrap();
     let written = case.resolved_toml().unwrap();
     let again = read(written.clone(), &[]).unwrap_or_else(|error| panic!("{error}\n{written}"));
@@ -39,12 +44,17 @@ fn criteria_of(text: String, overrides: &[&str]) -> Vec<Criterion> {
     case.case.fracture.unwrap().criteria
 }
 
+/// A criterion with a limit of its own, by which bonds break at once.
+fn limited(kind: Kind, limit: f64) -> Choice {
+    Choice {
+        limit: Some(limit),
+        ..kind.into()
+    }
+}
+
 #[test]
 fn a_case_without_criteria_has_the_strength() {
-    let default = [Criterion {
-        kind: Kind::Strength,
-        after: After::Brittle,
-    }];
+    let default = [STRENGTH.into()];
     assert_eq!(criteria_of(TEXT.to_owned(), &[]), default);
     let written = read(TEXT.to_owned(), &[]).unwrap().resolved_toml().unwrap();
     let section = "\n[[fracture.criterion]]\nkind = \"strength\"\nafter = \"brittle\"\n";
@@ -53,70 +63,51 @@ fn a_case_without_criteria_has_the_strength() {
 
 #[test]
 fn every_kind_and_every_end_is_read() {
-    let brittle = |kind| Criterion {
-        kind,
-        after: After::Brittle,
+    let softening = |kind: Kind, law: Law, parameter| Choice {
+        after: After { law, parameter },
+        ..kind.into()
     };
-    let tension = |after| Criterion {
-        kind: Kind::Tension { limit: None },
-        after,
+    let frictional = |calibration| Choice {
+        calibration: Some(calibration),
+        ..FRICTIONAL.into()
     };
     let cases = [
-        ("kind = \"strength\"", brittle(Kind::Strength)),
-        ("kind = \"tension\"", tension(After::Brittle)),
-        (
-            "kind = \"tension\"\nlimit = 1e-3",
-            brittle(Kind::Tension { limit: Some(1e-3) }),
-        ),
+        ("kind = \"strength\"", STRENGTH.into()),
+        ("kind = \"tension\"", TENSION.into()),
+        ("kind = \"tension\"\nlimit = 1e-3", limited(TENSION, 1e-3)),
         (
             "kind = \"compression\"\nlimit = 2",
-            brittle(Kind::Compression { limit: Some(2.0) }),
+            limited(COMPRESSION, 2.0),
         ),
         (
             "kind = \"sliding\"\nafter = \"plastic\"",
-            Criterion {
-                kind: Kind::Sliding { limit: None },
-                after: After::Plastic,
-            },
+            softening(SLIDING, plastic::LAW, None),
         ),
         (
             "kind = \"frictional\"\nafter = \"brittle\"",
-            brittle(Kind::Frictional {
-                calibration: FrictionCalibration::Printed,
-            }),
+            frictional(Calibration::Printed),
         ),
         (
             "kind = \"frictional\"\ncalibration = \"two-point\"",
-            brittle(Kind::Frictional {
-                calibration: FrictionCalibration::TwoPoint,
-            }),
+            frictional(Calibration::TwoPoint),
         ),
-        (
-            "kind = \"critical-stretch\"",
-            brittle(Kind::CriticalStretch),
-        ),
-        (
-            "kind = \"bond-energy\"",
-            brittle(Kind::BondEnergy { limit: None }),
-        ),
+        ("kind = \"critical-stretch\"", CRITICAL_STRETCH.into()),
+        ("kind = \"bond-energy\"", BOND_ENERGY.into()),
         (
             "kind = \"tension\"\nafter = \"bilinear\"",
-            tension(After::Bilinear { end: None }),
+            softening(TENSION, bilinear::LAW, None),
         ),
         (
             "kind = \"tension\"\nafter = \"bilinear\"\nend = 5",
-            tension(After::Bilinear { end: Some(5.0) }),
+            softening(TENSION, bilinear::LAW, Some(5.0)),
         ),
         (
             "kind = \"tension\"\nafter = \"exponential\"",
-            tension(After::Exponential { scale: None }),
+            softening(TENSION, exponential::LAW, None),
         ),
         (
             "kind = \"critical-stretch\"\nafter = \"exponential\"\nscale = 0.5",
-            Criterion {
-                kind: Kind::CriticalStretch,
-                after: After::Exponential { scale: Some(0.5) },
-            },
+            softening(CRITICAL_STRETCH, exponential::LAW, Some(0.5)),
         ),
     ];
     for (text, expected) in cases {
@@ -131,14 +122,7 @@ fn every_kind_and_every_end_is_read() {
 
 #[test]
 fn criteria_are_set_and_added_on_the_command_line() {
-    let tension = Criterion {
-        kind: Kind::Tension { limit: Some(2e-4) },
-        after: After::Brittle,
-    };
-    let compression = Criterion {
-        kind: Kind::Compression { limit: None },
-        after: After::Brittle,
-    };
+    let (tension, compression) = (limited(TENSION, 2e-4), COMPRESSION.into());
     let first = [
         "fracture.criterion.0.kind=tension",
         "fracture.criterion.0.limit=2e-4",
@@ -150,7 +134,7 @@ fn criteria_are_set_and_added_on_the_command_line() {
     let in_file = "[[fracture.criterion]]\nkind = \"compression\"\nlimit = 1e-3\n";
     let mut from_file = criteria_of(with(in_file), &[second]);
     assert_eq!(from_file.pop().unwrap(), compression);
-    assert_eq!(from_file[0].kind, Kind::Compression { limit: Some(1e-3) });
+    assert_eq!(from_file, [limited(COMPRESSION, 1e-3)]);
     let replaced = [first[0], first[1]];
     assert_eq!(criteria_of(with(in_file), &replaced), [tension]);
     let beyond = read(with(""), &[second]).unwrap_err().to_string();
@@ -411,24 +395,18 @@ const SIX: &str = "c11 = 9e10\nc12 = 2e10\nc16 = 1e10\nc22 = 4e10\nc26 = -1e10\n
 
 #[test]
 fn mixed_modes_are_the_criterion_of_their_law() {
-    let mixed = |limits| Criterion {
-        kind: Kind::MixedMode { limits },
-        after: After::Brittle,
-    };
     for material in [ISOTROPIC, SIX] {
-        assert_eq!(criteria_of(lattice(material, ""), &[]), [mixed(None)]);
+        assert_eq!(criteria_of(lattice(material, ""), &[]), [MIXED_MODE.into()]);
     }
     let own = "[[fracture.criterion]]\nkind = \"mixed-mode\"\n";
     let given = format!("{own}critical_stretch = 0.01\ncritical_angle = 0.02\n");
-    let limits = MixedModeLimits {
-        critical_stretch: 0.01,
-        critical_angle: 0.02,
+    let limited = Choice {
+        critical_stretch: Some(0.01),
+        critical_angle: Some(0.02),
+        ..MIXED_MODE.into()
     };
     let without = ISOTROPIC.replace("fracture_energy = 6137.0", "");
-    assert_eq!(
-        criteria_of(lattice(&without, &given), &[]),
-        [mixed(Some(limits))]
-    );
+    assert_eq!(criteria_of(lattice(&without, &given), &[]), [limited]);
     let ends_with = |text: String, end: &str| {
         let found = error_of(text);
         assert!(found.ends_with(end), "{found}");

@@ -1,14 +1,13 @@
 //! First yield of lattices: the printed errors over orientation, and the calibration of the criteria on a bar.
 
 use anyhow::Context;
-use ligament_model::failure::frictional::Calibration;
+use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch};
 use ligament_model::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
 use super::plots::{Colour, Mark, Plot, Series};
 use super::table::{Extent, Known, Labels, Table};
 use super::trial::Template;
 use super::{Experiment, Findings};
-use ligament_case::case::{After, Criterion, CriterionKind, FrictionCalibration};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
 /// The experiment.
@@ -110,18 +109,15 @@ fn path(labels: Labels<'_>) -> anyhow::Result<PrincipalStretches> {
 
 /// Stress of a bar at first yield over its tensile strength, for the criterion that a case gives its bonds.
 fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
-    let kinds = match (labels.text("criterion")?, labels.text("calibration")?) {
-        ("stretch", _) => vec![
-            CriterionKind::Tension { limit: None },
-            CriterionKind::Compression { limit: None },
-        ],
-        ("sliding", _) => vec![CriterionKind::Sliding { limit: None }],
-        (_, "two-point") => vec![CriterionKind::Frictional {
-            calibration: FrictionCalibration::TwoPoint,
-        }],
-        _ => vec![CriterionKind::Frictional {
-            calibration: FrictionCalibration::Printed,
-        }],
+    let frictional = |calibration| Choice {
+        calibration: Some(calibration),
+        ..frictional::FRICTIONAL.into()
+    };
+    let choices = match (labels.text("criterion")?, labels.text("calibration")?) {
+        ("stretch", _) => vec![stretch::TENSION.into(), stretch::COMPRESSION.into()],
+        ("sliding", _) => vec![sliding::SLIDING.into()],
+        (_, "two-point") => vec![frictional(Calibration::TwoPoint)],
+        _ => vec![frictional(Calibration::Printed)],
     };
     let nu = labels.number("nu")?;
     let trial = CASE.trial().set("material.poisson", nu);
@@ -130,12 +126,8 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)
         .set("fracture.steps", 1);
     let model = trial.model_with(|case| {
-        let brittle = |kind| Criterion {
-            kind,
-            after: After::Brittle,
-        };
         if let Some(fracture) = &mut case.fracture {
-            fracture.criteria = kinds.into_iter().map(brittle).collect();
+            fracture.criteria = choices;
         }
     })?;
     let middle = model.system.cloud.nearest_point([0.0, 0.0]);

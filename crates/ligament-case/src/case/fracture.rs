@@ -3,11 +3,12 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use ligament_model::failure::Choice;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::criterion::{Criterion, RawCriterion};
+use super::criterion::{self, RawCriterion};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::model::Law;
@@ -26,8 +27,8 @@ pub struct Fracture {
     /// When to stop before the end of the loading.
     pub stop: Stop,
     /// When bonds fail; the first criterion that is met decides.
-    #[serde(rename = "criterion")]
-    pub criteria: Vec<Criterion>,
+    #[serde(rename = "criterion", serialize_with = "criterion::serialize")]
+    pub criteria: Vec<Choice>,
 }
 
 /// What drives the load.
@@ -328,16 +329,17 @@ fn criteria(
     list: &KeyPath,
     control: &Control,
     law: Law,
-) -> Result<Vec<Criterion>, KeyFault> {
-    let default = Criterion::default_of(law);
+) -> Result<Vec<Choice>, KeyFault> {
+    let default = criterion::default_of(law);
     let Some(given) = given else {
         return Ok(vec![default]);
     };
-    let kind = default.kind.word();
+    let kind = default.kind.word;
     let expected = format!("one criterion or more (without the key it is kind = \"{kind}\")");
     require(!given.is_empty(), || list.clone(), &expected, [(); 0])?;
     let checked = given.into_iter().enumerate();
-    let checked = checked.map(|(place, it)| it.check(&list.child(place), control));
+    let checked =
+        checked.map(|(place, it)| it.check(&list.child(place), *control == Control::Event));
     checked.collect()
 }
 

@@ -3,10 +3,11 @@
 mod elasticity;
 mod tables;
 
+use ligament_model::failure::Choice;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::criterion::{Criterion, CriterionKind};
+use super::criterion;
 use super::decode::decode;
 use super::document::{Node, Value};
 use super::expansion::Expansion;
@@ -14,7 +15,6 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
 use super::model::Law;
-use super::units::unit_of;
 use super::values::{require, require_positive, require_unique};
 use elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
 pub use elasticity::{Anisotropic, Elasticity, Orthotropic};
@@ -98,6 +98,22 @@ impl Material {
             }
         }
         Ok(self)
+    }
+}
+
+impl From<&Material> for ligament_model::Material {
+    fn from(material: &Material) -> Self {
+        Self {
+            name: material.name.clone().unwrap_or_default(),
+            elasticity: material.elasticity.into(),
+            tensile_strength: material.tensile_strength,
+            compressive_strength: material.compressive_strength,
+            fracture_energy: material.fracture_energy,
+            fracture_energy_sliding: material.fracture_energy_sliding,
+            mixed_mode_exponent: material.mixed_mode_exponent,
+            density: material.density,
+            expansion: material.expansion.map(Into::into),
+        }
     }
 }
 
@@ -216,90 +232,16 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
 /// limit of their own are made.
 pub(super) fn require_strengths(
     materials: &[Material],
-    criteria: &[Criterion],
+    criteria: &[Choice],
 ) -> Result<(), KeyFault> {
     for material in materials {
+        let (key, material) = (material.key_path(), material.into());
         for criterion in criteria {
-            material.require_strengths(criterion)?;
+            let suits = criterion.suits(&material);
+            suits.map_err(|unfit| criterion::fault(&key, unfit))?;
         }
     }
     Ok(())
-}
-
-impl Material {
-    fn require_strengths(&self, criterion: &Criterion) -> Result<(), KeyFault> {
-        let (path, kind) = (self.key_path(), criterion.kind.word());
-        for (key, instead) in criterion.needs() {
-            let is_isotropic = matches!(self.elasticity, Elasticity::Isotropic { .. });
-            if criterion.kind.is_isotropic() && !is_isotropic {
-                let advice = match instead {
-                    Some(instead) => format!("give it its own `{instead}`"),
-                    None => {
-                        "take \"tension\", \"compression\" or \"sliding\" with a `limit`".to_owned()
-                    }
-                };
-                let reason = format!(
-                    "`{key}` gives limits of isotropic materials only, and the criterion \"{kind}\" of [fracture] takes them \
-                     from it: {advice}"
-                );
-                return Err(KeyFault::new(path, reason));
-            }
-            let value = match key {
-                "tensile_strength" => self.tensile_strength,
-                "compressive_strength" => self.compressive_strength,
-                _ => self.fracture_energy,
-            };
-            if value.is_none() {
-                let unit = unit_of(&path.child(key)).unwrap_or_default();
-                let instead = instead.map(|it| format!(" without `{it}`"));
-                let reason = format!(
-                    "(in {unit}) because the case has a [fracture] section with the criterion \"{kind}\"{}",
-                    instead.unwrap_or_default()
-                );
-                return Err(KeyFault::new(
-                    path.child(key),
-                    Fault::Required { key, reason },
-                ));
-            }
-        }
-        self.require_exponent(criterion)?;
-        self.require_friction(criterion)
-    }
-
-    /// Between two fracture energies the exponent says what a mixture of both modes takes.
-    fn require_exponent(&self, criterion: &Criterion) -> Result<(), KeyFault> {
-        let differ =
-            (self.fracture_energy_sliding).is_some_and(|it| Some(it) != self.fracture_energy);
-        let takes_energies = matches!(criterion.kind, CriterionKind::MixedMode { limits: None });
-        if !takes_energies || !differ || self.mixed_mode_exponent.is_some() {
-            return Ok(());
-        }
-        let (key, reason) = (
-            "mixed_mode_exponent",
-            "because fracture_energy_sliding is not fracture_energy: G_c = G_Ic + (G_IIc - G_Ic) (G_II/G)^exponent".to_owned(),
-        );
-        Err(KeyFault::new(
-            self.key_path().child(key),
-            Fault::Required { key, reason },
-        ))
-    }
-
-    /// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
-    fn require_friction(&self, criterion: &Criterion) -> Result<(), KeyFault> {
-        match (
-            criterion.kind,
-            self.tensile_strength,
-            self.compressive_strength,
-        ) {
-            (CriterionKind::Frictional { .. }, Some(tensile), Some(compressive)) => require(
-                compressive >= tensile,
-                || self.key_path().child("compressive_strength"),
-                "at least the tensile_strength for the criterion \"frictional\"",
-                compressive,
-            ),
-            _ => Ok(()),
-        }
-    }
 }
 
 /// The fault of a material without density in a modal analysis.

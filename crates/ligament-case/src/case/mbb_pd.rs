@@ -2,7 +2,6 @@
 
 use super::analysis::Analysis;
 use super::correction::{Alpha, Surface};
-use super::criterion::CriterionKind;
 use super::fault::KeyFault;
 use super::fracture::StressField;
 use super::key_path::KeyPath;
@@ -17,12 +16,11 @@ fn check_criteria(case: &Case) -> Result<(), KeyFault> {
     };
     let is_law = case.model.law == Law::MbbPd;
     for (place, criterion) in fracture.criteria.iter().enumerate() {
-        let is_mixed = matches!(criterion.kind, CriterionKind::MixedMode { .. });
-        if is_mixed == is_law {
+        if criterion.kind.takes_strains() == is_law {
             continue;
         }
         let list = KeyPath::default().child("fracture").child("criterion");
-        let (key, kind) = (list.child(place).child("kind"), criterion.kind.word());
+        let (key, kind) = (list.child(place).child("kind"), criterion.kind.word);
         let reason = if is_law {
             format!(
                 "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of model.law = \"mbb-pd\" have \

@@ -18,7 +18,7 @@ use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update}
 use ligament_model::bonds::precrack::{self, Ends, PreCrack};
 use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::failure::Weakened;
-use ligament_model::{BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud};
+use ligament_model::{BondSystem, Horizons, Material, Plane, PointCloud};
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::case::{self, BreakOrder, CaseFile, CorrectionRule, Iteration, Stepping, Steps};
@@ -37,24 +37,7 @@ pub fn plane(case: &CaseFile) -> Plane {
 
 /// The materials, in the order of the case file.
 pub fn materials(case: &CaseFile) -> Vec<Material> {
-    let material = |material: &case::Material| Material {
-        name: material.name.clone().unwrap_or_default(),
-        elasticity: match material.elasticity {
-            case::Elasticity::Isotropic { young, poisson } => {
-                Elasticity::Isotropic(Isotropic { young, poisson })
-            }
-            case::Elasticity::Orthotropic(constants) => Elasticity::Orthotropic(constants.into()),
-            case::Elasticity::Anisotropic(constants) => Elasticity::Anisotropic(constants.into()),
-        },
-        tensile_strength: material.tensile_strength,
-        compressive_strength: material.compressive_strength,
-        fracture_energy: material.fracture_energy,
-        fracture_energy_sliding: material.fracture_energy_sliding,
-        mixed_mode_exponent: material.mixed_mode_exponent,
-        density: material.density,
-        expansion: material.expansion.map(Into::into),
-    };
-    case.case.materials.iter().map(material).collect()
+    case.case.materials.iter().map(Into::into).collect()
 }
 
 /// The horizons: lambda times the distance to the nearest point, or the same for all.

@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use ligament_model::failure::{AfterLimit, Criterion, Measure};
+use ligament_model::failure::{Criterion, Measure};
 
-use ligament_case::case::{CaseFile, CriterionKind};
+use ligament_case::case::CaseFile;
 use ligament_case::failure::constants;
 use ligament_case::model::Model;
 use ligament_case::resolve;
@@ -16,14 +16,10 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::
     };
     writeln!(out, "failure criteria")?;
     let given = fracture.criteria.iter();
-    let given = given.flat_map(|it| std::iter::repeat_n(it, it.kind.parts()));
+    let given = given.flat_map(|it| std::iter::repeat_n(it, it.kind.measures.len()));
     for (given, criterion) in given.zip(&model.criteria.list) {
         write_limits(out, criterion)?;
-        let takes_energy = matches!(
-            given.kind,
-            CriterionKind::CriticalStretch | CriterionKind::BondEnergy { limit: None }
-        );
-        if takes_energy {
+        if given.spends_fracture_energy() {
             write_energy(out, case, criterion)?;
         }
     }
@@ -31,52 +27,29 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::
 }
 
 fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
-    let measure = match criterion.measure {
-        Measure::Tension => "s",
-        Measure::Compression => "-s",
-        Measure::Sliding => "|gamma|",
-        Measure::Friction => "|gamma| + s tan(beta)",
-        Measure::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
-        Measure::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
-        Measure::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
-    };
-    write!(out, "  {:<21} {measure} = ", criterion.name)?;
+    let measure = criterion.measure;
+    write!(out, "  {:<21} {} = ", criterion.name, measure.formula())?;
     let failing = |bond: &usize| criterion.limit[*bond].is_finite();
     let bonds: Vec<usize> = (0..criterion.limit.len()).filter(failing).collect();
-    let of_bonds = |values: &[f64]| Range::of(bonds.iter().map(|&bond| values[bond]));
-    let Some(limits) = of_bonds(&criterion.limit) else {
+    let of_bonds = |value: &dyn Fn(usize) -> f64| Range::of(bonds.iter().map(|&bond| value(bond)));
+    let Some(limits) = of_bonds(&|bond| criterion.limit[bond]) else {
         return writeln!(out, "no limit: no bond may fail");
     };
     write!(out, "{limits}")?;
-    if criterion.measure == Measure::Friction
-        && let Some(slopes) = of_bonds(&criterion.coefficient)
+    let stored = criterion.coefficients(0).len();
+    let names = measure.coefficient_names().iter().take(stored);
+    for (place, name) in names.enumerate() {
+        if let Some(values) = of_bonds(&|bond| criterion.coefficients(bond)[place]) {
+            write!(out, "; {name} = {values}")?;
+        }
+    }
+    let after = &criterion.after;
+    write!(out, "; {}", after.law().force)?;
+    let parameter = after.parameter();
+    if !parameter.is_empty()
+        && let Some(ends) = of_bonds(&|bond| parameter[bond])
     {
-        write!(out, "; tan(beta) = {slopes}")?;
-    }
-    if criterion.measure.takes_strains() {
-        let count = criterion.coefficients(0).len();
-        let names = ["q", "G_IIc/G_Ic", "eta"].into_iter().take(count);
-        for (place, name) in names.enumerate() {
-            let values = bonds
-                .iter()
-                .map(|&bond| criterion.coefficients(bond)[place]);
-            if let Some(values) = Range::of(values) {
-                write!(out, "; {name} = {values}")?;
-            }
-        }
-    }
-    let ends = match &criterion.after {
-        AfterLimit::Brittle => None,
-        AfterLimit::Bilinear { end } => Some(("force falls straight to zero at", of_bonds(end))),
-        AfterLimit::Exponential { scale } => {
-            Some(("force falls exponentially, scale", of_bonds(scale)))
-        }
-        AfterLimit::Plastic => Some(("force stays", None)),
-    };
-    match ends {
-        None => write!(out, "; brittle")?,
-        Some((words, None)) => write!(out, "; {words}")?,
-        Some((words, Some(ends))) => write!(out, "; {words} {ends} times that")?,
+        write!(out, " {ends} times that")?;
     }
     match criterion.limit.len() - bonds.len() {
         0 => writeln!(out),

@@ -304,6 +304,8 @@ pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> 
 
 #[cfg(test)]
 mod tests {
+    use ligament_model::failure::softening::bilinear;
+
     use super::*;
 
     /// mu = (r - kappa)/(r - 1) and omega = mu/kappa of the largest kappa so far, by hand for r = 4.
@@ -314,7 +316,7 @@ mod tests {
             measure: Measure::Tension,
             limit: 2.0,
             coefficients: Vec::new(),
-            after: AfterLimit::Bilinear { end: vec![4.0] },
+            after: AfterLimit::new(bilinear::LAW, vec![4.0]),
         };
         let stretched = |stretch| BondDeformation {
             stretch,

@@ -13,17 +13,10 @@ pub(super) fn number(value: f64) -> String {
     format!("{:.4e}", value + 0.0)
 }
 
-/// The formula of a measure.
-pub(super) fn formula(measure: Measure) -> &'static str {
-    match measure {
-        Measure::Tension => "stretch s",
-        Measure::Compression => "shortening -s",
-        Measure::Sliding => "sliding |gamma|",
-        Measure::Friction => "|gamma| + q s",
-        Measure::Energy => "sqrt(max(s, 0)^2 + q gamma^2)",
-        Measure::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
-        Measure::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
-    }
+/// A measure in words: "stretch s".
+pub(super) fn words(measure: Measure) -> String {
+    let words = format!("{} {}", measure.noun(), measure.formula());
+    words.trim_start().to_owned()
 }
 
 /// A point in words: "node 12".
@@ -57,9 +50,10 @@ fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
 
 /// The limits of a bond, a line each; its name and what it says.
 pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
-    let words = |limit: &Limit| {
-        let what = formula(limit.measure);
-        let coefficient: String = (["q", "G_IIc/G_Ic", "eta"].iter().zip(&limit.coefficients))
+    let in_words = |limit: &Limit| {
+        let what = words(limit.measure);
+        let names = limit.measure.coefficient_names().iter();
+        let coefficient: String = (names.zip(&limit.coefficients))
             .map(|(name, &value)| format!(", {name} = {}", number(value)))
             .collect();
         if limit.limit.is_infinite() {
@@ -77,7 +71,7 @@ pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
         }
     };
     let each = life.limits.iter();
-    each.map(|limit| (limit.name.clone(), words(limit)))
+    each.map(|limit| (limit.name.clone(), in_words(limit)))
         .collect()
 }
 
@@ -97,7 +91,7 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
             lines.push(format!(
                 "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",
                 limit.name,
-                formula(limit.measure),
+                words(limit.measure),
                 number(limit.measure(&deformation)),
                 broke.utilisation,
                 number(limit.limit * limit.after.end(0)),
@@ -254,6 +248,7 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
 #[cfg(test)]
 mod tests {
     use ligament_model::failure::AfterLimit;
+    use ligament_model::failure::softening::{bilinear, brittle, plastic};
 
     use super::*;
     use crate::explain::life::life_of;
@@ -276,19 +271,19 @@ mod tests {
 
     #[test]
     fn limits_in_words() {
-        let bilinear = AfterLimit::Bilinear { end: vec![4.0] };
+        let bilinear = AfterLimit::new(bilinear::LAW, vec![4.0]);
         for (measure, limit, after, expected) in [
             (
                 Measure::Tension,
                 2e-4,
-                AfterLimit::Brittle,
+                AfterLimit::new(brittle::LAW, Vec::new()),
                 "breaks at stretch s = 2.0000e-4",
             ),
             (
                 Measure::Friction,
                 2e-4,
-                AfterLimit::Plastic,
-                "softens (plastic) from |gamma| + q s = 2.0000e-4, q = 5.0000e-1, never breaks",
+                AfterLimit::new(plastic::LAW, Vec::new()),
+                "softens (plastic) from |gamma| + s tan(beta) = 2.0000e-4, tan(beta) = 5.0000e-1, never breaks",
             ),
             (
                 Measure::Compression,
@@ -299,13 +294,13 @@ mod tests {
             (
                 Measure::Sliding,
                 f64::INFINITY,
-                AfterLimit::Brittle,
+                AfterLimit::new(brittle::LAW, Vec::new()),
                 "never fails by its sliding |gamma|",
             ),
             (
                 Measure::MixedModeY,
                 1e-2,
-                AfterLimit::Brittle,
+                AfterLimit::new(brittle::LAW, Vec::new()),
                 "breaks at sqrt(max(S_yy, 0)^2 + q S_xy^2) = 1.0000e-2, q = 2.5000e-1, G_IIc/G_Ic = 4.0000e0, eta = 2.0000e0",
             ),
         ] {

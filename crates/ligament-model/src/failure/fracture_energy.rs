@@ -2,9 +2,67 @@
 
 use rayon::prelude::*;
 
+use super::basis::Basis;
+use super::kind::{FRACTURE_ENERGY, Kind, Limits};
+use super::measure::Measure;
 use crate::law::beam::axial_constant;
 use crate::material::{Isotropic, Plane};
 use crate::system::BondSystem;
+
+/// Stretch, from the fracture energy.
+pub const CRITICAL_STRETCH: Kind = Kind {
+    takes: &[FRACTURE_ENERGY],
+    ..Kind::new(
+        "critical-stretch",
+        "Stretch, from the `fracture_energy`.",
+        &[Measure::Tension],
+        |_, basis| Ok(vec![Limits::without_coefficient(critical_stretches(basis))]),
+    )
+};
+
+/// Energy of stretch and sliding, from the fracture energy.
+pub const BOND_ENERGY: Kind = Kind {
+    takes: &[FRACTURE_ENERGY],
+    keys: &["limit"],
+    ..Kind::new(
+        "bond-energy",
+        "Energy of stretch and sliding, from the `fracture_energy` or a `limit`.",
+        &[Measure::Energy],
+        |choice, basis| {
+            let limit = match choice.limit {
+                Some(limit) => basis.weakest(&vec![limit; basis.materials.len()]),
+                None => critical_stretches(basis),
+            };
+            let coefficient = shear_ratios(basis.system);
+            Ok(vec![Limits { limit, coefficient }])
+        },
+    )
+};
+
+/// Critical stretches of brittle bonds (n_bonds); a bond has the mean opening modulus and the mean length of its ends.
+pub fn critical_stretches(basis: &Basis<'_>) -> Vec<f64> {
+    let system = basis.system;
+    let energy = basis.weakest(&basis.each(|_, material| material.fracture_energy));
+    let moduli = basis.each(|constants, _| Some(opening_modulus(constants, basis.plane)));
+    let lengths = mean_lengths(system);
+    let modulus = |end: u32| system.cloud.mean_property(end as usize, &moduli);
+    let of_bonds = energy.into_iter().zip(&system.bonds.ends);
+    of_bonds
+        .map(|(energy, &[a, b])| {
+            let modulus = 0.5 * (modulus(a) + modulus(b));
+            let length = 0.5 * (lengths[a as usize] + lengths[b as usize]);
+            critical_stretch(energy, modulus, length)
+        })
+        .collect()
+}
+
+/// k_t/k_n of each bond; 0 where the bond has no stiffness at all, shape (n_bonds).
+fn shear_ratios(system: &BondSystem) -> Vec<f64> {
+    let rigidities = system.rigidities.axial.iter().zip(&system.rigidities.shear);
+    rigidities
+        .map(|(&axial, &shear)| if axial == 0.0 { 0.0 } else { shear / axial })
+        .collect()
+}
 
 /// Critical stretch for the fracture energy G_c (J/m^2), the opening modulus M (Pa) and the mean bond length h (m):
 ///

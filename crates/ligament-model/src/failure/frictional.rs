@@ -1,15 +1,77 @@
 //! Sliding that compression makes harder (MPPD eqs 52 to 58).
 
+use super::basis::{Basis, weakest_materials};
+use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, TENSILE_STRENGTH};
+use super::measure::Measure;
 use super::stretch;
-use crate::material::{Isotropic, Plane};
+use super::unfit::{NoLimit, Unfit};
+use crate::material::{Isotropic, Material, Plane};
 
-/// How the cohesion and the friction of bonds come from two strengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Calibration {
-    /// As printed: the stress of the bar is put in as E s of the bond (MPPD eqs 55, 56). Exact for nu = 0 alone.
-    Printed,
-    /// From the strains of the bar in tension and in compression; possible where nu < F_t/F_c.
-    TwoPoint,
+pub use super::kind::Calibration;
+
+/// Sliding that compression makes harder, from both strengths.
+pub const FRICTIONAL: Kind = Kind {
+    takes: &[TENSILE_STRENGTH, COMPRESSIVE_STRENGTH],
+    keys: &["calibration"],
+    brittle_because: Some(
+        "its limit moves with the stretch, so that there is no one deformation at which softening begins",
+    ),
+    suits,
+    ..Kind::new(
+        "frictional",
+        "Sliding that compression makes harder, from both strengths.",
+        &[Measure::Friction],
+        limits,
+    )
+};
+
+/// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
+fn suits(_: &Choice, material: &Material) -> Result<(), Unfit> {
+    match (material.tensile_strength, material.compressive_strength) {
+        (Some(tensile), Some(compressive)) if compressive < tensile => Err(Unfit::OutOfRange {
+            key: COMPRESSIVE_STRENGTH.key,
+            expected: "at least the tensile_strength for the criterion \"frictional\"".to_owned(),
+            found: compressive,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Limits a and coefficients tan(beta); a bond between materials takes those of the one with the smaller a.
+fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
+    let (plane, calibration) = (basis.plane, choice.calibration.unwrap_or_default());
+    let conditions = basis.constants.iter().zip(basis.materials);
+    let conditions = conditions.map(|(constants, material)| {
+        let strengths = (material.tensile_strength, material.compressive_strength);
+        let (Some(constants), (Some(tensile), Some(compressive))) = (constants, strengths) else {
+            return Ok(None);
+        };
+        let found = condition(constants, [tensile, compressive], plane, calibration);
+        let fault = NoLimit::NoFriction {
+            poisson: constants.in_plane(plane).poisson,
+            tensile,
+            compressive,
+        };
+        found.ok_or(fault).map(Some)
+    });
+    let conditions: Vec<Option<Friction>> = conditions.collect::<Result<_, _>>()?;
+    let of = |value: fn(&Friction) -> f64| -> Vec<f64> {
+        let or_never = |it: &Option<Friction>| it.as_ref().map_or(f64::INFINITY, value);
+        conditions.iter().map(or_never).collect()
+    };
+    let (cohesion, slope) = (of(|it| it.cohesion), of(|it| it.slope));
+    let limit = basis.weakest(&cohesion);
+    let materials = weakest_materials(basis.system, &cohesion);
+    // A bond that never fails has no slope, which may be infinite: infinity times zero is no number.
+    let slope_of = |(limit, material): (&f64, usize)| {
+        if limit.is_finite() {
+            slope[material]
+        } else {
+            0.0
+        }
+    };
+    let coefficient = limit.iter().zip(materials).map(slope_of).collect();
+    Ok(vec![Limits { limit, coefficient }])
 }
 
 /// Condition of a bond: |gamma| + s tan(beta) <= a (MPPD eq. 58).

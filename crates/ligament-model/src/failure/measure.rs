@@ -1,6 +1,5 @@
 //! How a criterion looks at the deformation of a bond.
 
-use super::mixed_mode;
 use crate::element::BondDeformation;
 
 /// The equivalent deformation of a bond that a criterion compares with its limit.
@@ -20,9 +19,16 @@ pub enum Measure {
     /// sqrt(max(s, 0)^2 + q gamma^2), q = k_t/k_n: the stretch that would store the same energy. Compression stores none that
     /// counts.
     Energy,
-    /// Of a bond with strains of its own: S_xx as opening, and S_xy ([`mixed_mode::measure`]).
+    /// Opening S_n = S_xx and shear S_xy of a bond with strains of its own, a measure that reaches s_I where the bond breaks:
+    ///
+    /// sqrt((max(S_n, 0)^2 + q S_xy^2)/(1 + (r - 1) B^eta)), B = q S_xy^2/(max(S_n, 0)^2 + q S_xy^2).
+    ///
+    /// q = (s_I/gamma_I)^2 with the angle gamma_I at which sliding would take G_Ic, so that B is the share of mode II in what the
+    /// bond releases (MBB-PD eq. C.1), G_II/G_T; and with r = G_IIc/G_Ic the bond breaks at G_T = G_Ic + (G_IIc - G_Ic) B^eta (eq. 21,
+    /// after Benzeggagh and Kenane 1996). Where opening and sliding are as tough, r = 1, that is the sum of the squares. A bond that
+    /// closes takes part in sliding alone.
     MixedModeX,
-    /// The same with S_yy as opening.
+    /// Opening S_yy and shear S_xy of a bond with strains of its own, as along x.
     MixedModeY,
 }
 
@@ -67,8 +73,40 @@ impl Measure {
         matches!(self, Self::MixedModeX | Self::MixedModeY)
     }
 
-    /// The measure of a deformation, with the coefficients of the bond where the measure has some: q, and for those of
-    /// strains what [`mixed_mode::measure`] takes.
+    /// What it is called, for those that need a name beside their formula.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Tension => "stretch",
+            Self::Compression => "shortening",
+            Self::Sliding => "sliding",
+            Self::Friction | Self::Energy | Self::MixedModeX | Self::MixedModeY => "",
+        }
+    }
+
+    /// Its formula, in plain text.
+    pub fn formula(self) -> &'static str {
+        match self {
+            Self::Tension => "s",
+            Self::Compression => "-s",
+            Self::Sliding => "|gamma|",
+            Self::Friction => "|gamma| + s tan(beta)",
+            Self::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
+            Self::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
+            Self::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
+        }
+    }
+
+    /// Names of its coefficients, as they stand in the formula; of those of mixed modes all but the first may be left out.
+    pub fn coefficient_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Tension | Self::Compression | Self::Sliding => &[],
+            Self::Friction => &["tan(beta)"],
+            Self::Energy => &["k_t/k_n"],
+            Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
+        }
+    }
+
+    /// The measure of a deformation, with the coefficients of the bond where the measure has some.
     #[inline]
     pub fn of(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
         let BondDeformation { stretch, shear, .. } = *deformation;
@@ -82,8 +120,8 @@ impl Measure {
                 let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
             }
-            Self::MixedModeX => mixed_mode::measure(stretch, shear, coefficients),
-            Self::MixedModeY => mixed_mode::measure(deformation.rotation, shear, coefficients),
+            Self::MixedModeX => mixed_mode(stretch, shear, coefficients),
+            Self::MixedModeY => mixed_mode(deformation.rotation, shear, coefficients),
         }
     }
 
@@ -94,6 +132,24 @@ impl Measure {
             Self::Compression => Weakened::Crushing,
             Self::Sliding | Self::Friction => Weakened::Sliding,
         }
+    }
+}
+
+/// Measure of the opening and the shear of a bond with strains of its own; `coefficients` are q, or q, r and eta.
+#[inline]
+fn mixed_mode(opening: f64, shear: f64, coefficients: &[f64]) -> f64 {
+    let &[q, ref mixing @ ..] = coefficients else {
+        return opening.max(0.0);
+    };
+    let opening = opening.max(0.0).powi(2);
+    let sliding = q * shear * shear;
+    let total = opening + sliding;
+    match mixing {
+        [ratio, exponent] if total > 0.0 => {
+            let toughening = 1.0 + (ratio - 1.0) * (sliding / total).powf(*exponent);
+            (total / toughening).sqrt()
+        }
+        _ => total.sqrt(),
     }
 }
 
@@ -141,5 +197,24 @@ mod tests {
                 assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");
             }
         }
+    }
+
+    /// In units of s_I, with gamma_I = 2 s_I, r = 4 and eta = 2, by hand: pure modes break at s_I and at 2 gamma_I; at B = 1/2 the
+    /// toughness is 1 + 3/4, so that S_n^2 = 7/8; and a bond that closes slides only.
+    #[test]
+    fn mixed_modes_by_hand() {
+        let coefficients = [0.25, 4.0, 2.0];
+        let close = |value: f64| assert!((value - 1.0).abs() < 1e-15, "{value}");
+        close(mixed_mode(1.0, 0.0, &coefficients));
+        close(mixed_mode(0.0, -4.0, &coefficients));
+        let half = (7.0_f64 / 8.0).sqrt();
+        close(mixed_mode(half, 2.0 * half, &coefficients));
+        close(mixed_mode(-5.0, 4.0, &coefficients));
+        assert_eq!(mixed_mode(-5.0, 0.0, &coefficients), 0.0);
+        close(mixed_mode(0.6, 1.6, &[0.25]));
+        assert_eq!(
+            mixed_mode(0.6, 1.6, &[0.25]),
+            mixed_mode(0.6, 1.6, &[0.25, 1.0, 1.7])
+        );
     }
 }

@@ -2,9 +2,29 @@
 
 use rayon::prelude::*;
 
-use super::weakest;
+use super::basis::weakest;
+use super::kind::{Kind, Limits, TENSILE_STRENGTH};
+use super::measure::Measure;
 use crate::material::{Isotropic, Plane};
 use crate::system::BondSystem;
+
+/// Stretch, from the energy at the tensile strength.
+pub const STRENGTH: Kind = Kind {
+    takes: &[TENSILE_STRENGTH],
+    ..Kind::new(
+        "strength",
+        "Stretch, from the energy at the `tensile_strength` (NHPD).",
+        &[Measure::Tension],
+        |_, basis| {
+            let energies = basis.each(|constants, material| {
+                let strength = material.tensile_strength?;
+                Some(critical_energy(constants, strength, basis.plane))
+            });
+            let limit = critical_stretches(basis.system, &energies, basis.no_fail);
+            Ok(vec![Limits::without_coefficient(limit)])
+        },
+    )
+};
 
 /// Critical strain energy density e_0, J/m^3 (NHPD eq. 14):
 ///

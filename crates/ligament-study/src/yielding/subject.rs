@@ -1,6 +1,7 @@
 //! What a diagram has a curve of: a family of bonds with a name.
 
 use ligament_model::BondSystem;
+use ligament_model::failure::softening::brittle;
 use ligament_model::failure::{AfterLimit, Criteria, Criterion};
 use ligament_model::yielding::{Family, PrincipalStretches, Worst, lattice};
 
@@ -85,7 +86,7 @@ impl Subject {
             limit: of_family(&it.limit),
             coefficient: of_family(&it.coefficient),
             // Only the limit matters for first yield.
-            after: AfterLimit::Brittle,
+            after: AfterLimit::new(brittle::LAW, Vec::new()),
             ..*it
         };
         Self {

@@ -126,6 +126,18 @@ impl Orthotropic {
     }
 }
 
+impl From<Elasticity> for ligament_model::Elasticity {
+    fn from(elasticity: Elasticity) -> Self {
+        match elasticity {
+            Elasticity::Isotropic { young, poisson } => {
+                Self::Isotropic(ligament_model::Isotropic { young, poisson })
+            }
+            Elasticity::Orthotropic(constants) => Self::Orthotropic(constants.into()),
+            Elasticity::Anisotropic(constants) => Self::Anisotropic(constants.into()),
+        }
+    }
+}
+
 impl From<Orthotropic> for ligament_model::Orthotropic {
     fn from(constants: Orthotropic) -> Self {
         let across = constants.young_3.zip(constants.poisson_13);

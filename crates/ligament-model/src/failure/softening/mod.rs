@@ -5,76 +5,58 @@
 //! reloading below the largest kappa are straight through the origin.
 
 pub mod bilinear;
+pub mod brittle;
 pub mod exponential;
+mod law;
 pub mod plastic;
+
+pub use law::{Law, Parameter, Softened};
+
+/// All laws of softening.
+pub const LAWS: [&Law; 4] = [
+    &brittle::LAW,
+    &bilinear::LAW,
+    &exponential::LAW,
+    &plastic::LAW,
+];
 
 /// What happens after the limit.
 #[derive(Debug, Clone, PartialEq)]
-pub enum AfterLimit {
-    /// The bond breaks (Silling and Askari 2005, prototype microelastic brittle).
-    Brittle,
-    /// The force falls in a straight line to zero at `end` times the limit, shape (n_bonds).
-    Bilinear {
-        /// e_u/e_0.
-        end: Vec<f64>,
-    },
-    /// The force falls exponentially, with this `scale`, shape (n_bonds).
-    Exponential {
-        /// e_f/e_0.
-        scale: Vec<f64>,
-    },
-    /// The force stays.
-    Plastic,
-}
-
-/// A bond past its limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Softened {
-    /// Force over force at the limit: the printed mu of the damage variables (MPPD eqs 45, 46, 50).
-    pub force: f64,
-    /// Secant stiffness over elastic stiffness.
-    pub secant: f64,
-    /// Energy that is gone, over that stored at the limit.
-    pub dissipated: f64,
-}
-
-impl Softened {
-    /// A bond that never passed its limit.
-    pub const SOUND: Self = Self {
-        force: 1.0,
-        secant: 1.0,
-        dissipated: 0.0,
-    };
+pub struct AfterLimit {
+    law: Law,
+    /// Parameter of the law for each bond, shape (n_bonds); empty where it has none.
+    parameter: Vec<f64>,
 }
 
 impl AfterLimit {
-    /// The word for it in a case file, and in results.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Self::Brittle => "brittle",
-            Self::Bilinear { .. } => "bilinear",
-            Self::Exponential { .. } => "exponential",
-            Self::Plastic => "plastic",
-        }
+    /// A law with its parameter for each bond (n_bonds), if it has one.
+    pub fn new(law: Law, parameter: Vec<f64>) -> Self {
+        Self { law, parameter }
     }
 
-    /// What it has for each bond, shape (n_bonds); empty where it has nothing.
-    pub fn parameter(&self) -> &[f64] {
-        match self {
-            Self::Brittle | Self::Plastic => &[],
-            Self::Bilinear { end: values } | Self::Exponential { scale: values } => values,
-        }
-    }
-
-    /// What goes by this word, with the [`parameter`](Self::parameter) of each bond; None for any other word.
+    /// The law that goes by this word, with its [`parameter`](Self::parameter) for each bond; None for any other word.
     pub fn from_word(word: &str, parameter: Vec<f64>) -> Option<Self> {
-        Some(match word {
-            "brittle" => Self::Brittle,
-            "bilinear" => Self::Bilinear { end: parameter },
-            "exponential" => Self::Exponential { scale: parameter },
-            "plastic" => Self::Plastic,
-            _ => return None,
-        })
+        let law = LAWS.into_iter().find(|law| law.word == word)?;
+        Some(Self::new(*law, parameter))
+    }
+
+    /// The word for the law in results.
+    pub fn word(&self) -> &'static str {
+        self.law.word
+    }
+
+    /// The law of softening.
+    pub fn law(&self) -> &Law {
+        &self.law
+    }
+
+    /// The parameter of the law for each bond, shape (n_bonds); empty where it has none.
+    pub fn parameter(&self) -> &[f64] {
+        &self.parameter
+    }
+
+    fn parameter_of(&self, bond: usize) -> f64 {
+        self.parameter.get(bond).copied().unwrap_or(f64::NAN)
     }
 
     /// State of a bond whose largest e/e_0 so far is `kappa`, short of its [`end`](Self::end).
@@ -82,37 +64,27 @@ impl AfterLimit {
         if kappa <= 1.0 {
             return Softened::SOUND;
         }
-        match self {
-            Self::Brittle => Softened::SOUND,
-            Self::Bilinear { end } => bilinear::at(end[bond], kappa),
-            Self::Exponential { scale } => exponential::at(scale[bond], kappa),
-            Self::Plastic => plastic::at(kappa),
-        }
+        (self.law.at)(self.parameter_of(bond), kappa)
     }
 
     /// e/e_0 at which the bond breaks; infinite if never.
+    #[inline]
     pub fn end(&self, bond: usize) -> f64 {
-        match self {
-            Self::Brittle => 1.0,
-            Self::Bilinear { end } => end[bond],
-            Self::Exponential { scale } => exponential::end(scale[bond]),
-            Self::Plastic => f64::INFINITY,
+        if self.is_brittle() {
+            return 1.0;
         }
+        (self.law.end)(self.parameter_of(bond))
     }
 
     /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
     pub fn total_dissipated(&self, bond: usize) -> f64 {
-        match self {
-            Self::Brittle => 1.0,
-            Self::Bilinear { end } => bilinear::total(end[bond]),
-            Self::Exponential { scale } => exponential::total(scale[bond]),
-            Self::Plastic => f64::INFINITY,
-        }
+        (self.law.total)(self.parameter_of(bond))
     }
 
     /// Whether the bond breaks at its limit.
+    #[inline]
     pub fn is_brittle(&self) -> bool {
-        *self == Self::Brittle
+        !self.law.softens
     }
 }
 
@@ -137,9 +109,9 @@ mod tests {
 
     fn laws() -> [AfterLimit; 3] {
         [
-            AfterLimit::Bilinear { end: vec![4.0] },
-            AfterLimit::Exponential { scale: vec![2.5] },
-            AfterLimit::Plastic,
+            AfterLimit::new(bilinear::LAW, vec![4.0]),
+            AfterLimit::new(exponential::LAW, vec![2.5]),
+            AfterLimit::new(plastic::LAW, Vec::new()),
         ]
     }
 
@@ -174,7 +146,10 @@ mod tests {
 
     #[test]
     fn words_and_parameters_lead_back() {
-        for law in laws().into_iter().chain([AfterLimit::Brittle]) {
+        for law in laws()
+            .into_iter()
+            .chain([AfterLimit::new(brittle::LAW, Vec::new())])
+        {
             let parameter = law.parameter().to_vec();
             assert_eq!(AfterLimit::from_word(law.word(), parameter), Some(law));
         }

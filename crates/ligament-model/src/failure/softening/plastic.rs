@@ -1,9 +1,22 @@
 //! A force that stays at its limit; unloading goes to the origin, not parallel to the elastic line.
 
-use super::Softened;
+use super::law::{Law, Softened};
+
+/// The force stays for good.
+pub const LAW: Law = Law {
+    word: "plastic",
+    words: "Its force stays; of `sliding` alone.",
+    force: "force stays",
+    parameter: None,
+    softens: true,
+    sliding_because: Some("only bonds that slide, kind = \"sliding\", keep their force"),
+    at,
+    end: |_| f64::INFINITY,
+    total: |_| f64::INFINITY,
+};
 
 /// mu = 1, omega = 1/kappa (MPPD eq. 50 with gamma_u to infinity); the energy gone is 2 (kappa - 1) + 1 - kappa = kappa - 1.
-pub(super) fn at(kappa: f64) -> Softened {
+fn at(_: f64, kappa: f64) -> Softened {
     Softened {
         force: 1.0,
         secant: 1.0 / kappa,

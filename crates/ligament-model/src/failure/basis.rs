@@ -1,0 +1,89 @@
+//! What the limits of bonds are made from.
+
+use super::crack_energies::Lattice;
+use crate::material::{Isotropic, Material, Plane};
+use crate::system::BondSystem;
+
+/// Body, materials and law, from which criteria make the limits of the bonds.
+#[derive(Debug, Clone)]
+pub struct Basis<'a> {
+    /// The bonds.
+    pub system: &'a BondSystem,
+    /// Points whose bonds never fail, shape (n_points).
+    pub no_fail: &'a [bool],
+    /// State of the plane.
+    pub plane: Plane,
+    /// The materials.
+    pub materials: &'a [Material],
+    /// The elastic constants that the law makes of those of each material; none with axes, shape (n_materials).
+    pub constants: Vec<Option<Isotropic>>,
+    /// The bonds as a square lattice far from its edges, for those with strains of their own.
+    pub lattice: Lattice,
+}
+
+impl Basis<'_> {
+    /// A value of each material, from the constants that the law makes of its own; infinite where it has none, shape
+    /// (n_materials).
+    pub fn each(&self, value: impl Fn(&Isotropic, &Material) -> Option<f64>) -> Vec<f64> {
+        let value = |(constants, material): (&Option<Isotropic>, &Material)| {
+            value(constants.as_ref()?, material)
+        };
+        let of_materials = self.constants.iter().zip(self.materials);
+        of_materials
+            .map(|it| value(it).unwrap_or(f64::INFINITY))
+            .collect()
+    }
+
+    /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where the
+    /// bond never fails, shape (n_bonds).
+    pub fn weakest(&self, of_materials: &[f64]) -> Vec<f64> {
+        weakest(self.system, self.no_fail, of_materials)
+    }
+}
+
+/// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where an end
+/// is marked in `no_fail` (n_points), shape (n_bonds).
+pub(super) fn weakest(system: &BondSystem, no_fail: &[bool], of_materials: &[f64]) -> Vec<f64> {
+    let materials = weakest_materials(system, of_materials);
+    let of_bond = |(ends, material): (&[u32; 2], usize)| {
+        if ends.iter().any(|end| no_fail[*end as usize]) {
+            f64::INFINITY
+        } else {
+            of_materials[material]
+        }
+    };
+    system
+        .bonds
+        .ends
+        .iter()
+        .zip(materials)
+        .map(of_bond)
+        .collect()
+}
+
+/// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond, the first of
+/// equals, shape (n_bonds).
+pub(super) fn weakest_materials(system: &BondSystem, of_materials: &[f64]) -> Vec<usize> {
+    let smaller = |one: usize, other: usize| {
+        let is_smaller = of_materials[other] < of_materials[one];
+        let is_equal = of_materials[other] == of_materials[one];
+        if is_smaller || (is_equal && other < one) {
+            other
+        } else {
+            one
+        }
+    };
+    let at_point = |point: usize| {
+        let shares = system.cloud.shares(point).iter().enumerate();
+        let present = shares
+            .filter(|(_, share)| **share > 0.0)
+            .map(|(material, _)| material);
+        present.reduce(smaller).unwrap_or_default()
+    };
+    let at_points: Vec<usize> = (0..system.cloud.len()).map(at_point).collect();
+    let of_bond = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| at_points[end as usize]);
+        smaller(a, b)
+    };
+    system.bonds.ends.iter().map(of_bond).collect()
+}

@@ -1,0 +1,200 @@
+//! From choices of criteria to the limits of the bonds.
+
+use super::basis::Basis;
+use super::criterion::{Criteria, Criterion};
+use super::fracture_energy;
+use super::kind::{After, Choice};
+use super::measure::Measure;
+use super::softening::{AfterLimit, LAWS, Law};
+use super::unfit::{NoLimit, Unfit};
+
+/// The criteria on the bonds, in the order of their choices, which must be [right](Choice::check) and [suit](Choice::suits) all
+/// materials.
+///
+/// # Errors
+///
+/// If the strengths of a material leave a criterion without a limit, or its fracture energy leaves nothing after the limit; with the
+/// place of the choice.
+pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usize, NoLimit)> {
+    let mut list = Vec::new();
+    for (place, choice) in choices.iter().enumerate() {
+        let at_place = |error| (place, error);
+        let kind = &choice.kind;
+        let limits = (kind.limits)(choice, basis).map_err(at_place)?;
+        for (&measure, limits) in kind.measures.iter().zip(limits) {
+            list.push(Criterion {
+                name: match kind.measures {
+                    [_] => kind.word,
+                    _ => measure.word(),
+                },
+                measure,
+                after: after(&choice.after, &limits.limit, basis).map_err(at_place)?,
+                limit: limits.limit,
+                coefficient: limits.coefficient,
+            });
+        }
+    }
+    Ok(Criteria { list })
+}
+
+/// What bonds with these limits (n_bonds) do after them. A parameter that is not given makes the lives of the bonds take the
+/// fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle bond with that
+/// fracture energy.
+fn after(wanted: &After, limits: &[f64], basis: &Basis<'_>) -> Result<AfterLimit, NoLimit> {
+    let law = wanted.law;
+    let parameter = match (law.parameter, wanted.parameter) {
+        (None, _) => Vec::new(),
+        (Some(_), Some(given)) => vec![given; limits.len()],
+        (Some(parameter), None) => {
+            let brittle = fracture_energy::critical_stretches(basis);
+            let of_bond = |(bond, (&limit, &brittle)): (usize, (&f64, &f64))| {
+                // Bonds that never fail need no end.
+                if limit.is_infinite() || brittle.is_infinite() {
+                    return Ok(f64::INFINITY);
+                }
+                (parameter.for_energy)((brittle / limit).powi(2)).ok_or(NoLimit::NothingLeft {
+                    horizon: basis.system.bonds.horizon[bond],
+                    limit,
+                    brittle,
+                })
+            };
+            let of_bonds = limits.iter().zip(&brittle).enumerate();
+            of_bonds.map(of_bond).collect::<Result<_, _>>()?
+        }
+    };
+    Ok(AfterLimit::new(law, parameter))
+}
+
+impl After {
+    /// A law with its parameter, from what is given for the keys of the parameters of all laws.
+    ///
+    /// # Errors
+    ///
+    /// If the parameter of another law is given.
+    pub fn from_keys(law: Law, given: &[(&'static str, Option<f64>)]) -> Result<Self, Unfit> {
+        let of_law = law.parameter.map(|it| it.key);
+        let is_given = |wanted: &str| given.iter().any(|(key, it)| *key == wanted && it.is_some());
+        let others = LAWS.iter().filter_map(|it| it.parameter);
+        let mut refused = others.filter(|it| Some(it.key) != of_law && is_given(it.key));
+        if let Some(other) = refused.next() {
+            return Err(Unfit::NotWith {
+                key: other.key,
+                named: other.key.to_owned(),
+                setting: format!("after = \"{}\"", law.word),
+                reason: other.of_it_alone,
+            });
+        }
+        let own = given.iter().find(|(key, _)| Some(*key) == of_law);
+        Ok(Self {
+            law,
+            parameter: own.and_then(|(_, value)| *value),
+        })
+    }
+}
+
+impl Choice {
+    /// Whether what is chosen goes together, on the exact path from breakage to breakage or with load steps.
+    ///
+    /// # Errors
+    ///
+    /// If a key does not go with the kind or the law of softening, is missing beside another or out of range.
+    pub fn check(&self, on_exact_path: bool) -> Result<(), Unfit> {
+        self.check_together()?;
+        self.refuse_keys()?;
+        self.refuse_softening(on_exact_path)?;
+        let softening = self.after.law.parameter;
+        let softening = softening.map(|it| (it.key, self.after.parameter, it.above));
+        let limits = self.own_limits().map(|(key, value)| (key, value, 0.0));
+        for (key, value, above) in limits.into_iter().chain(softening) {
+            if let Some(found) = value.filter(|value| value.is_nan() || *value <= above) {
+                let expected = format!("greater than {above}");
+                return Err(Unfit::OutOfRange {
+                    key,
+                    expected,
+                    found,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// A kind with two limits takes both or none.
+    fn check_together(&self) -> Result<(), Unfit> {
+        let of_kind =
+            (self.own_limits().into_iter()).filter(|(key, _)| self.kind.keys.contains(key));
+        let (given, missing): (Vec<_>, Vec<_>) = of_kind.partition(|(_, limit)| limit.is_some());
+        match (given.first(), missing.first()) {
+            (Some((given, _)), Some((key, _))) => Err(Unfit::Missing {
+                key,
+                reason: format!(
+                    "beside `{given}`: the limits of opening and of shear are given together, or both come from the fracture energies"
+                ),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Keys that mean nothing with the others: a user who gives one expects what will not happen.
+    fn refuse_keys(&self) -> Result<(), Unfit> {
+        let calibration = ("calibration", self.calibration.map(|_| 0.0));
+        let given = self.own_limits().into_iter().chain([calibration]);
+        let mut refused =
+            given.filter(|(key, value)| value.is_some() && !self.kind.keys.contains(key));
+        let Some((key, _)) = refused.next() else {
+            return Ok(());
+        };
+        let reason = match (key, self.kind.keys) {
+            ("limit", ["critical_stretch", ..]) => {
+                "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
+            }
+            ("limit", _) => {
+                "its limits come from the material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one"
+            }
+            ("calibration", _) => {
+                "only the limit of \"frictional\" can come from the strengths in two ways"
+            }
+            _ => "only \"mixed-mode\" has a limit for opening and one for shear",
+        };
+        Err(Unfit::NotWith {
+            key,
+            named: key.to_owned(),
+            setting: format!("kind = \"{}\"", self.kind.word),
+            reason,
+        })
+    }
+
+    /// What bonds may do after their limit depends on the criterion and on what drives the load.
+    fn refuse_softening(&self, on_exact_path: bool) -> Result<(), Unfit> {
+        let law = &self.after.law;
+        if !law.softens {
+            return Ok(());
+        }
+        let kind = format!("kind = \"{}\"", self.kind.word);
+        let refused = |setting: String, reason: &'static str| Unfit::NotWith {
+            key: "after",
+            named: format!("after = \"{}\"", law.word),
+            setting,
+            reason,
+        };
+        if let Some(reason) = self.kind.brittle_because {
+            return Err(refused(kind, reason));
+        }
+        let slides = self.kind.measures == [Measure::Sliding];
+        if let Some(reason) = law.sliding_because.filter(|_| !slides) {
+            return Err(refused(kind, reason));
+        }
+        if on_exact_path {
+            let reason = "the exact path is straight between breakages, and softening bends it: take load steps (`steps`)";
+            return Err(refused("control = \"event\"".to_owned(), reason));
+        }
+        match self.parameter_from_energy() {
+            Some(key) if self.spends_fracture_energy() => Err(Unfit::Missing {
+                key,
+                reason: format!(
+                    "with {kind}: up to the limit a bond takes all of the fracture energy"
+                ),
+            }),
+            _ => Ok(()),
+        }
+    }
+}

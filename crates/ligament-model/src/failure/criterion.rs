@@ -1,0 +1,126 @@
+//! Criteria with the limits of their bonds.
+
+use super::measure::Measure;
+use super::softening::{AfterLimit, brittle};
+use crate::element::BondDeformation;
+
+/// A failure criterion with its limits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Criterion {
+    /// What results call it.
+    pub name: &'static str,
+    /// What it looks at.
+    pub measure: Measure,
+    /// Limit of each bond; infinite where it never fails, shape (n_bonds).
+    pub limit: Vec<f64>,
+    /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
+    pub coefficient: Vec<f64>,
+    /// What happens after the limit.
+    pub after: AfterLimit,
+}
+
+impl Criterion {
+    /// A criterion of a measure without a coefficient, by which bonds break at their limit (n_bonds).
+    pub fn brittle(name: &'static str, measure: Measure, limit: Vec<f64>) -> Self {
+        Self {
+            name,
+            measure,
+            limit,
+            coefficient: Vec::new(),
+            after: AfterLimit::new(brittle::LAW, Vec::new()),
+        }
+    }
+
+    /// The measure of a deformation of a bond.
+    #[inline]
+    pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
+        self.measure.of(deformation, self.coefficients(bond))
+    }
+
+    /// The coefficients of the measure for a bond, shape (n).
+    #[inline]
+    pub fn coefficients(&self, bond: usize) -> &[f64] {
+        let count = match self.coefficient.len() {
+            0 => return &[],
+            len if len == self.limit.len() => 1,
+            len => len / self.limit.len(),
+        };
+        &self.coefficient[count * bond..count * (bond + 1)]
+    }
+
+    /// Measure at which a bond breaks.
+    #[inline]
+    pub fn break_limit(&self, bond: usize) -> f64 {
+        self.limit[bond] * self.after.end(bond)
+    }
+
+    /// Measure over limit, 0 where the measure is not positive.
+    #[inline]
+    pub fn utilisation(&self, bond: usize, deformation: &BondDeformation) -> f64 {
+        let measure = self.measure(bond, deformation);
+        // An infinite limit is never reached: nor is infinity times zero, which is no number.
+        if measure > 0.0 {
+            measure / self.limit[bond]
+        } else {
+            0.0
+        }
+    }
+}
+
+/// How near a bond is to its breakage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// Number of the criterion that decides.
+    pub criterion: usize,
+    /// Its measure.
+    pub measure: f64,
+    /// The measure at which the bond breaks.
+    pub limit: f64,
+}
+
+impl Verdict {
+    /// Measure over limit.
+    #[inline]
+    pub fn ratio(&self) -> f64 {
+        self.measure / self.limit
+    }
+}
+
+/// The criteria of a model: a bond fails by the first that is met.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Criteria {
+    /// The criteria, in the order in which they were chosen.
+    pub list: Vec<Criterion>,
+}
+
+impl Criteria {
+    /// Whether bonds may do anything but break at once.
+    pub fn soften(&self) -> bool {
+        self.list.iter().any(|it| !it.after.is_brittle())
+    }
+
+    /// Largest utilisation of a bond over the criteria; 0 without any.
+    #[inline]
+    pub fn utilisation(&self, bond: usize, deformation: &BondDeformation) -> f64 {
+        let of = |it: &Criterion| it.utilisation(bond, deformation);
+        self.list.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// The criterion with the largest measure over the limit at which the bond *breaks*, the first of them where several are;
+    /// None where no measure is positive.
+    #[inline]
+    pub fn breaking(&self, bond: usize, deformation: &BondDeformation) -> Option<Verdict> {
+        let mut worst: Option<Verdict> = None;
+        for (criterion, it) in self.list.iter().enumerate() {
+            let verdict = Verdict {
+                criterion,
+                measure: it.measure(bond, deformation),
+                limit: it.break_limit(bond),
+            };
+            if verdict.measure > 0.0 && worst.is_none_or(|worst| verdict.ratio() > worst.ratio()) {
+                worst = Some(verdict);
+            }
+        }
+        worst
+    }
+}

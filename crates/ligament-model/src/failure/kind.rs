@@ -1,0 +1,234 @@
+//! What a kind of failure criterion is, and the choice of one.
+
+use super::basis::Basis;
+use super::measure::Measure;
+use super::softening::{Law, brittle};
+use super::unfit::{NoLimit, Unfit};
+use crate::material::{Elasticity, Material};
+
+/// A kind of failure criterion.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// The word for it in case files and in results.
+    pub word: &'static str,
+    /// What fails, and where its limit comes from, a sentence.
+    pub words: &'static str,
+    /// How it looks at bonds; it stands for a [`Criterion`](super::Criterion) of each.
+    pub measures: &'static [Measure],
+    /// What of a material its limits come from, unless they are given.
+    pub takes: &'static [Property],
+    /// Fields of a [`Choice`] that it takes.
+    pub keys: &'static [&'static str],
+    /// Why bonds break at their limit whatever they might do after it, if that is so.
+    pub brittle_because: Option<&'static str>,
+    /// What it asks of a material beyond what it [takes](Self::takes).
+    pub suits: fn(&Choice, &Material) -> Result<(), Unfit>,
+    /// The limits of the bonds, for each of its measures.
+    pub limits: fn(&Choice, &Basis<'_>) -> Result<Vec<Limits>, NoLimit>,
+}
+
+/// A property of materials that limits come from.
+#[derive(Debug, Clone, Copy)]
+pub struct Property {
+    /// Its key in a case file.
+    pub key: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its value, where the material has it.
+    pub value: fn(&Material) -> Option<f64>,
+}
+
+/// Tensile strength F_t.
+pub(super) const TENSILE_STRENGTH: Property = Property {
+    key: "tensile_strength",
+    unit: "Pa",
+    value: |material| material.tensile_strength,
+};
+
+/// Compressive strength F_c.
+pub(super) const COMPRESSIVE_STRENGTH: Property = Property {
+    key: "compressive_strength",
+    unit: "Pa",
+    value: |material| material.compressive_strength,
+};
+
+/// Fracture energy G_c.
+pub(super) const FRACTURE_ENERGY: Property = Property {
+    key: "fracture_energy",
+    unit: "J/m^2",
+    value: |material| material.fracture_energy,
+};
+
+/// Limits of the bonds under one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// Limit of each bond; infinite where it never fails, shape (n_bonds).
+    pub limit: Vec<f64>,
+    /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
+    pub coefficient: Vec<f64>,
+}
+
+impl Limits {
+    /// Limits (n_bonds) of a measure without a coefficient.
+    pub fn without_coefficient(limit: Vec<f64>) -> Self {
+        Self {
+            limit,
+            coefficient: Vec::new(),
+        }
+    }
+}
+
+/// A kind of criterion with what is chosen of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choice {
+    /// What fails.
+    pub kind: Kind,
+    /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
+    pub limit: Option<f64>,
+    /// Stretch at which a bond without shear fails; of mixed modes, with the critical angle.
+    pub critical_stretch: Option<f64>,
+    /// Shear at which a bond that does not open fails, rad.
+    pub critical_angle: Option<f64>,
+    /// How the limit of friction comes from the strengths.
+    pub calibration: Option<Calibration>,
+    /// What a bond does after its limit.
+    pub after: After,
+}
+
+/// How the cohesion and the friction of bonds come from two strengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Calibration {
+    /// As printed: the stress of the bar is put in as E s of the bond (MPPD eqs 55, 56). Exact for nu = 0 alone.
+    #[default]
+    Printed,
+    /// From the strains of the bar in tension and in compression; possible where nu < F_t/F_c.
+    TwoPoint,
+}
+
+/// A law of softening with its parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct After {
+    /// The law.
+    pub law: Law,
+    /// Its parameter; none where it has none, and where it is to be such that the fracture energy of the material comes out.
+    pub parameter: Option<f64>,
+}
+
+impl PartialEq for Kind {
+    fn eq(&self, other: &Self) -> bool {
+        self.word == other.word
+    }
+}
+
+impl Kind {
+    /// A kind by which bonds may do anything after their limit, and that asks nothing of a material but what it takes.
+    pub(super) const fn new(
+        word: &'static str,
+        words: &'static str,
+        measures: &'static [Measure],
+        limits: fn(&Choice, &Basis<'_>) -> Result<Vec<Limits>, NoLimit>,
+    ) -> Self {
+        Self {
+            word,
+            words,
+            measures,
+            takes: &[],
+            keys: &[],
+            brittle_because: None,
+            suits: |_, _| Ok(()),
+            limits,
+        }
+    }
+
+    /// Whether it looks at strains of the bond's own.
+    pub fn takes_strains(&self) -> bool {
+        self.measures.iter().any(|it| it.takes_strains())
+    }
+
+    /// The key of its own limit, the first of them where it has several.
+    pub fn own_limit(&self) -> Option<&'static str> {
+        let mut keys = self.keys.iter();
+        keys.find(|key| **key != "calibration").copied()
+    }
+}
+
+impl From<Kind> for Choice {
+    /// The kind with limits from the material, by which bonds break at once.
+    fn from(kind: Kind) -> Self {
+        Self {
+            kind,
+            limit: None,
+            critical_stretch: None,
+            critical_angle: None,
+            calibration: None,
+            after: After {
+                law: brittle::LAW,
+                parameter: None,
+            },
+        }
+    }
+}
+
+impl Choice {
+    /// The limits that it may have of its own, by their keys.
+    pub fn own_limits(&self) -> [(&'static str, Option<f64>); 3] {
+        [
+            ("limit", self.limit),
+            ("critical_stretch", self.critical_stretch),
+            ("critical_angle", self.critical_angle),
+        ]
+    }
+
+    /// What it takes of each material for its limits.
+    pub fn takes(&self) -> &'static [Property] {
+        let is_given = self.own_limits().iter().any(|(_, limit)| limit.is_some());
+        if is_given { &[] } else { self.kind.takes }
+    }
+
+    /// Whether a bond takes all of the fracture energy up to its limit.
+    pub fn spends_fracture_energy(&self) -> bool {
+        let mut takes = self.takes().iter();
+        takes.any(|it| it.key == FRACTURE_ENERGY.key) && !self.kind.takes_strains()
+    }
+
+    /// The key of the law of softening whose parameter comes from the fracture energy, if it does.
+    pub fn parameter_from_energy(&self) -> Option<&'static str> {
+        let After { law, parameter } = &self.after;
+        let key = law.parameter.map(|it| it.key);
+        key.filter(|_| parameter.is_none())
+    }
+
+    /// Whether a material has what the criterion takes of it.
+    ///
+    /// # Errors
+    ///
+    /// If it has axes or lacks a property; if two of its properties do not go together.
+    pub fn suits(&self, material: &Material) -> Result<(), Unfit> {
+        let kind = &self.kind;
+        let of_limits = self.takes().iter().map(|it| (it, kind.own_limit()));
+        let of_softening = self.parameter_from_energy();
+        let of_softening = of_softening.map(|key| (&FRACTURE_ENERGY, Some(key)));
+        for (property, instead) in of_limits.chain(of_softening) {
+            let is_isotropic = matches!(material.elasticity, Elasticity::Isotropic(_));
+            if !is_isotropic && !kind.takes_strains() {
+                return Err(Unfit::WithAxes {
+                    property: property.key,
+                    kind: kind.word,
+                    instead,
+                });
+            }
+            if (property.value)(material).is_none() {
+                let instead = instead.map(|it| format!(" without `{it}`"));
+                let reason = format!(
+                    "(in {}) because the case has a [fracture] section with the criterion \"{}\"{}",
+                    property.unit,
+                    kind.word,
+                    instead.unwrap_or_default()
+                );
+                let key = property.key;
+                return Err(Unfit::Missing { key, reason });
+            }
+        }
+        (kind.suits)(self, material)
+    }
+}

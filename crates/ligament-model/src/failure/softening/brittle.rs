@@ -1,0 +1,16 @@
+//! No force at all after the limit.
+
+use super::law::{Law, Softened};
+
+/// A bond that breaks at its limit (Silling and Askari 2005, prototype microelastic brittle).
+pub const LAW: Law = Law {
+    word: "brittle",
+    words: "It breaks.",
+    force: "brittle",
+    parameter: None,
+    softens: false,
+    sliding_because: None,
+    at: |_, _| Softened::SOUND,
+    end: |_| 1.0,
+    total: |_| 1.0,
+};

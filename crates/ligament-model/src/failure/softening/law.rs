@@ -1,0 +1,66 @@
+//! What a law of softening is.
+
+/// A law of softening: the fall of a bond's force after its limit e_0.
+///
+/// The functions take the law's parameter (any number where it has none) and the largest kappa = e/e_0 so far.
+#[derive(Debug, Clone, Copy)]
+pub struct Law {
+    /// The word for it in case files and in results.
+    pub word: &'static str,
+    /// What the force does, a sentence.
+    pub words: &'static str,
+    /// What the force does, in few words; the parameter follows, if there is one.
+    pub force: &'static str,
+    /// Its parameter, if it has one.
+    pub parameter: Option<Parameter>,
+    /// Whether a bond goes on after its limit at all.
+    pub softens: bool,
+    /// Why only bonds that slide follow it, if that is so.
+    pub sliding_because: Option<&'static str>,
+    /// The bond past its limit.
+    pub at: fn(f64, f64) -> Softened,
+    /// kappa at which the bond breaks; infinite if never.
+    pub end: fn(f64) -> f64,
+    /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
+    pub total: fn(f64) -> f64,
+}
+
+/// The parameter of a law of softening.
+#[derive(Debug, Clone, Copy)]
+pub struct Parameter {
+    /// Its key in a case file.
+    pub key: &'static str,
+    /// What it must be greater than.
+    pub above: f64,
+    /// Why no other law takes the key.
+    pub of_it_alone: &'static str,
+    /// The parameter for which the whole life of a bond takes so many times what it stores at its limit; None if that is not
+    /// more than 1.
+    pub for_energy: fn(f64) -> Option<f64>,
+}
+
+impl PartialEq for Law {
+    fn eq(&self, other: &Self) -> bool {
+        self.word == other.word
+    }
+}
+
+/// A bond past its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Softened {
+    /// Force over force at the limit: the printed mu of the damage variables (MPPD eqs 45, 46, 50).
+    pub force: f64,
+    /// Secant stiffness over elastic stiffness.
+    pub secant: f64,
+    /// Energy that is gone, over that stored at the limit.
+    pub dissipated: f64,
+}
+
+impl Softened {
+    /// A bond that never passed its limit.
+    pub const SOUND: Self = Self {
+        force: 1.0,
+        secant: 1.0,
+        dissipated: 0.0,
+    };
+}
