@@ -1,7 +1,6 @@
 //! Disks that are hot inside, on an irregular mesh, against the closed form of thermoelasticity.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::internal;
 use ligament_model::Bonds;
 use verification::bench::Bench;
 use verification::numbers::{component, largest, relative_error};

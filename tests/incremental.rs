@@ -414,7 +414,7 @@ fn tracked_inertia_is_that_of_a_dense_elimination() {
         if round % 20 == 0 && iterations > 0 {
             let count = run.equilibrium.negative_eigenvalues();
             counts.push(count);
-            assert_eq!(count, dense_count(&run.problem, &run.state), "{round}");
+            assert_eq!(count, dense_count(&bench, &run.state), "{round}");
         }
     }
     println!("negative eigenvalues on the way: {counts:?}");
@@ -453,8 +453,8 @@ fn degrees_of_freedom(system: &BondSystem, bond: usize) -> [usize; 6] {
     [a, a + 1, a + 2, b, b + 1, b + 2]
 }
 
-fn dense_count(problem: &Problem<'_>, state: &State) -> usize {
-    let (system, prescribed) = (problem.system, &problem.boundary.prescribed);
+fn dense_count(bench: &Bench, state: &State) -> usize {
+    let (system, prescribed) = (&bench.model.system, &bench.boundary.prescribed);
     let free = |dof: &usize| prescribed[*dof].is_none() && !state.held[*dof];
     let rows: Vec<usize> = (0..state.held.len()).filter(free).collect();
     let mut place = vec![None; state.held.len()];

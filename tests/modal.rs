@@ -41,7 +41,8 @@ modal = { modes = 5 }
 "#;
 
 fn shares(outcome: &ModalOutcome, mode: &Mode) -> [f64; 3] {
-    outcome.moving.shares(mode.participation)
+    let shares = outcome.moving.shares(&mode.participation);
+    [0, 1, 2].map(|k| shares[k])
 }
 
 fn elastic(outcome: &ModalOutcome) -> impl Iterator<Item = &Mode> {

@@ -19,9 +19,9 @@ pub struct ModalSummary {
     /// Mass of the body, kg.
     pub mass: f64,
     /// Its centre, m.
-    pub centre_of_mass: Vec<f64>,
+    pub centre_of_mass: [f64; 2],
     /// Mass that can move along x and along y, kg, and inertia about the centre, kg m^2.
-    pub moving: Vec<f64>,
+    pub moving: [f64; 3],
     /// What becomes of the rotations of the points: `inertia` or `massless`.
     pub rotations: &'static str,
     /// Rigid motions that supports and connectivity leave.
@@ -31,7 +31,7 @@ pub struct ModalSummary {
     /// The modes, lowest first.
     pub modes: Vec<ModeSummary>,
     /// Share of the modes together in the mass that can move along x and along y, and in its inertia.
-    pub effective_shares: Vec<f64>,
+    pub effective_shares: [f64; 3],
     /// Negative eigenvalues of the stiffness, and how many its rotations explain, where Poisson's ratio is large.
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.
@@ -43,7 +43,7 @@ pub struct ModalSummary {
 }
 
 /// A mode in numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ModeSummary {
     /// Number, from 1.
     pub mode: usize,
@@ -54,7 +54,7 @@ pub struct ModeSummary {
     /// Largest |K phi - omega^2 M phi| over the forces that meet at a point.
     pub residual: f64,
     /// Shares of its effective masses along x and y and of its inertia in what can move.
-    pub effective_shares: Vec<f64>,
+    pub effective_shares: [f64; 3],
 }
 
 impl ModalSummary {
@@ -66,7 +66,7 @@ impl ModalSummary {
             kind: mode.kind.name(),
             frequency: mode.frequency(),
             residual: mode.residual,
-            effective_shares: moving.shares(&mode.participation),
+            effective_shares: of_plane(&moving.shares(&mode.participation)),
         };
         let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
         let mut warnings = model.warnings.clone();
@@ -74,8 +74,8 @@ impl ModalSummary {
         Self {
             model: ModelSummary::new(case, model),
             mass: moving.total,
-            centre_of_mass: moving.centre.clone(),
-            moving: moving.free.clone(),
+            centre_of_mass: of_plane(&moving.centre),
+            moving: of_plane(&moving.free),
             rotations: match outcome.rotations {
                 Rotations::Inertia => "inertia",
                 Rotations::Massless => "massless",
@@ -136,4 +136,9 @@ impl ModalSummary {
         }
         Ok(())
     }
+}
+
+/// The components that there are in the plane.
+fn of_plane<const N: usize>(components: &[f64]) -> [f64; N] {
+    std::array::from_fn(|k| components[k])
 }
