@@ -104,7 +104,7 @@ fn a_broken_bond_is_an_absent_bond() {
         format!("{DISK}precrack = [{{ points = [[-0.0141, -0.0141], [0.0142, 0.0143]] }}]\n");
     let without = Bench::new(&text, &[]);
     let with = Bench::new(DISK, &[]);
-    let (system, kept) = (&with.model.system, &without.model.system.bonds.ends);
+    let (system, kept) = (&*with.model.system, &without.model.system.bonds.ends);
     let present: BTreeSet<&[u32; 2]> = kept.iter().collect();
     let mut state = State {
         load_factor: 1.0,
@@ -113,11 +113,12 @@ fn a_broken_bond_is_an_absent_bond() {
     let absent: Vec<u32> = (0..system.bonds.len() as u32)
         .filter(|&bond| !present.contains(&system.bonds.ends[bond as usize]))
         .collect();
-    let mut equilibrium = Equilibrium::of(&with.problem(), 1e-4).unwrap();
+    let mut equilibrium = Equilibrium::new(&with.problem(), 1e-4).unwrap();
     let breakage = equilibrium.break_bonds(&mut state, &absent);
     let balanced = equilibrium
         .balance(&mut state, &breakage, &mut Unobserved)
         .unwrap()
+        .balanced()
         .unwrap();
     let run = without.solve();
     let (u, whole) = (run.displacement(), with.solve());

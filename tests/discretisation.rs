@@ -211,7 +211,7 @@ fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
         Bench::new(&format!("{BREAKING}{BAR}material = {material}\n"), &[])
     };
     let (left, right) = (alone(15e9, 0.21, 3e6), alone(60e9, 0.3, 8e6));
-    let (system, cloud) = (&bench.model.system, &bench.model.system.cloud);
+    let (system, cloud) = (&*bench.model.system, &bench.model.system.cloud);
     let side = |point: u32| {
         let x = bench.positions()[point as usize][0] - 0.05;
         if x.abs() < 1e-9 { 0 } else { x.signum() as i32 }
@@ -235,13 +235,13 @@ fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
     }
     // k_n of each bond: its rigidity over Omega alpha V_A V_B l.
     let density = |bench: &Bench, bond: usize| {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let [a, b] = system.bonds.ends[bond].map(|end| system.cloud.volumes[end as usize]);
         system.rigidities.axial[bond] / (system.weight[bond] * a * b * system.bonds.length[bond])
     };
     // e_0 of each bond from s_0^2 = e_0 (V_A + V_B)/(rigidity), NHPD eq. 16.
     let energy = |bench: &Bench, bond: usize| {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let [a, b] = system.bonds.ends[bond].map(|end| system.cloud.volumes[end as usize]);
         bench.limits()[bond].powi(2) * system.rigidities.axial[bond] / (a + b)
     };

@@ -312,8 +312,8 @@ struct Separation {
 }
 
 impl Separation {
-    fn of(bench: &Bench, segment: &Segment, [x, y]: [f64; 2]) -> Self {
-        let system = &bench.model.system;
+    fn from_bench(bench: &Bench, segment: &Segment, [x, y]: [f64; 2]) -> Self {
+        let system = &*bench.model.system;
         let area = segment.length() * THICKNESS;
         let mut sum = Self {
             counted: 0.0,
@@ -364,8 +364,8 @@ fn the_energy_criterion_counts_the_same_in_both_modes() {
             for m in [3.0, 6.0] {
                 let bench = lattice(law, "bond-energy", m, &[&setting]);
                 let expected = work(&bench, &segment);
-                let opening = Separation::of(&bench, &segment, OPENING);
-                let sliding = Separation::of(&bench, &segment, SLIDING);
+                let opening = Separation::from_bench(&bench, &segment, OPENING);
+                let sliding = Separation::from_bench(&bench, &segment, SLIDING);
                 println!(
                     "{law} nu {poisson} m {m}: {expected:.3} G_c, stored in sliding {:.3} times that",
                     sliding.stored / expected
@@ -379,7 +379,7 @@ fn the_energy_criterion_counts_the_same_in_both_modes() {
         }
     }
     let bench = lattice("bbpd", "bond-energy", 3.0, &[]);
-    let sliding = Separation::of(&bench, &segment, SLIDING);
+    let sliding = Separation::from_bench(&bench, &segment, SLIDING);
     assert_eq!((sliding.unbroken, segment.crossing(&bench).len()), (12, 18));
 }
 
@@ -391,8 +391,11 @@ fn the_energy_criterion_leaves_bonds_where_shear_gives_energy() {
     let setting = ["material.poisson=0.38"];
     let energy = lattice("nhpd", "bond-energy", 6.0, &setting);
     let stretch = lattice("nhpd", "critical-stretch", 6.0, &setting);
-    assert!(Separation::of(&energy, &segment, OPENING).unbroken > 0);
-    assert_eq!(Separation::of(&stretch, &segment, OPENING).unbroken, 0);
+    assert!(Separation::from_bench(&energy, &segment, OPENING).unbroken > 0);
+    assert_eq!(
+        Separation::from_bench(&stretch, &segment, OPENING).unbroken,
+        0
+    );
     let told = |bench: &Bench| {
         let of_criterion = |it: &&String| it.contains("criterion \"bond-energy\"");
         bench.model.warnings.iter().filter(of_criterion).count()
@@ -421,7 +424,7 @@ fn shear_comes_on_top_of_the_critical_stretch() {
             let setting = format!("material.poisson={word}");
             let settings = [&UNCORRECTED[..], &[&setting]].concat();
             let bench = lattice("mppd", "critical-stretch", m, &settings);
-            let opening = Separation::of(&bench, &segment, OPENING);
+            let opening = Separation::from_bench(&bench, &segment, OPENING);
             let ratio = (1.0 - 3.0 * poisson) / (1.0 + poisson);
             let crossing = over_offsets(m, crack, |length, tangent| {
                 2.0 * length * (1.0 + ratio / tangent.powi(2))

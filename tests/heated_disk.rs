@@ -1,6 +1,7 @@
 //! Disks that are hot inside, on an irregular mesh, against the closed form of thermoelasticity.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_model::Bonds;
 use verification::bench::Bench;
 use verification::numbers::{component, largest, relative_error};
@@ -92,8 +93,8 @@ fn hot_disks_are_those_of_thermoelasticity() {
         }
         let off = (off / size).sqrt();
         let state = run.state();
-        let expansion = bench.boundary.thermal_strain_at(state.load_factor);
-        let system = &bench.model.system;
+        let expansion = bench.boundary.thermal_strain(state.load_factor);
+        let system = &*bench.model.system;
         let deformations = system.deformations(&state.intact, motion, expansion);
         let stress = system.virial_stresses(state.bonds(), &deformations);
         let mut ratios = Vec::new();

@@ -323,7 +323,7 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
     let error = ligament_case::resolve::Loading::of(
         &verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]),
         &*bench.model.body,
-        &bench.model.system,
+        &*bench.model.system,
     );
     let error = error.unwrap_err().to_string();
     assert!(error.contains("this group has no length"), "{error}");

@@ -2,12 +2,12 @@
 //! program: plates under load, natural frequencies, and the elastic constants of infinite lattices.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_case::progress::ProgressMode;
 use ligament_case::run;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
+use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
 use verification::numbers::{deviation, relative_error};
@@ -240,7 +240,7 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
     for law in ["model.law=pds", "model.law=mppd"] {
         let settings = [law, "material.poisson=0.25", "lattice.cells=[25, 25]"];
         let bench = Bench::new(PLATE, &settings);
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let intact = vec![true; system.bonds.len()];
         let inner: Vec<usize> = (0..bench.points())
             .filter(|&point| {

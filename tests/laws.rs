@@ -2,12 +2,12 @@
 //! are one.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_case::case::Law;
 use ligament_model::ElementKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
+use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Run};
 use verification::numbers::{Random, deviation, largest, relative_error};
 use verification::problems::SQUARE;
@@ -125,7 +125,7 @@ fn all() -> impl Iterator<Item = (&'static Entry, String, Bench)> {
 }
 
 fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
     internal::sweep(
         system,
@@ -141,7 +141,7 @@ fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
 #[test]
 fn rigid_motions() {
     for (entry, title, bench) in all() {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         assert_eq!(system.kinematics.kind(), entry.element, "{title}");
         let measure = stored_energy(&bench, |p| [1e-3 * p[0], 0.0, 0.0]);
         assert!(measure > 0.0, "{title}");
@@ -165,7 +165,7 @@ fn rigid_motions() {
 #[test]
 fn internal_forces_are_in_balance() {
     for (entry, title, bench) in all() {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let mut random = Random(1);
         let u: Vec<f64> = (0..3 * bench.points())
             .map(|_| 1e-4 * random.uniform())

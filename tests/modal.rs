@@ -3,9 +3,11 @@
 //! Frequencies of lattices against an independent program and published numbers are in `lattices`.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use std::f64::consts::PI;
 
-use ligament_analysis::boundary::ControlKind;
+use ligament_analysis::load_program::ControlKind;
 use ligament_analysis::modal::{
     ModalAnalysis, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind,
     Rotations,
@@ -170,9 +172,9 @@ fn modes_of(
     rotations: Option<Rotations>,
 ) -> ModalOutcome {
     let problem = ModalProblem {
-        system,
-        mass,
-        supports,
+        system: Arc::new(system.clone()),
+        mass: Arc::new(mass.clone()),
+        supports: Arc::new(supports.clone()),
         solver: SolverSettings::default(),
     };
     let settings = ModalSettings {
@@ -180,7 +182,7 @@ fn modes_of(
         rotations,
         tolerance: 1e-10,
     };
-    ModalAnalysis::of(problem, settings)
+    ModalAnalysis::new(&problem, settings)
         .unwrap()
         .find()
         .unwrap()
@@ -188,7 +190,7 @@ fn modes_of(
 
 /// Stiffness of the unknowns as a dense matrix, from the elements' rows.
 fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let mut place = vec![usize::MAX; 3 * system.cloud.len()];
     for (k, (dof, _)) in dofs.iter().enumerate() {
         place[*dof] = k;

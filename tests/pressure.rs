@@ -305,7 +305,7 @@ outside = { centre = [0.0, 0.0], radius = 2.2 }
 
 fn fault(bench: &Bench, text: &str, settings: &[&str]) -> String {
     let case = bench::case(text, settings);
-    let loading = Loading::of(&case, &*bench.model.body, &bench.model.system);
+    let loading = Loading::of(&case, &*bench.model.body, &*bench.model.system);
     loading.unwrap_err().to_string()
 }
 

@@ -128,7 +128,7 @@ fn solutions_of_the_square() {
             errors.push(error);
         }
         let row = summary.row_where("set", set);
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let intact = vec![true; system.bonds.len()];
         let deformations = system.deformations(&intact, run.displacement(), ThermalStrain::NONE);
         let ratios = deformations

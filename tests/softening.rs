@@ -220,7 +220,7 @@ after = "plastic"
     }
     let state = run.state();
     let criteria = &bench.model.criteria;
-    let sliding = fields::damage_by(&bench.model.system, criteria, state, Weakened::Sliding);
+    let sliding = fields::damage_by(&*bench.model.system, criteria, state, Weakened::Sliding);
     // The printed mu of a plastic bond is 1 (MPPD eq. 50 with gamma_u to infinity): no damage, but energy is gone,
     // gamma_0 (10 - 1) times the force.
     assert_eq!(sliding, [0.0, 0.0]);
@@ -321,7 +321,7 @@ end = 6.0
             .into_iter()
             .all(|it| it[1].dissipated_energy >= it[0].dissipated_energy)
     );
-    let (system, criteria) = (&bench.model.system, &bench.model.criteria);
+    let (system, criteria) = (&*bench.model.system, &bench.model.criteria);
     let damages = fields::damages(system, criteria, anew.state());
     let names: Vec<&str> = damages.iter().map(|(name, _)| *name).collect();
     assert_eq!(

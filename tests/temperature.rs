@@ -2,6 +2,7 @@
 //! breakages against the same bodies under displacements.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
 use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
@@ -61,9 +62,9 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 
 /// Deformations of the bonds beyond what the temperature gives them, in the last state.
 fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
-    let expansion = bench.boundary.thermal_strain_at(run.state().load_factor);
+    let expansion = bench.boundary.thermal_strain(run.state().load_factor);
     let intact = &run.state().intact;
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     system.deformations(intact, run.displacement(), expansion)
 }
 
@@ -352,10 +353,10 @@ fn a_linear_temperature_bends_free_bodies() {
             let size = largest(strains.iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(
-                &bench.model.system,
+                &*bench.model.system,
                 run.state().bonds(),
                 &vec![0.0; 3 * bench.points()],
-                bench.boundary.thermal_strain_at(1.0),
+                bench.boundary.thermal_strain(1.0),
             );
             let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
             assert_eq!(run.last().load_factor, 1.0, "{name}");

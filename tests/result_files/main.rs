@@ -71,7 +71,7 @@ impl Case {
         let (model, canvas) = self.model();
         let loading = Loading::of(&self.file, &*model.body, &model.system).unwrap();
         let problem = loading.problem(&model.system, &model.criteria);
-        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem);
+        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem.clone());
         let outcome = match &self.file.case.fracture {
             None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut recorder),
             Some(fracture) => run::break_bonds(&problem, fracture, &mut recorder),
@@ -162,7 +162,7 @@ impl Case {
             ("strength", alone(0)),
             ("sliding", alone(1)),
             ("compression", alone(2)),
-            ("first_of_all", model.criteria.clone()),
+            ("first_of_all", Criteria::clone(&model.criteria)),
         ];
         let mut expected = Expected::default();
         canvas.grid("points.vtu", &mut expected);

@@ -22,7 +22,7 @@ pub(crate) struct Recorder<'a> {
     pub(crate) expected: Expected,
     model: &'a Model,
     canvas: &'a Canvas,
-    problem: Problem<'a>,
+    problem: Problem,
     fields_every: usize,
     bonds: bool,
     stress: Vec<StressField>,
@@ -40,7 +40,7 @@ pub(crate) struct Recorder<'a> {
 }
 
 /// A criterion's name, with a number from the second of its kind on.
-fn labels(problem: &Problem<'_>) -> Vec<String> {
+fn labels(problem: &Problem) -> Vec<String> {
     let names: Vec<&str> = problem.criteria.list.iter().map(|it| it.name).collect();
     let label = |(k, name): (usize, &&str)| match names[..k].iter().filter(|it| *it == name).count()
     {
@@ -51,7 +51,7 @@ fn labels(problem: &Problem<'_>) -> Vec<String> {
 }
 
 /// Names of the two or three components of bonds that files have, each with how it is read.
-fn deformation_names(problem: &Problem<'_>) -> &'static [&'static str] {
+fn deformation_names(problem: &Problem) -> &'static [&'static str] {
     if problem.system.strain_names()[0] == "strain_xx" {
         &["strain_xx", "strain_xy", "strain_yy"]
     } else {
@@ -76,7 +76,7 @@ impl<'a> Recorder<'a> {
         case: &ligament_case::case::Case,
         model: &'a Model,
         canvas: &'a Canvas,
-        problem: Problem<'a>,
+        problem: Problem,
     ) -> Self {
         let history = [
             "step",
@@ -97,7 +97,8 @@ impl<'a> Recorder<'a> {
             "negative_eigenvalues",
             "dissipated_energy",
         ];
-        let groups = problem.boundary.groups.iter().flat_map(|group| {
+        let groups = problem.loads.groups().iter();
+        let groups = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
         });
         let probes = problem.probes.iter().map(|it| it.name.clone());
@@ -126,7 +127,6 @@ impl<'a> Recorder<'a> {
             expected: Expected::default(),
             model,
             canvas,
-            problem,
             fields_every: case.output.fields_every as usize,
             bonds: case.output.bonds,
             stress: case.output.stress.clone(),
@@ -135,6 +135,7 @@ impl<'a> Recorder<'a> {
                 Some(Control::Event)
             ),
             labels: labels(&problem),
+            problem: problem.clone(),
             history: Rows::new(history.chain(groups).chain(probes)),
             breaks: Rows::new(breaks.chain(ends).chain(after).chain(names)),
             iterations: Rows::new(iterations),
@@ -204,7 +205,7 @@ impl<'a> Recorder<'a> {
         self.canvas
             .displacement(file, &displacement, &mut self.expected);
         let reactions = view
-            .boundary
+            .loads
             .reactions(state.load_factor, &balanced.internal.values);
         let mut fields_of = self.canvas.on(file, &mut self.expected);
         fields_of.reals("rotation", points.clone().map(|it| motion(it)[2]));
@@ -233,18 +234,14 @@ impl<'a> Recorder<'a> {
             let values = fields::dissipated_energy_density(system, &state.dissipated);
             fields_of.reals("dissipated_energy_density", values);
         }
-        let boundary = view.boundary;
-        if !boundary.temperature_change.is_empty() {
-            let change = boundary.temperature_change.iter();
-            fields_of.reals(
-                "temperature_change",
-                change.map(|it| state.load_factor * it),
-            );
-            let strain = boundary.thermal_strain.at_points.iter();
+        let change = view.loads.temperature_change(state.load_factor);
+        if !change.is_empty() {
+            fields_of.reals("temperature_change", change);
+            let strain = view.loads.thermal_strain(state.load_factor);
             fields_of.components(
                 "thermal_strain",
                 ["xx", "yy", "xy"],
-                strain.map(|it| it.map(|it| state.load_factor * it)),
+                points.clone().map(|it| strain.of_point(it)),
             );
         }
         if self.stress.contains(&StressField::Virial) {
@@ -426,7 +423,7 @@ impl Observer for Recorder<'_> {
             every => record.step.is_multiple_of(every),
         };
         if is_due || view.is_last {
-            let time = match view.boundary.control.kind {
+            let time = match view.loads.control().kind {
                 _ if self.times_are_steps => record.step as f64,
                 ControlKind::Force => record.reaction,
                 ControlKind::Displacement | ControlKind::Temperature => record.displacement,

@@ -1,11 +1,12 @@
 //! A bench: a case, its model, its supports and loads, and what happens when it is run.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
-use ligament_analysis::{Boundary, State};
+use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
@@ -25,8 +26,8 @@ pub struct Bench {
     /// Its model.
     pub model: Model,
     /// Its supports and loads.
-    pub boundary: Boundary,
-    probes: Vec<Probe>,
+    pub boundary: ProportionalLoading,
+    probes: Arc<[Probe]>,
     _folder: Option<TempDir>,
 }
 
@@ -94,20 +95,20 @@ impl Bench {
         Self {
             case,
             model,
-            boundary,
+            boundary: Arc::unwrap_or_clone(boundary),
             probes,
             _folder: folder,
         }
     }
 
     /// The problem of the bench.
-    pub fn problem(&self) -> Problem<'_> {
+    pub fn problem(&self) -> Problem {
         Problem {
-            system: &self.model.system,
-            criteria: &self.model.criteria,
-            boundary: &self.boundary,
+            system: self.model.system.clone(),
+            criteria: self.model.criteria.clone(),
+            loads: Arc::new(self.boundary.clone()),
             solver: resolve::solver(&self.case),
-            probes: &self.probes,
+            probes: self.probes.clone(),
         }
     }
 

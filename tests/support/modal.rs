@@ -1,5 +1,7 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
+use std::sync::Arc;
+
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
 use ligament_case::case::CaseFile;
@@ -20,9 +22,9 @@ pub struct ModalBench {
     /// Its model.
     pub model: Model,
     /// Its supports.
-    pub supports: Supports,
+    pub supports: Arc<Supports>,
     /// The masses of its points.
-    pub mass: LumpedMass,
+    pub mass: Arc<LumpedMass>,
 }
 
 impl ModalBench {
@@ -54,13 +56,13 @@ impl ModalBench {
     /// Finds its modes.
     pub fn find(&self) -> ModalOutcome {
         let problem = ModalProblem {
-            system: &self.model.system,
-            mass: &self.mass,
-            supports: &self.supports,
+            system: self.model.system.clone(),
+            mass: self.mass.clone(),
+            supports: self.supports.clone(),
             solver: resolve::solver(&self.case),
         };
         let settings = resolve::modal(self.case.case.modal.as_ref().unwrap());
-        ModalAnalysis::of(problem, settings)
+        ModalAnalysis::new(&problem, settings)
             .unwrap()
             .find()
             .unwrap()

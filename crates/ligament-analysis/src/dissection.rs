@@ -1,6 +1,6 @@
 //! Nested dissection of the points: the order of elimination that a mesh calls for.
 //!
-//! A part is cut at the median of its longer side (George, SIAM J. Numer. Anal. 10, 1973); the points of one half that bonds
+//! A part is cut at the median of its longer side (George 1973); the points of one half that bonds
 //! connect with the other separate the two, and are eliminated after both.
 
 use ligament_model::Bonds;

@@ -8,8 +8,8 @@
 use ligament_model::Bonds;
 pub use ligament_model::rigid_motions::FreeMotion;
 
-use crate::boundary::Boundary;
 use crate::connectivity::{Fragments, Hold};
+use crate::load_program::LoadProgram;
 use crate::unknowns::Unknowns;
 
 /// A connected part of the intact body that can move rigidly.
@@ -35,47 +35,47 @@ impl FreeBody {
 }
 
 /// The free parts of the intact body, before anything is solved.
-pub fn of_intact_body(system: &dyn Bonds, boundary: &Boundary) -> Vec<FreeBody> {
+pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBody> {
     let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
-    let unknowns = Unknowns::of_problem(system, boundary);
+    let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
     let holds = fragments.missing_holds(
         0..fragments.points.len() as u32,
         system,
-        |dof| boundary.prescribed[dof].is_some(),
+        |dof| loads.is_prescribed(dof),
         |dof| unknowns.number(dof).is_some(),
     );
-    free_bodies(system, boundary, &fragments, &holds)
+    free_bodies(system, loads, &fragments, &holds)
 }
 
 /// The free parts of the intact body, given the holds that they need.
 pub fn free_bodies(
     system: &dyn Bonds,
-    boundary: &Boundary,
+    loads: &dyn LoadProgram,
     fragments: &Fragments,
     holds: &[Hold],
 ) -> Vec<FreeBody> {
     let of_one_body = holds.chunk_by(|one, other| one.fragment == other.fragment);
     of_one_body
-        .map(|holds| free_body(system, boundary, fragments, holds))
+        .map(|holds| free_body(system, loads, fragments, holds))
         .collect()
 }
 
 fn free_body(
     system: &dyn Bonds,
-    boundary: &Boundary,
+    loads: &dyn LoadProgram,
     fragments: &Fragments,
     holds: &[Hold],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
+    let is_prescribed = |dof| loads.is_prescribed(dof);
+    let force = |dof: usize| loads.forces(1.0, &[dof as u32])[0];
     let mut gauges: Vec<usize> = holds.iter().map(|hold| hold.degree_of_freedom).collect();
     gauges.sort_unstable();
     FreeBody {
         points: points.len(),
         is_whole: points.len() == system.n_points(),
         first: points[0],
-        motions: system.free_motions(points, &|dof| boundary.prescribed[dof].is_some(), &|dof| {
-            boundary.force[dof]
-        }),
+        motions: system.free_motions(points, &is_prescribed, &force),
         gauges,
     }
 }

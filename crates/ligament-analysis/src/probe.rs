@@ -1,9 +1,9 @@
 //! Probes: numbers read off the body at every load step.
 
-use ligament_model::failure::Weakened;
+use ligament_model::Bonds;
+use ligament_model::failure::{Criteria, Weakened};
 
-use crate::driver::Problem;
-use crate::equilibrium::Balanced;
+use crate::balanced::Balanced;
 use crate::fields;
 use crate::state::State;
 use crate::unknowns::{COMPONENTS, Component};
@@ -72,8 +72,13 @@ pub enum StressComponent {
 
 impl Reading {
     /// The value in a state of equilibrium.
-    pub fn value(&self, problem: &Problem<'_>, state: &State, balanced: &Balanced) -> f64 {
-        let system = problem.system;
+    pub fn value(
+        &self,
+        system: &dyn Bonds,
+        criteria: &Criteria,
+        state: &State,
+        balanced: &Balanced,
+    ) -> f64 {
         match self {
             Self::RelativeDisplacement {
                 points: [first, second],
@@ -87,7 +92,7 @@ impl Reading {
             Self::Field { point, field } => match field {
                 PointField::Damage => fields::point_damage(system, &state.intact, *point),
                 PointField::DamageBy(way) => {
-                    fields::point_damage_by(problem.system, problem.criteria, state, *way, *point)
+                    fields::point_damage_by(system, criteria, state, *way, *point)
                 }
                 PointField::Motion(component) => {
                     state.displacement[COMPONENTS * *point as usize + component.index()]

@@ -3,8 +3,6 @@
 use ligament_model::Bonds;
 pub use ligament_model::layout::Component;
 
-use crate::boundary::Boundary;
-
 /// Components of a point: displacement along x, along y, rotation.
 pub const COMPONENTS: usize = ligament_model::element::UNKNOWNS;
 
@@ -18,15 +16,10 @@ pub struct Unknowns {
 const KNOWN: u32 = u32::MAX;
 
 impl Unknowns {
-    /// Everything that no support or load prescribes and that has a stiffness at all.
+    /// Everything that is not fixed and has a stiffness at all.
     ///
     /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point, and bonds without
     /// rotations never do: such rotations carry nothing and are held at zero.
-    pub fn of_problem(system: &dyn Bonds, boundary: &Boundary) -> Self {
-        Self::all_but(system, |dof| boundary.prescribed[dof].is_some())
-    }
-
-    /// Everything that is not fixed and has a stiffness at all.
     pub fn all_but(system: &dyn Bonds, is_fixed: impl Fn(usize) -> bool) -> Self {
         let resisted = system.resisted();
         Self::select(system.n_points(), |point, component| {

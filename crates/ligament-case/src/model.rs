@@ -1,5 +1,7 @@
 //! The method, first page: from a mesh or a lattice to the discrete model. The second is [`crate::run`].
 
+use std::sync::Arc;
+
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
@@ -23,7 +25,7 @@ pub struct Model {
     /// The body.
     pub body: Box<dyn Body>,
     /// Points and corrected bonds.
-    pub system: BondSystem,
+    pub system: Arc<BondSystem>,
     /// Fields that a run does not change.
     pub fixed: FixedFields,
     /// How the domain correction went, where there was one.
@@ -31,7 +33,7 @@ pub struct Model {
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
     /// When its bonds fail.
-    pub criteria: Criteria,
+    pub criteria: Arc<Criteria>,
     /// Number of pairs of points that would be bonded but for a hole between them.
     pub across_holes: usize,
     /// Number of bonds that pre-cracks cut.
@@ -125,9 +127,9 @@ pub fn model_of(
         cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
         no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
         body,
-        system,
+        system: Arc::new(system),
         fixed,
-        criteria,
+        criteria: Arc::new(criteria),
     })
 }
 

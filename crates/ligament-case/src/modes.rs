@@ -27,7 +27,7 @@ pub(crate) fn find_modes(
     let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || {
-        ModalAnalysis::of(problem, resolve::modal(modal))
+        ModalAnalysis::new(&problem, resolve::modal(modal))
     })?;
 
     let outcome = stages.time("modes", || analysis.find())?;

@@ -118,7 +118,7 @@ fn follow_loads(
 /// Solves the case, or follows its loading up to failure.
 pub fn follow(
     case: &CaseFile,
-    problem: &Problem<'_>,
+    problem: &Problem,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     match &case.case.fracture {
@@ -129,7 +129,7 @@ pub fn follow(
 
 /// Follows the loading with the driver that the case chooses.
 pub fn break_bonds(
-    problem: &Problem<'_>,
+    problem: &Problem,
     fracture: &Fracture,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {

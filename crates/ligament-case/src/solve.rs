@@ -1,5 +1,7 @@
 //! A case in memory: the pipeline of a run without its files.
 
+use std::sync::Arc;
+
 use anyhow::Context;
 use ligament_analysis::Observer;
 use ligament_analysis::driver::Outcome;
@@ -21,7 +23,7 @@ pub struct Solution {
     /// The discrete model.
     pub model: Model,
     /// The probes; their values stand in the records of the outcome, in this order.
-    pub probes: Vec<Probe>,
+    pub probes: Arc<[Probe]>,
     /// How the run went.
     pub outcome: Outcome,
 }
@@ -74,7 +76,7 @@ fn modes_here(case: &CaseFile) -> anyhow::Result<ModalOutcome> {
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &progress)?;
     let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
-    let analysis = ModalAnalysis::of(vibration.problem(&model.system), resolve::modal(modal))?;
+    let analysis = ModalAnalysis::new(&vibration.problem(&model.system), resolve::modal(modal))?;
     Ok(analysis.find()?)
 }
 

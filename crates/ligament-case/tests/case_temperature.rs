@@ -131,7 +131,7 @@ fn loading(case: &CaseFile) -> anyhow::Result<Loading> {
 fn changes_in(folder: &Path, text: &str) -> Result<Vec<f64>, String> {
     let case = parse_in(folder, text)?;
     let loading = loading(&case).map_err(|error| error.to_string())?;
-    Ok(loading.boundary.temperature_change)
+    Ok(loading.boundary.temperature_change.clone())
 }
 
 fn changes(text: &str) -> Result<Vec<f64>, String> {
@@ -308,7 +308,11 @@ fn the_last_section_holds() {
         }
     }
     let loaded = format!("{text}[[load]]\ngroup = \"top\"\nforce = {{ y = 1.0 }}\n");
-    let control = loading(&parse(&loaded).unwrap()).unwrap().boundary.control;
+    let control = loading(&parse(&loaded).unwrap())
+        .unwrap()
+        .boundary
+        .control
+        .clone();
     assert_eq!(control.kind, ControlKind::Force);
 }
 

@@ -14,7 +14,7 @@ use crate::thermal::ThermalStrain;
 
 /// The bonds of a body as equations see them. Points, bonds and degrees of freedom are numbers; where the points lie, and in
 /// how many dimensions, is known behind this interface alone.
-pub trait Bonds: Sync {
+pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
 

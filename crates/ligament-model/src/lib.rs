@@ -13,7 +13,8 @@
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
 //!
-//! All quantities are in SI units. No matrices, no files and no printing here.
+//! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
+//! as NHPD or MPPD: `docs/references.md` lists the papers.
 
 pub mod bonds;
 pub mod change;

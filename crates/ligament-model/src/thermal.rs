@@ -1,26 +1,4 @@
-//! Strains that the temperature would give the points without stress.
-
-/// Strains that the temperature would give the points without stress, at load factor 1.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ThermalStrains {
-    /// Strain (eps_xx, eps_yy, gamma_xy) of each point, shape (n_points); empty where no temperature changes.
-    pub at_points: Vec<[f64; 3]>,
-}
-
-impl ThermalStrains {
-    /// Whether no temperature changes.
-    pub fn is_empty(&self) -> bool {
-        self.at_points.is_empty()
-    }
-
-    /// The strains at a load factor.
-    pub fn at(&self, load_factor: f64) -> ThermalStrain<'_> {
-        ThermalStrain {
-            strain: &self.at_points,
-            load_factor,
-        }
-    }
-}
+//! Strains that a temperature gives without stress.
 
 /// Strains that the temperature would give the points without stress, at some load factor.
 #[derive(Debug, Clone, Copy)]
@@ -29,12 +7,20 @@ pub struct ThermalStrain<'a> {
     load_factor: f64,
 }
 
-impl ThermalStrain<'_> {
+impl<'a> ThermalStrain<'a> {
     /// No strain anywhere.
     pub const NONE: Self = ThermalStrain {
         strain: &[],
         load_factor: 0.0,
     };
+
+    /// Strains (eps_xx, eps_yy, gamma_xy) at load factor 1, shape (n_points), times a load factor; empty where there are none.
+    pub fn proportional(strain: &'a [[f64; 3]], load_factor: f64) -> Self {
+        Self {
+            strain,
+            load_factor,
+        }
+    }
 
     /// Whether there is none anywhere.
     pub fn is_none(&self) -> bool {
@@ -47,6 +33,11 @@ impl ThermalStrain<'_> {
             load_factor: 1.0,
             ..*self
         }
+    }
+
+    /// The strain of a point: (eps_xx, eps_yy, gamma_xy).
+    pub fn of_point(&self, point: usize) -> [f64; 3] {
+        self.strain[point].map(|strain| self.load_factor * strain)
     }
 
     /// The mean of the ends of a bond: (eps_xx, eps_yy, gamma_xy).

@@ -17,17 +17,39 @@ use ligament_case::stages::Stages;
 
 /// A case file of the repository, as it was when the program was built.
 pub(super) struct Template {
-    /// Its path in the repository.
+    /// Path of the case in the repository.
     pub(super) path: &'static str,
-    /// Its text.
+    /// Text of the case.
     pub(super) text: &'static str,
 }
 
+/// A case file of `cases/` by its path there.
+macro_rules! template {
+    ($path:literal) => {
+        $crate::trial::Template {
+            path: concat!("cases/", $path),
+            text: include_str!(concat!("../../../cases/", $path)),
+        }
+    };
+}
+
+/// A mesh of `meshes/` by its name.
+macro_rules! stored_mesh {
+    ($name:literal) => {
+        $crate::trial::StoredMesh {
+            path: concat!("../../meshes/", $name),
+            bytes: include_bytes!(concat!("../../../meshes/", $name)),
+        }
+    };
+}
+
+pub(super) use {stored_mesh, template};
+
 /// A mesh of the repository, as it was when the program was built.
 pub(super) struct StoredMesh {
-    /// Its path from the folder of a case.
+    /// Path of the mesh from the folder of a case.
     pub(super) path: &'static str,
-    /// Its bytes.
+    /// Bytes of the mesh.
     pub(super) bytes: &'static [u8],
 }
 
@@ -153,13 +175,13 @@ pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64;
     }))
 }
 
-/// What runs that several entries share came to, by their commands.
+/// Results of runs that several entries share, by the commands of the runs.
 #[derive(Debug)]
 pub(super) struct Memory<T>(BTreeMap<String, T>);
 
 impl<T: Clone> Memory<T> {
-    /// What the run came to; it is done if it was not yet.
-    pub(super) fn of(
+    /// The result of a run, which is done if it was not yet.
+    pub(super) fn result(
         &mut self,
         command: String,
         run: impl FnOnce() -> anyhow::Result<T>,

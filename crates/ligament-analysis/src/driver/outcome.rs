@@ -1,9 +1,10 @@
 //! How a run went, and what its force-displacement curve tells.
 
-use crate::equilibrium::Stability;
+use crate::balanced::Stability;
+use crate::costs::Costs;
 use crate::history::{StepRecord, Termination};
+use crate::solver::SolverChoice;
 use crate::state::State;
-use crate::stiffness::{Costs, SolverChoice};
 
 /// How a run went.
 #[derive(Debug, Clone, PartialEq)]

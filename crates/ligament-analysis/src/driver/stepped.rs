@@ -5,14 +5,15 @@
 
 use std::time::Instant;
 
-use super::Problem;
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::{Path, StopRules};
 use super::recorder::{StepCounters, largest_ratio};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
-use crate::equilibrium::{Balanced, SetupError};
+use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::problem::Problem;
 
 /// How to step and when to stop.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,11 +34,12 @@ pub struct SteppedSettings {
 
 /// Follows the loading.
 pub fn run(
-    problem: &Problem<'_>,
+    problem: &Problem,
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let (mut path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.soften();
     let load_factors = refined(settings, path.elastic.first_break);
     let mut stepping = Stepping {
         path,
@@ -114,8 +116,8 @@ impl Stepping<'_> {
         loop {
             self.path.enter(step, counters.rounds)?;
             let balanced = match self.path.balance(step, &breakage)? {
-                Ok(balanced) => balanced,
-                Err(reason) => {
+                Attempt::Balanced(balanced) => balanced,
+                Attempt::Unbalanced(reason) => {
                     let end = Some(Termination::NoEquilibrium { step, reason });
                     return match last {
                         Some(balanced) => self.record(&balanced, counters, end),
@@ -147,7 +149,7 @@ impl Stepping<'_> {
         let next = next_to_break(
             &self.settings.rule,
             &balanced.deformations,
-            self.path.problem.criteria,
+            &self.path.problem.criteria,
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);
@@ -172,7 +174,7 @@ impl Stepping<'_> {
         interrupted: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         counters.largest_ratio =
-            largest_ratio(&self.path.state, balanced, self.path.problem.criteria);
+            largest_ratio(&self.path.state, balanced, &self.path.problem.criteria);
         // A load that is taken back is no failure.
         let load_factor = self.path.state.load_factor.abs();
         let is_unloading = load_factor < self.load_factor_before.abs();

@@ -3,7 +3,7 @@
 use ligament_model::interface::CentralMotions;
 use ligament_model::{Bonds, LumpedMass};
 
-use super::shape::{Masses, inner};
+use super::masses::{Masses, inner};
 
 /// The mass of a body and what of it can move.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use ligament_model::Bonds;
 
-use super::shape::{Masses, inner};
+use super::masses::{Masses, inner};
 use crate::connectivity::Fragments;
 use crate::supports::Supports;
 use crate::unknowns::COMPONENTS;

@@ -1,7 +1,7 @@
 //! Supports and loads of a case on the points of its body.
 
 use ligament_analysis::{
-    Boundary, BoundaryError, COMPONENTS, Component, Control, ControlKind, Unknowns,
+    BoundaryError, COMPONENTS, Component, Control, ControlKind, ProportionalLoading, Unknowns,
 };
 use ligament_model::{BondSystem, PointCloud};
 
@@ -15,10 +15,10 @@ pub(super) fn boundary(
     case: &CaseFile,
     body: &dyn Body,
     cloud: &PointCloud,
-) -> Result<Boundary, CaseError> {
+) -> Result<ProportionalLoading, CaseError> {
     let places = Places { case, body, cloud };
     let heating = heating(case, body, cloud)?;
-    let mut boundary = Boundary::new(cloud.len(), places.control(heating.as_ref())?);
+    let mut boundary = ProportionalLoading::new(cloud.len(), places.control(heating.as_ref())?);
     if let Some(Heating { change, strain }) = heating {
         boundary.temperature_change = change;
         boundary.thermal_strain.at_points = strain;
@@ -62,7 +62,7 @@ pub(super) fn boundary(
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
 pub(super) fn couples_have_stiffness(
     case: &CaseFile,
-    boundary: &Boundary,
+    boundary: &ProportionalLoading,
     system: &BondSystem,
 ) -> Result<(), CaseError> {
     let loads = case.case.loads.iter().enumerate();
@@ -74,7 +74,7 @@ pub(super) fn couples_have_stiffness(
     let Some(key) = loads.filter_map(key).next() else {
         return Ok(());
     };
-    let unknowns = Unknowns::of_problem(system, boundary);
+    let unknowns = Unknowns::all_but(system, |dof| boundary.prescribed[dof].is_some());
     let is_idle = |dof: usize| {
         boundary.force[dof] != 0.0
             && boundary.prescribed[dof].is_none()
@@ -113,7 +113,7 @@ impl Places<'_> {
     /// Prescribes a displacement times a factor for each point.
     fn prescribe(
         &self,
-        boundary: &mut Boundary,
+        boundary: &mut ProportionalLoading,
         key: &str,
         points: &[u32],
         factors: &[f64],

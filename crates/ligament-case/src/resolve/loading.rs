@@ -1,9 +1,11 @@
 //! Supports, loads and probes of a case on its model.
 
-use ligament_analysis::Boundary;
+use std::sync::Arc;
+
+use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::Probe;
-use ligament_analysis::stiffness::SolverSettings;
+use ligament_analysis::solver::SolverSettings;
 use ligament_model::BondSystem;
 use ligament_model::failure::Criteria;
 
@@ -16,9 +18,9 @@ use crate::case::{CaseError, CaseFile};
 #[derive(Debug)]
 pub struct Loading {
     /// Supports and loads.
-    pub boundary: Boundary,
+    pub boundary: Arc<ProportionalLoading>,
     /// Probes.
-    pub probes: Vec<Probe>,
+    pub probes: Arc<[Probe]>,
     /// How the equations are solved.
     pub solver: SolverSettings,
 }
@@ -33,20 +35,20 @@ impl Loading {
         let boundary = boundary(case, body, &system.cloud)?;
         couples_have_stiffness(case, &boundary, system)?;
         Ok(Self {
-            boundary,
-            probes: probes(case, system),
+            boundary: Arc::new(boundary),
+            probes: probes(case, system).into(),
             solver: solver(case),
         })
     }
 
     /// The problem that it makes of the bonds and their failure criteria.
-    pub fn problem<'a>(&'a self, system: &'a BondSystem, criteria: &'a Criteria) -> Problem<'a> {
+    pub fn problem(&self, system: &Arc<BondSystem>, criteria: &Arc<Criteria>) -> Problem {
         Problem {
-            system,
-            criteria,
-            boundary: &self.boundary,
+            system: system.clone(),
+            criteria: criteria.clone(),
+            loads: self.boundary.clone(),
             solver: self.solver,
-            probes: &self.probes,
+            probes: self.probes.clone(),
         }
     }
 }

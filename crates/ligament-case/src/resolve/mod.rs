@@ -14,7 +14,7 @@ use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::probe::{PointField, Probe, Reading, StressComponent};
-use ligament_analysis::stiffness::{FactorKind, Ordering, SolverSettings, Update};
+use ligament_analysis::solver::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::{self, Ends, PreCrack};
 use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::failure::Weakened;

@@ -1,7 +1,9 @@
 //! What a modal case asks for.
 
+use std::sync::Arc;
+
 use ligament_analysis::modal::{ModalProblem, ModalSettings, Rotations};
-use ligament_analysis::stiffness::SolverSettings;
+use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{Component, Supports};
 use ligament_model::{BondSystem, LumpedMass, PointCloud};
 
@@ -42,9 +44,9 @@ fn mass(case: &CaseFile, cloud: &PointCloud) -> LumpedMass {
 #[derive(Debug)]
 pub struct Vibration {
     /// Supports.
-    pub supports: Supports,
+    pub supports: Arc<Supports>,
     /// Masses of the points.
-    pub mass: LumpedMass,
+    pub mass: Arc<LumpedMass>,
     /// How the equations are solved.
     pub solver: SolverSettings,
 }
@@ -57,18 +59,18 @@ impl Vibration {
     /// If a name of the case is not in the body.
     pub fn of(case: &CaseFile, body: &dyn Body, cloud: &PointCloud) -> Result<Self, CaseError> {
         Ok(Self {
-            supports: supports(case, body, cloud)?,
-            mass: mass(case, cloud),
+            supports: Arc::new(supports(case, body, cloud)?),
+            mass: Arc::new(mass(case, cloud)),
             solver: solver(case),
         })
     }
 
     /// The problem that it makes of the bonds.
-    pub fn problem<'a>(&'a self, system: &'a BondSystem) -> ModalProblem<'a> {
+    pub fn problem(&self, system: &Arc<BondSystem>) -> ModalProblem {
         ModalProblem {
-            system,
-            mass: &self.mass,
-            supports: &self.supports,
+            system: system.clone(),
+            mass: self.mass.clone(),
+            supports: self.supports.clone(),
             solver: self.solver,
         }
     }

@@ -56,11 +56,11 @@ fn the_line_for_editors_is_a_comment() {
     assert_eq!(with_line.locate("model.law").unwrap().0, line + 1);
 }
 
-/// Every key is a word of KEYS.md or README.md.
+/// Every key is a word of KEYS.md or of the page on case files.
 #[test]
 fn every_key_is_in_the_documents() {
     let read = |name: &str| std::fs::read_to_string(root().join(name)).unwrap();
-    let text = read("cases/KEYS.md") + &read("README.md");
+    let text = read("cases/KEYS.md") + &read("docs/case-file.md");
     let words: Vec<&str> = text
         .split(|it: char| !it.is_alphanumeric() && it != '_')
         .collect();
@@ -71,6 +71,6 @@ fn every_key_is_in_the_documents() {
         .collect();
     assert!(
         missing.is_empty(),
-        "not in cases/KEYS.md or README.md: {missing:?}"
+        "not in cases/KEYS.md or docs/case-file.md: {missing:?}"
     );
 }

@@ -100,13 +100,13 @@ fn check_loading(
     let equilibrium = match extent {
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || {
-            Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
+            Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)
         })?),
     };
 
     write_model(out, case, model)?;
     write_boundary(out, case, &*model.body, &loading)?;
-    for free in gauges::of_intact_body(&model.system, &loading.boundary) {
+    for free in gauges::of_intact_body(&model.system, &*loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, &*model.body))?;
     }
     write_loading(out, case)?;
@@ -286,7 +286,7 @@ fn write_boundary(
             units.force
         )?,
     }
-    for probe in &loading.probes {
+    for probe in loading.probes.iter() {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {
                 points.map(|point| body.place(point)).join(" to ")

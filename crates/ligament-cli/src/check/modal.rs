@@ -24,7 +24,7 @@ pub(super) fn check(
     let analysis = match extent {
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || {
-            ModalAnalysis::of(problem, resolve::modal(modal))
+            ModalAnalysis::new(&problem, resolve::modal(modal))
         })?),
     };
     write_model(out, case, model)?;

@@ -1,5 +1,4 @@
-//! The element of MBB-PD (Masoumi, Ravandi and Salehi, "A modified bond-based peridynamics model without limitations on elastic
-//! properties"): a small imaginary rectangle around a bond of a square lattice, and the strains in it.
+//! The element of MBB-PD: a small imaginary rectangle around a bond of a square lattice, and the strains in it.
 //!
 //! | class | bond | rectangle | eqs |
 //! |---|---|---|---|

@@ -1,4 +1,4 @@
-//! The bond of a pair of springs, along it and across it, between points without rotation (Zhu and Ni 2017; MPPD section 2.1).
+//! The bond of a pair of springs, along it and across it, between points without rotation (PDS; MPPD section 2.1).
 //!
 //! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
 //! rigid rotation costs energy.

@@ -1,8 +1,7 @@
 //! The peridynamic traction: the force through a small plane at a point.
 //!
-//! Lehoucq and Silling, "Force flux and the peridynamic stress tensor"; in discrete form Diana and Casolo, "A bond-based
-//! micropolar peridynamic model with shear deformability", eqs A.1 to A.5: the forces of all bonds from points behind a plane
-//! to points before it, in a column as wide as the point, over the area of the column.
+//! The force of all bonds from points behind a plane to points before it, in a column as wide as the point, over the area of
+//! the column (Lehoucq and Silling 2008; in discrete form MPPD eqs A.1 to A.5).
 
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};

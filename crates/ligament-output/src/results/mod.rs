@@ -43,7 +43,7 @@ use tables::{Tables, deformation_names};
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
-    problem: Problem<'a>,
+    problem: Problem,
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
@@ -62,7 +62,7 @@ impl<'a> ResultWriter<'a> {
         grid: &'a BodyGrid,
         fixed: &'a FixedFields,
         rule: WriteRule,
-        problem: &Problem<'a>,
+        problem: &Problem,
     ) -> Result<Self, Error> {
         if rule.model {
             model_file::write(folder, grid, fixed, problem, None)?;
@@ -73,7 +73,7 @@ impl<'a> ResultWriter<'a> {
             folder,
             grid,
             largest,
-            problem: *problem,
+            problem: problem.clone(),
             fixed,
             rule,
             tables: Tables::create(folder, problem, grid.tagged)?,

@@ -35,10 +35,10 @@ pub(super) fn write(
     folder: &ResultFolder,
     grid: &BodyGrid,
     fixed: &FixedFields,
-    problem: &Problem<'_>,
+    problem: &Problem,
     largest: Option<&Largest>,
 ) -> Result<(), Error> {
-    let (system, absent) = (problem.system, &fixed.absent);
+    let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
     let lines: Vec<vtu::Cell> = (system.ends().iter())
         .chain(absent.iter().map(|pair| &pair.ends))
@@ -90,7 +90,7 @@ pub(super) fn write(
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.
-fn limits(problem: &Problem<'_>, n_absent: usize) -> Vec<(String, Vec<f64>)> {
+fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
     let criteria = &problem.criteria.list;
     let mut found = Vec::new();
     for (criterion, label) in criteria

@@ -49,7 +49,7 @@ struct Motion {
 impl Motion {
     fn read(view: &View<'_>) -> Self {
         let (state, balanced) = (view.state, view.balanced);
-        let reactions = (view.boundary).reactions(state.load_factor, &balanced.internal.values);
+        let reactions = (view.loads).reactions(state.load_factor, &balanced.internal.values);
         let motions = state.displacement.chunks(COMPONENTS);
         let held = state.held.chunks(COMPONENTS);
         Self {
@@ -113,13 +113,12 @@ struct Heat {
 
 impl Heat {
     fn read(view: &View<'_>) -> Self {
-        let at_load = |at_full_load: &[f64]| -> Vec<f64> {
-            let values = at_full_load.iter();
-            values.map(|value| view.state.load_factor * value).collect()
-        };
+        let load_factor = view.state.load_factor;
+        let strain = view.loads.thermal_strain(load_factor);
+        let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
         Self {
-            change: at_load(&view.boundary.temperature_change),
-            strain: at_load(view.boundary.thermal_strain.at_points.as_flattened()),
+            change: view.loads.temperature_change(load_factor),
+            strain: of_points.flat_map(|point| strain.of_point(point)).collect(),
         }
     }
 

@@ -22,7 +22,7 @@ const WIDTHS: [f64; 2] = [120.0, 160.0];
 pub struct CurveRequest {
     /// Folders with results.
     pub folders: Vec<PathBuf>,
-    /// What they are called; empty: by their folders.
+    /// Labels of the curves; where empty, the names of the folders.
     pub labels: Vec<String>,
     /// Columns of the histories along x and y.
     pub columns: [String; 2],

@@ -44,7 +44,7 @@ pub enum Magnification {
 pub struct FieldRequest {
     /// Folders with results.
     pub folders: Vec<PathBuf>,
-    /// What they are called; empty: by their folders.
+    /// Labels of the results; where empty, the names of their folders.
     pub labels: Vec<String>,
     /// Field with its component, or `none`; None: damage where bonds broke, else the displacement; of modes the strain energy
     /// density.
@@ -77,7 +77,7 @@ struct Source {
     /// Units to show displacement and force in.
     shown: Option<[Shown; 2]>,
     crack: Option<Crack>,
-    /// Whether broken bonds are drawn; of a mesh, whose cells hide it, a pre-crack is drawn in any case.
+    /// Whether broken bonds are drawn. A pre-crack in a mesh, whose cells hide it, is drawn in any case.
     shows_broken: bool,
     /// Frequencies of modes by number, Hz.
     frequencies: BTreeMap<usize, f64>,

@@ -37,7 +37,7 @@ const TEXT: RGBColor = RGBColor(30, 30, 30);
 /// A plot: several curves over one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// Name of its file.
+    /// Name of the plot's file.
     pub name: String,
     /// Title.
     pub title: String,
@@ -71,7 +71,7 @@ pub enum Mark {
     Dashes,
 }
 
-/// Colours that are told apart with any colour vision (Okabe and Ito).
+/// Colours that any colour vision can distinguish (Okabe and Ito).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colour {
     /// Black.
@@ -112,16 +112,41 @@ pub enum PlotError {
 impl Series {
     /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or
     /// points.
-    pub fn new(label: &str, mark: Mark, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+    pub fn new(
+        label: impl Into<String>,
+        mark: Mark,
+        colour: Colour,
+        points: Vec<[f64; 2]>,
+    ) -> Self {
         Self {
-            label: label.to_owned(),
+            label: label.into(),
             mark,
             colour,
             points,
         }
     }
 
-    /// Its points, shape (n, 2).
+    /// A line with dots.
+    pub fn line(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Line, colour, points)
+    }
+
+    /// A line without dots.
+    pub fn curve(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Curve, colour, points)
+    }
+
+    /// Open circles.
+    pub fn circles(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Circles, colour, points)
+    }
+
+    /// A dashed line.
+    pub fn dashes(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Dashes, colour, points)
+    }
+
+    /// Points of the series, shape (n, 2).
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
@@ -255,7 +280,7 @@ impl Series {
         Ok(())
     }
 
-    /// Its entry in the legend at a height, in pixels of a screen.
+    /// Draws the entry of the series in the legend at a height, in pixels of a screen.
     fn draw_legend(&self, area: &DrawingArea<Backend<'_>, Shift>, y: i32, pen: Pen) -> Drawn {
         let at = |x: i32, y: i32| (pen.dots(x), pen.dots(y));
         let line =

@@ -33,7 +33,7 @@ pub struct Paper {
     pub(super) pen: Pen,
     /// Width and height in pixels of a screen.
     size: (u32, u32),
-    /// Of them the width of the legend.
+    /// Width of the legend, a part of the whole.
     legend: i32,
     /// Width on paper, mm.
     width: Option<f64>,

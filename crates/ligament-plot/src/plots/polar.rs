@@ -21,11 +21,11 @@ const FILLED: f64 = 0.85;
 /// A polar plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarPlot {
-    /// Name of its file.
+    /// Name of the diagram's file.
     pub name: String,
     /// Title.
     pub title: String,
-    /// What the radius is, with its unit.
+    /// Quantity along the radius, with its unit.
     pub radius: String,
     /// The curves: angles from the x axis (rad) and radii of 0 or more.
     pub series: Vec<Series>,

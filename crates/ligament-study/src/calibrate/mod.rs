@@ -73,7 +73,7 @@ pub enum CalibrationError {
         run: usize,
         /// The value of the key that it ran with.
         setting: String,
-        /// Its folder.
+        /// Folder of the calibration.
         folder: PathBuf,
         /// Why.
         source: QuantityError,
@@ -129,7 +129,7 @@ pub fn calibrate(
     let search = search_of(request)?;
     // Faults of the case and of the key come before anything is written.
     let case = case_with(request, search.start)?;
-    let inputs = Inputs::of(&case, None, &mut Contents::default())
+    let inputs = Inputs::from_case(&case, None, &mut Contents::default())
         .map_err(|(path, source)| CalibrationError::Unreadable { path, source })?;
     let mut record = Record::open(request, &inputs)?;
     writeln!(progress, "{}", record.heading())?;
@@ -187,7 +187,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
     })
 }
 
-/// Why there is nothing to begin with: a key that no case has is told as such.
+/// The error that there is nothing to begin with; a key that no case has gets an error of its own.
 fn no_start(request: &Request) -> anyhow::Error {
     let is_about_key = |error: &CaseError| match error {
         CaseError::Key { fault, .. } => matches!(**fault, Fault::UnknownKey { .. }),

@@ -28,12 +28,12 @@ pub(super) struct Record {
 /// A run of a calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Run {
-    /// Its number, from 1.
+    /// Number of the run, from 1.
     number: usize,
     /// Value of the key, and the result.
     #[serde(flatten)]
     pub(super) trial: Trial,
-    /// Why it ended.
+    /// Reason why the calibration ended.
     termination: String,
     /// Broken bonds.
     broken_bonds: u64,
@@ -65,7 +65,7 @@ struct Whole<'a> {
     runs: &'a [Run],
 }
 
-/// What is read back of it.
+/// The part of a record that is read back.
 #[derive(Deserialize)]
 struct Earlier {
     key: String,
@@ -140,7 +140,7 @@ impl Record {
         &self.runs
     }
 
-    /// Where a run puts its results.
+    /// The folder in which a run puts its results.
     pub(super) fn run_folder(&self, number: usize) -> PathBuf {
         self.folder.file(&run_name(number))
     }

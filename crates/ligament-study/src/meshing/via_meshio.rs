@@ -20,7 +20,7 @@ const SCRIPT: &str = include_str!("via_meshio.py");
 pub struct ConversionRequest {
     /// The mesh of another program.
     pub source: PathBuf,
-    /// Its format as meshio calls it; none to go by the ending of its name.
+    /// Format of the source as meshio calls it; None to go by the ending of the name.
     pub format: Option<String>,
     /// The mesh file to write.
     pub out: PathBuf,
@@ -33,7 +33,7 @@ pub struct ConversionRequest {
 pub struct Conversion {
     /// The mesh as it stands in the file that was written.
     pub mesh: Mesh,
-    /// What was read in another way than it stands in the source, in words.
+    /// Remarks on what was read otherwise than it stands in the source, in words.
     pub remarks: Vec<String>,
 }
 
@@ -101,7 +101,7 @@ pub enum ConversionError {
     Volumes {
         /// The source.
         mesh: PathBuf,
-        /// Which cells it has.
+        /// Shapes and numbers of its cells.
         lines: Vec<String>,
     },
     /// The source has cells of shapes that are not read.
@@ -112,7 +112,7 @@ pub enum ConversionError {
     Shapes {
         /// The source.
         mesh: PathBuf,
-        /// Which.
+        /// Shapes and numbers of these cells.
         lines: Vec<String>,
     },
     /// The source has no planar cells.
@@ -123,7 +123,7 @@ pub enum ConversionError {
     NothingPlanar {
         /// The source.
         mesh: PathBuf,
-        /// What it has.
+        /// Shapes and numbers of the cells that the source has.
         lines: Vec<String>,
     },
     /// The source is not in the plane of x and y.
@@ -131,7 +131,7 @@ pub enum ConversionError {
     NotPlanar {
         /// The source.
         mesh: PathBuf,
-        /// How it lies.
+        /// Extents of the mesh along the axes, in words.
         lines: Vec<String>,
     },
     /// Python ended without a mesh.
@@ -273,7 +273,7 @@ struct Handed {
 }
 
 impl Handed {
-    /// None if the text is not as the script writes it.
+    /// The mesh that the script's text tells of; None if the text is not as the script writes it.
     fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         let n_remarks = section(lines.next()?, "remarks")?;

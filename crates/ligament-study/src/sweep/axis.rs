@@ -23,7 +23,7 @@ const DIGITS: usize = 12;
 pub(crate) struct Setting {
     /// `key=value`.
     pub(crate) given: String,
-    /// Its place in the study.
+    /// Place of the setting in the study.
     pub(crate) place: KeyPath,
 }
 
@@ -32,11 +32,11 @@ pub(crate) struct Setting {
 pub struct Axis {
     /// The keys of the case file, or the one number of the geometry.
     pub keys: Vec<String>,
-    /// Whether it is a number of the geometry.
+    /// Whether the key is a number of the geometry.
     pub of_geometry: bool,
     /// Whether the study gives labels.
     pub is_labelled: bool,
-    /// Its values in their order.
+    /// Values of the axis, in their order.
     pub points: Vec<AxisPoint>,
 }
 
@@ -45,11 +45,11 @@ pub struct Axis {
 pub struct AxisPoint {
     /// A value for each key, for tables.
     pub cells: Vec<Cell>,
-    /// The same as TOML.
+    /// The values of the keys as TOML.
     pub(crate) texts: Vec<String>,
-    /// What people see of it.
+    /// Label of the value for people.
     pub label: String,
-    /// Its place in the study.
+    /// Place of the value in the study.
     pub(crate) place: KeyPath,
 }
 

@@ -17,7 +17,7 @@ use ligament_case::stages::Stages;
 /// What the program itself takes, bytes.
 const PROGRAM: u64 = 10_000_000;
 
-/// What is added for what the estimate leaves out: files on their way to disk, room that the allocator keeps. Runs of 846 to
+/// Share added for what the estimate leaves out: files on their way to disk, room that the allocator keeps. Runs of 846 to
 /// 4,808 points took 1.0 to 1.3 times the equations and the program.
 const MARGIN: f64 = 1.3;
 
@@ -27,7 +27,7 @@ pub(super) struct Estimates(BTreeMap<String, Option<u64>>);
 
 impl Estimates {
     /// Bytes that a case will take at most; `None` where its model cannot be built, which its run will say.
-    pub(super) fn of(&mut self, case: &CaseFile) -> Option<u64> {
+    pub(super) fn bytes(&mut self, case: &CaseFile) -> Option<u64> {
         let given = &case.case;
         let key = serde_json::to_string(&(
             &given.body,
@@ -62,13 +62,13 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     Ok(match &case.case.modal {
         Some(modal) => {
             let vibration = Vibration::of(case, &*model.body, &system.cloud)?;
-            let analysis = ModalAnalysis::of(vibration.problem(system), resolve::modal(modal))?;
+            let analysis = ModalAnalysis::new(&vibration.problem(system), resolve::modal(modal))?;
             memory::of_equations(system, analysis.stiffness())
         }
         None => {
             let loading = Loading::of(case, &*model.body, system)?;
             let problem = loading.problem(system, &model.criteria);
-            let equilibrium = Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)?;
+            let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
             memory::of_equations(system, equilibrium.stiffness())
         }
     })

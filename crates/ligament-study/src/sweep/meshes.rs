@@ -11,7 +11,7 @@ use crate::meshing::gmsh_program::{MeshRequest, MeshingError, make_mesh};
 pub struct MeshPlan {
     /// How.
     pub request: MeshRequest,
-    /// What it is made from, in words.
+    /// Geometry and numbers that the mesh is made from, in words.
     pub content: String,
 }
 

@@ -43,7 +43,7 @@ use table::Row;
 pub struct Request {
     /// The study file.
     pub study: PathBuf,
-    /// Its folder; `results/NAME` without it.
+    /// Folder of the study's results; `results/NAME` without it.
     pub out: Option<PathBuf>,
     /// What to do.
     pub task: Task,
@@ -111,7 +111,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         if settings.force {
             record::forget(run, &folder)?;
         }
-        match Status::of(run, &folder) {
+        match Status::in_folder(run, &folder) {
             Status::Done(_) => continue,
             Status::Changed(how) => {
                 notes.push(format!(
@@ -217,7 +217,7 @@ fn make_report(
         let mut found = Status::Missing;
         let mut path = String::new();
         for (folder, there) in folders {
-            let status = Status::of(&there[index], folder);
+            let status = Status::in_folder(&there[index], folder);
             let is_better = match status {
                 Status::Done(_) => true,
                 Status::Failed(_) => !matches!(found, Status::Failed(_)),
@@ -280,13 +280,13 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
     let mut estimates = Estimates::default();
     let mut todo = 0;
     for (index, run) in runs.iter().enumerate() {
-        let word = match Status::of(run, &folder) {
+        let word = match Status::in_folder(run, &folder) {
             Status::Changed(_) => "changed",
             status => status.word(),
         };
         todo += usize::from(word != "done");
         let memory = match estimate::has_mesh(&run.case) {
-            true => estimates.of(&run.case).map_or_else(
+            true => estimates.bytes(&run.case).map_or_else(
                 || "no model".to_owned(),
                 |bytes| format!("{:.0} MB", bytes as f64 / 1e6),
             ),

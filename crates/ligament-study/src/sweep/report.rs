@@ -52,7 +52,7 @@ pub(super) fn write(
     folder: &StudyFolder,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
-    let table = StudyTable::of(study, rows);
+    let table = StudyTable::from_rows(study, rows);
     table.write_csv(&folder.path().join("table.csv"))?;
 
     let title = if study.title.is_empty() {
@@ -75,7 +75,7 @@ pub(super) fn write(
         .collect();
     let mut drawn: Vec<Curves<'_>> = Vec::new();
     for (index, plot) in study.plots.iter().enumerate() {
-        match Curves::of(study, plot, runs, &table) {
+        match Curves::over_runs(study, plot, runs, &table) {
             Ok(mut curves) => {
                 let same = drawn
                     .iter()

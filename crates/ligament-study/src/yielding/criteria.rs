@@ -71,7 +71,7 @@ impl FromStr for Combination {
 }
 
 impl Combination {
-    /// Those of the paper's figures: single ones, and both slidings with the limits of stretch.
+    /// Combinations in the paper's figures: single criteria, and both slidings with the limits of stretch.
     pub fn of_the_figures() -> Vec<Self> {
         use Part::{Compression, Frictional, Sliding, Tension};
         let named = |name: &str, parts: &[Part]| Self {
@@ -87,7 +87,7 @@ impl Combination {
         ]
     }
 
-    /// Its name.
+    /// Name of the combination.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -31,7 +31,7 @@ pub const SUMMARY: &str = "yield.csv";
 /// Horizons of lattices, in spacings.
 const RATIOS: std::ops::RangeInclusive<f64> = 1.0..=50.0;
 
-/// What to look at, and where to write it.
+/// A request to `ligament yield`: the subject, and where to write.
 #[derive(Debug)]
 pub struct Request {
     /// The families.
@@ -53,11 +53,11 @@ pub struct Request {
 /// Whose bonds.
 #[derive(Debug)]
 pub enum Families {
-    /// Of lattices with horizons of so many spacings.
+    /// Lattices with horizons of so many spacings.
     Lattices(Vec<f64>),
-    /// Of a point of a case.
+    /// One point of a case.
     Point(Box<CaseFile>, Place),
-    /// Of all points of a case.
+    /// All points of a case.
     Field(Box<CaseFile>),
 }
 
@@ -127,13 +127,13 @@ pub enum YieldError {
     /// A case without a Poisson's ratio for all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {
-        /// What it has instead.
+        /// The elastic constants that the case has instead, in words.
         which: &'static str,
     },
     /// No point has this tag.
     #[error("there is no {tagged} {tag}: their numbers are {lowest} to {highest}")]
     NoPoint {
-        /// What a tag is one of.
+        /// The noun that tags belong to: `node` or `cell`.
         tagged: &'static str,
         /// The one asked for.
         tag: u64,
@@ -149,7 +149,7 @@ pub enum YieldError {
         at: [f64; 2],
         /// The nearest point.
         nearest: String,
-        /// Its horizon.
+        /// Horizon of the nearest point, m.
         horizon: f64,
     },
     /// A family that no strain makes yield.

@@ -387,7 +387,7 @@ fn criteria(
         found.push((name, Criteria { list }));
     }
     if list.len() > 1 {
-        found.push(("first of all".to_owned(), model.criteria.clone()));
+        found.push(("first of all".to_owned(), Criteria::clone(&model.criteria)));
     }
     Ok(found)
 }
