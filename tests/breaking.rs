@@ -72,11 +72,11 @@ fn a_pre_crack_is_no_damage() {
     let whole = Bench::new(DISK, &[]).model.system.bonds.len();
     assert_eq!(model.system.bonds.len() + model.cut_bonds, whole);
     let intact = vec![true; model.system.bonds.len()];
-    assert_eq!(largest(fields::damage(&model.system, &intact)), 0.0);
+    assert_eq!(largest(fields::damage(&*model.system, &intact)), 0.0);
     let share = &model.fixed.precrack_share;
     assert!(largest(share.iter().copied()) > 0.3 && share.contains(&0.0));
     // What broke later is damage (NHPD eq. 17), of the bonds that the crack had left.
-    let system = &model.system;
+    let system = &*model.system;
     let (mut broken, mut all) = (vec![0.0; bench.points()], vec![0.0; bench.points()]);
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         let is_broken = run.breaks.iter().any(|record| record.bond as usize == bond);

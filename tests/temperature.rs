@@ -70,7 +70,7 @@ fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
 
 /// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
 fn free_strain(bench: &Bench) -> [f64; 3] {
-    bench.boundary.thermal_strain.at_points[0]
+    bench.boundary.thermal_strain[0]
 }
 
 /// A body that nothing but three gauges holds takes the shape of its thermal strain: displacements are (eps_xx x + gamma_xy y/2,
@@ -349,7 +349,7 @@ fn a_linear_temperature_bends_free_bodies() {
                 path.display()
             );
             let (bench, run) = solved(&text, &settings);
-            let strains = bench.boundary.thermal_strain.at_points.as_flattened();
+            let strains = bench.boundary.thermal_strain.as_flattened();
             let size = largest(strains.iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(

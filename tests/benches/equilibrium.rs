@@ -135,7 +135,7 @@ struct Body {
 impl Body {
     fn intact(problem: &Problem) -> Self {
         let mut equilibrium = Equilibrium::new(problem, 1e-4).unwrap();
-        let mut state = State::fresh(&problem.system);
+        let mut state = State::fresh(&*problem.system);
         state.load_factor = 1.0;
         let breakage = equilibrium.break_bonds(&mut state, &[]);
         let mut watch = Watch::default();

@@ -187,7 +187,7 @@ impl<'a> Recorder<'a> {
 
     fn write_fields(&mut self, file: &str, view: &View<'_>) {
         let (state, balanced) = (view.state, view.balanced);
-        let system = &self.model.system;
+        let system = &*self.model.system;
         let motion = |point: usize| {
             let at = 3 * point;
             [
@@ -256,7 +256,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
-        let (system, deformations) = (&self.model.system, &view.balanced.deformations);
+        let (system, deformations) = (&*self.model.system, &view.balanced.deformations);
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let positions = self.model.body.positions().iter().copied();
         self.expected.grid(file, positions, ends);
@@ -298,7 +298,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn model_file(&mut self) {
-        let (file, system, fixed) = ("model.vtu", &self.model.system, &self.model.fixed);
+        let (file, system, fixed) = ("model.vtu", &*self.model.system, &self.model.fixed);
         let absent = &fixed.absent;
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let absent_ends = absent.iter().map(|it| it.ends.as_slice());

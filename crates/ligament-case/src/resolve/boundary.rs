@@ -21,7 +21,7 @@ pub(super) fn boundary(
     let mut boundary = ProportionalLoading::new(cloud.len(), places.control(heating.as_ref())?);
     if let Some(Heating { change, strain }) = heating {
         boundary.temperature_change = change;
-        boundary.thermal_strain.at_points = strain;
+        boundary.thermal_strain = strain;
     }
     for (index, support) in case.case.supports.iter().enumerate() {
         let key = format!("support.{index}");
