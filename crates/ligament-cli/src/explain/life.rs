@@ -145,7 +145,7 @@ impl Limit {
 
     /// The measure of a deformation.
     pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
-        self.measure.of(deformation, &self.coefficients)
+        self.measure.value(deformation, &self.coefficients)
     }
 
     /// Measure over limit, 0 where the measure is not positive.

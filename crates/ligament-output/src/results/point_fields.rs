@@ -6,8 +6,9 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
+use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
 use crate::Error;
 use crate::vtu::Field;
@@ -33,8 +34,9 @@ pub(super) fn write(
     fields.extend(heat.fields());
     let of_stress = stresses.iter();
     fields.extend(of_stress.map(|(name, it)| Field::components(name, it.names, &it.values)));
-    fields.extend(fixed.fields(view.system.volumes(), view.system.spacing()));
-    grid.write(path, Some(&displacements(view)), &fields)
+    let system = view.system;
+    fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
+    write_grid(path, grid, Some(&displacements(view)), &fields)
 }
 
 /// Motion of the points, what the bonds store and exert, and which parts are connected.
