@@ -14,7 +14,10 @@ const ARROWS: [(&str, &[&str]); 11] = [
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
     ("ligament-analysis", &["ligament-linalg", "ligament-model"]),
-    ("ligament-output", &["ligament-analysis"]),
+    (
+        "ligament-output",
+        &["ligament-analysis", "ligament-mesh", "ligament-model"],
+    ),
     (
         "ligament",
         &["ligament-analysis", "ligament-mesh", "ligament-model"],

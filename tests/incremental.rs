@@ -7,6 +7,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use ligament::run;
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
@@ -15,7 +16,6 @@ use ligament_analysis::{Balanced, Unbalanced};
 use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
 };
-use ligament_case::run;
 use ligament_linalg::{Elimination, Symbolic};
 use ligament_model::BondSystem;
 use tempfile::TempDir;
@@ -63,12 +63,11 @@ fn follow(bench: &Bench, solver: SolverSettings) -> Run {
         solver,
         ..bench.problem()
     };
-    let fracture = bench.case.case.fracture.as_ref().unwrap();
     let mut watch = Watch {
         displacements: Some(Vec::new()),
         ..Watch::default()
     };
-    let outcome = run::break_bonds(&problem, fracture, &mut watch).unwrap();
+    let outcome = run::follow(&problem, &bench.model.setup.analysis, &mut watch).unwrap();
     (outcome, watch)
 }
 

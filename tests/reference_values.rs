@@ -80,7 +80,7 @@ fn bonds_of_the_square() {
             .map(|(weight, omega)| weight / omega)
             .collect();
         for bond in 0..bonds.len() {
-            let tags = bonds.ends[bond].map(|end| model.body.tag(end));
+            let tags = bonds.ends[bond].map(|end| model.body().tag(end));
             let wanted = ["a", "b"].map(|end| expected.count(bond, end) as u64);
             assert_eq!(tags, wanted, "{set}: ends of bond {bond}");
         }
@@ -117,7 +117,7 @@ fn solutions_of_the_square() {
         let expected = Table::reference(&format!("square-displacement-{set}.csv"));
         assert_eq!(bench.points(), expected.len());
         for point in 0..bench.points() {
-            let tag = bench.model.body.tag(point as u32);
+            let tag = bench.model.body().tag(point as u32);
             assert_eq!(tag, expected.count(point, "node") as u64);
         }
         let mut errors = Vec::new();

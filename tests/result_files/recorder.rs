@@ -6,7 +6,7 @@ use ligament_analysis::stress::{traction, virial};
 use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
 use ligament_case::model::Model;
-use ligament_output::results::Absence;
+use ligament_model::Absence;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};
@@ -104,7 +104,7 @@ impl<'a> Recorder<'a> {
         });
         let probes = problem.probes.iter().map(|it| it.name.clone());
         let history = history.map(str::to_owned).into_iter();
-        let tagged = model.body.tagged();
+        let tagged = model.body().tagged();
         let breaks = ["order", "step", "round", "load_factor"].map(str::to_owned);
         let breaks = breaks
             .into_iter()
@@ -258,7 +258,7 @@ impl<'a> Recorder<'a> {
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
         let (system, deformations) = (view.system, &view.balanced.deformations);
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
-        let positions = self.model.body.positions().iter().copied();
+        let positions = self.model.body().positions().iter().copied();
         self.expected.grid(file, positions, ends);
         let point = Place {
             file,
@@ -302,7 +302,7 @@ impl<'a> Recorder<'a> {
         let absent = &fixed.absent;
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let absent_ends = absent.iter().map(|it| it.ends.as_slice());
-        let positions = self.model.body.positions().iter().copied();
+        let positions = self.model.body().positions().iter().copied();
         let expected = &mut self.expected;
         expected.grid(file, positions, ends.chain(absent_ends));
         let point = |name| Place {
@@ -314,8 +314,8 @@ impl<'a> Recorder<'a> {
         expected.reals(point("horizon"), fixed.horizon.iter().copied());
         let no_fail = fixed.no_fail.iter().map(|&it| i64::from(it));
         expected.integers(point("no_fail"), no_fail);
-        let tags = (0..system.cloud.len() as u32).map(|it| self.model.body.tag(it) as i64);
-        expected.integers(point(self.model.body.tagged()), tags);
+        let tags = (0..system.cloud.len() as u32).map(|it| self.model.body().tag(it) as i64);
+        expected.integers(point(self.model.body().tagged()), tags);
 
         fn cell(name: &str) -> Place<'_> {
             let (file, part) = ("model.vtu", "cell");
@@ -397,7 +397,7 @@ impl Observer for Recorder<'_> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
             let ends = self.problem.system.bonds.ends[record.bond as usize];
-            let [a, b] = ends.map(|end| self.model.body.tag(end) as usize);
+            let [a, b] = ends.map(|end| self.model.body().tag(end) as usize);
             let row: [Entry; 10] = [
                 record.order.into(),
                 record.step.into(),

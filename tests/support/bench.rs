@@ -3,6 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use ligament::Loading;
+use ligament::run::follow;
+use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
@@ -10,8 +13,7 @@ use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Loading};
-use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE, Report};
+use ligament_case::run::{self, Report};
 use ligament_case::stages::Stages;
 use ligament_case::summary::Summary;
 use ligament_mesh::Mesh;
@@ -91,7 +93,7 @@ impl Bench {
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
         let Loading {
             boundary, probes, ..
-        } = Loading::of(&case, &*model.body, &model.system).unwrap();
+        } = Loading::new(&model.setup, &model.system).unwrap();
         Self {
             case,
             model,
@@ -107,7 +109,7 @@ impl Bench {
             system: self.model.system.clone(),
             criteria: self.model.criteria.clone(),
             loads: Arc::new(self.boundary.clone()),
-            solver: resolve::solver(&self.case),
+            solver: self.model.setup.solver,
             probes: self.probes.clone(),
         }
     }
@@ -121,8 +123,9 @@ impl Bench {
 
     /// Follows the loading as the fracture section says.
     pub fn break_up(&self) -> Run {
-        let fracture = self.case.case.fracture.as_ref().unwrap();
-        self.watched(|watch| run::break_bonds(&self.problem(), fracture, watch).unwrap())
+        let analysis = &self.model.setup.analysis;
+        assert!(analysis.is_fracture());
+        self.watched(|watch| follow(&self.problem(), analysis, watch).unwrap())
     }
 
     fn watched(&self, run: impl FnOnce(&mut dyn Observer) -> Outcome) -> Run {
@@ -150,17 +153,17 @@ impl Bench {
 
     /// Positions as in the mesh file, or of the centres of the cells.
     pub fn positions(&self) -> &[[f64; 2]] {
-        self.model.body.positions()
+        self.model.body().positions()
     }
 
     /// Points of a group.
     pub fn group(&self, name: &str) -> Vec<u32> {
-        self.model.body.points_of(name).unwrap()
+        self.model.body().points_of(name).unwrap()
     }
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] = self.model.system.bonds.ends[bond].map(|end| self.model.body.tag(end));
+        let [a, b] = self.model.system.bonds.ends[bond].map(|end| self.model.body().tag(end));
         [a.min(b), a.max(b)]
     }
 }

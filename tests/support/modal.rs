@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use ligament::Vibration;
+use ligament::setup::Analysis;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Vibration};
 use ligament_case::stages::Stages;
 use ligament_mesh::Mesh;
 use ligament_model::LumpedMass;
@@ -44,7 +45,7 @@ impl ModalBench {
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let vibration = Vibration::of(&case, &*model.body, &model.system.cloud).unwrap();
+        let vibration = Vibration::new(&model.setup, &model.system.cloud).unwrap();
         Self {
             supports: vibration.supports,
             mass: vibration.mass,
@@ -59,9 +60,11 @@ impl ModalBench {
             system: self.model.system.clone(),
             mass: self.mass.clone(),
             supports: self.supports.clone(),
-            solver: resolve::solver(&self.case),
+            solver: self.model.setup.solver,
         };
-        let settings = resolve::modal(self.case.case.modal.as_ref().unwrap());
+        let Analysis::Modal(settings) = self.model.setup.analysis else {
+            panic!("this case is not modal");
+        };
         ModalAnalysis::new(&problem, settings)
             .unwrap()
             .find()

@@ -155,7 +155,7 @@ impl Summary {
                 .iter()
                 .map(|s| (s.external_work - s.stored_energy - s.released_energy).abs()),
         );
-        let mut warnings = model.warnings.clone();
+        let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(notices);
         Self {
             model: ModelSummary::new(case, model),

@@ -5,11 +5,11 @@
 use std::fs;
 use std::path::Path;
 
+use ligament::Loading;
 use ligament_analysis::ControlKind;
 use ligament_case::case::{CaseFile, Expansion, Region, TemperatureChange};
 use ligament_case::model::build_model;
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::Loading;
 use ligament_case::stages::Stages;
 use tempfile::TempDir;
 
@@ -124,7 +124,7 @@ fn error_with(old: &str, new: &str) -> String {
 fn loading(case: &CaseFile) -> anyhow::Result<Loading> {
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &progress)?;
-    Ok(Loading::of(case, &*model.body, &model.system)?)
+    Ok(Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?)
 }
 
 /// Changes of the points of a case in a folder, K.

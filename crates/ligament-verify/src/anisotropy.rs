@@ -152,7 +152,7 @@ fn anisotropy(
         "strength" => model.criteria.clone(),
         other => Arc::new(uniform(other, system.bonds.len())?),
     };
-    let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
+    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
     let yields = families(system, &criteria, |_| strains);
     let inside: Vec<u32> = (0..)
         .zip(&is_interior)

@@ -6,7 +6,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
 use super::trial::{Template, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

@@ -8,7 +8,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// The experiment.

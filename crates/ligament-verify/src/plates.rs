@@ -6,7 +6,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::{numbers, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, Trial, displacement_at, probe, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// The experiment.

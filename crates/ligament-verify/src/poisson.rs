@@ -4,7 +4,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{StoredMesh, Template, probe, stored_mesh, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.

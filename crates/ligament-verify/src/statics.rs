@@ -4,7 +4,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, displacement_at, largest_displacements, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.

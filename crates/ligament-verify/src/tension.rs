@@ -4,7 +4,7 @@ use super::experiment::{Experiment, Findings};
 use super::published::{numbers, published};
 use super::table::Extent;
 use super::trial::{Memory, Template, displacement_at, template};
-use ligament_case::solve::Solution;
+use ligament::run::Solution;
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.

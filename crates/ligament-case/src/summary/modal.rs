@@ -69,7 +69,7 @@ impl ModalSummary {
             effective_shares: moving.shares(mode.participation),
         };
         let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
-        let mut warnings = model.warnings.clone();
+        let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(outcome.notices.iter().map(ToString::to_string));
         Self {
             model: ModelSummary::new(case, model),

@@ -2,12 +2,11 @@
 
 use std::io::{self, Write};
 
+use ligament::formulation::constants;
 use ligament_model::failure::{Criterion, Measure};
 
 use ligament_case::case::CaseFile;
-use ligament_case::failure::constants;
 use ligament_case::model::Model;
-use ligament_case::resolve;
 
 /// Writes the criteria with their limits over the bonds.
 pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
@@ -20,7 +19,7 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::
     for (given, criterion) in given.zip(&model.criteria.list) {
         write_limits(out, criterion)?;
         if given.spends_fracture_energy() {
-            write_energy(out, case, criterion)?;
+            write_energy(out, model, criterion)?;
         }
     }
     Ok(())
@@ -59,13 +58,14 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
 }
 
 /// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
-fn write_energy(out: &mut dyn Write, case: &CaseFile, criterion: &Criterion) -> io::Result<()> {
+fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
     let (shear, at_most) = match criterion.measure {
         // Bonds across the bar may come to their limit before those along it.
         Measure::Energy => ("shear of the bonds is counted", "at most "),
         _ => ("what shear of the bonds stores comes on top of it", ""),
     };
-    for material in resolve::materials(case) {
+    let setup = &model.setup;
+    for material in setup.materials() {
         let energy = material.fracture_energy.unwrap_or_default();
         writeln!(
             out,
@@ -75,12 +75,12 @@ fn write_energy(out: &mut dyn Write, case: &CaseFile, criterion: &Criterion) -> 
         )?;
     }
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
-    if let [material] = resolve::materials(case).as_slice()
-        && let Some(constants) = constants(case, material)
+    if let [region] = setup.materials.as_slice()
+        && let Some(constants) = constants(&region.material, &setup.law, setup.plane())
         && let Some(limits) =
             Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
-        let young = constants.in_plane(resolve::plane(case)).young;
+        let young = constants.in_plane(setup.plane()).young;
         writeln!(
             out,
             "{:<24}a bar without a crack fails at {at_most}E s_0 = {} Pa, which changes with the horizon",

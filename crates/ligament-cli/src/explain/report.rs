@@ -2,7 +2,7 @@
 
 use std::ops::Add;
 
-use ligament_output::results::Absence;
+use ligament_model::Absence;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
 use super::life::{Life, Lives};

@@ -1,8 +1,8 @@
 //! What happened to bonds, in words.
 
+use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Measure, Softened};
-use ligament_output::results::Absence;
 use ligament_output::results::stored::StoredRun;
 
 use super::life::{Life, Limit, Lives, Nearest};

@@ -13,7 +13,6 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
-mod absence;
 mod grid;
 mod largest;
 mod model_file;
@@ -26,14 +25,14 @@ mod tables;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_model::{BodyGrid, FixedFields};
 
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
-pub use absence::{Absence, AbsentBond};
-pub use grid::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
+pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
 pub use rule::{Time, WriteRule};

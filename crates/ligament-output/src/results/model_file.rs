@@ -15,8 +15,8 @@
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
 
 use ligament_analysis::driver::Problem;
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
 use super::largest::Largest;
 use super::tables::labels;
 use crate::Error;

@@ -7,8 +7,9 @@
 
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::modal::ModalOutcome;
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
+use super::grid::{fixed_fields, write_grid};
 use super::point_fields::in_plane;
 use crate::Error;
 use crate::csv::Table;
@@ -68,8 +69,8 @@ pub fn write_modes(
             Field::scalar("strain_energy_density", &mode.strain_energy_density),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        fields.extend(fixed.fields(volumes, spacing));
-        grid.write(&folder.file(&name), Some(&displacement), &fields)?;
+        fields.extend(fixed_fields(fixed, volumes, spacing));
+        write_grid(&folder.file(&name), grid, Some(&displacement), &fields)?;
         collection.append(f64::from(number), name)?;
     }
     Ok(())

@@ -6,8 +6,9 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::stress::{traction, virial};
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
+use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
 use crate::Error;
 use crate::vtu::Field;
@@ -33,8 +34,8 @@ pub(super) fn write(
     fields.extend(heat.fields());
     fields.extend(stresses.fields());
     let cloud = &view.system.cloud;
-    fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
-    grid.write(path, Some(&displacements(view)), &fields)
+    fields.extend(fixed_fields(fixed, &cloud.volumes, &cloud.spacing));
+    write_grid(path, grid, Some(&displacements(view)), &fields)
 }
 
 /// Motion of the points, what the bonds store and exert, and which parts are connected.

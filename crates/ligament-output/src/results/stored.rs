@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
+use ligament_model::Absence;
 
-use super::absence::Absence;
 use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;

@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::fs;
 
+use ligament::run::on_threads;
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE};
+use ligament::{Loading, Vibration};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::modal::ModalAnalysis;
 
@@ -10,8 +13,6 @@ use ligament_case::case::{BodySection, CaseFile, Surface};
 use ligament_case::memory;
 use ligament_case::model::build_model;
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Loading, Vibration};
-use ligament_case::run::ELASTIC_ENERGY_TOLERANCE;
 use ligament_case::stages::Stages;
 
 /// What the program itself takes, bytes.
@@ -51,7 +52,7 @@ fn estimate(case: &CaseFile) -> anyhow::Result<u64> {
     if plain.case.correction.surface == Surface::Domain {
         plain.case.correction.surface = Surface::None;
     }
-    let bytes = resolve::on_threads(&plain, || equations(&plain))??;
+    let bytes = on_threads(plain.threads(), || equations(&plain))??;
     Ok((MARGIN * (bytes as u64 + PROGRAM) as f64) as u64)
 }
 
@@ -59,14 +60,14 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     let quiet = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &quiet)?;
     let system = &model.system;
-    Ok(match &case.case.modal {
-        Some(modal) => {
-            let vibration = Vibration::of(case, &*model.body, &system.cloud)?;
-            let analysis = ModalAnalysis::new(&vibration.problem(system), resolve::modal(modal))?;
+    Ok(match model.setup.analysis {
+        Analysis::Modal(settings) => {
+            let vibration = Vibration::new(&model.setup, &system.cloud)?;
+            let analysis = ModalAnalysis::new(&vibration.problem(system), settings)?;
             memory::of_equations(system, analysis.stiffness())
         }
-        None => {
-            let loading = Loading::of(case, &*model.body, system)?;
+        _ => {
+            let loading = Loading::new(&model.setup, system)?;
             let problem = loading.problem(system, &model.criteria);
             let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
             memory::of_equations(system, equilibrium.stiffness())

@@ -1,4 +1,9 @@
-//! Supports, loads and probes of a case on its model.
+//! Supports, loads and probes of a setup on its model.
+
+mod boundary;
+mod places;
+mod temperature;
+mod vibration;
 
 use std::sync::Arc;
 
@@ -9,12 +14,14 @@ use ligament_analysis::solver::SolverSettings;
 use ligament_model::BondSystem;
 use ligament_model::failure::Criteria;
 
-use super::boundary::{boundary, couples_have_stiffness};
-use super::{probes, solver};
-use crate::body::Body;
-use crate::case::{CaseError, CaseFile};
+pub use places::{material_of_cell, no_fail};
+pub use vibration::Vibration;
 
-/// What a case does to its model, and what it reads off.
+use crate::error::SetupError;
+use crate::setup::Setup;
+use boundary::{boundary, couples_have_stiffness};
+
+/// What a setup does to its model, and what it reads off.
 #[derive(Debug)]
 pub struct Loading {
     /// Supports and loads.
@@ -26,18 +33,18 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// That of a case on the points and bonds of its body.
+    /// The loading of a setup on the points and bonds of a model.
     ///
     /// # Errors
     ///
-    /// If a name of the case is not in the body, supports and loads contradict each other, or a couple acts on nothing.
-    pub fn of(case: &CaseFile, body: &dyn Body, system: &BondSystem) -> Result<Self, CaseError> {
-        let boundary = boundary(case, body, &system.cloud)?;
-        couples_have_stiffness(case, &boundary, system)?;
+    /// If a name of the setup is not in the body, supports and loads contradict each other, or a couple acts on nothing.
+    pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
+        let boundary = boundary(setup, &system.cloud)?;
+        couples_have_stiffness(setup, &boundary, system)?;
         Ok(Self {
             boundary: Arc::new(boundary),
-            probes: probes(case, system).into(),
-            solver: solver(case),
+            probes: setup.probes.iter().map(|it| it.on(system)).collect(),
+            solver: setup.solver,
         })
     }
 

@@ -1,4 +1,4 @@
-//! Supports and loads of a case on the points of its body.
+//! Supports and loads of a setup on the points of its body.
 
 use ligament_analysis::{
     BoundaryError, COMPONENTS, Component, Control, ControlKind, ProportionalLoading, Unknowns,
@@ -7,47 +7,41 @@ use ligament_model::{BondSystem, PointCloud};
 
 use super::places::Places;
 use super::temperature::{Heating, heating};
-use crate::body::Body;
-use crate::case::{Action, CaseError, CaseFile, Displacement, Load, Place, Profile};
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Action, Load, Place, Profile, Setup};
 
 /// Supports and loads on the points.
 pub(super) fn boundary(
-    case: &CaseFile,
-    body: &dyn Body,
+    setup: &Setup,
     cloud: &PointCloud,
-) -> Result<ProportionalLoading, CaseError> {
-    let places = Places { case, body, cloud };
-    let heating = heating(case, body, cloud)?;
+) -> Result<ProportionalLoading, SetupError> {
+    let places = Places { setup, cloud };
+    let heating = heating(&places)?;
     let mut boundary = ProportionalLoading::new(cloud.len(), places.control(heating.as_ref())?);
     if let Some(Heating { change, strain }) = heating {
         boundary.temperature_change = change;
         boundary.thermal_strain = strain;
     }
-    for (index, support) in case.case.supports.iter().enumerate() {
-        let key = format!("support.{index}");
-        let points = places.points(&key, Some(&support.place))?;
-        places.prescribe(
-            &mut boundary,
-            &key,
-            &points,
-            &vec![1.0; points.len()],
-            &support.displacement,
-        )?;
-        boundary.report_group(
-            &place_name(&support.place, index),
-            points,
-            [0.0; COMPONENTS],
-        );
+    for (index, support) in setup.supports.iter().enumerate() {
+        let field = Field::element("supports", index);
+        let points = places.points(field, &support.place)?;
+        for component in support.components() {
+            let at_rest = vec![1.0; points.len()];
+            places.prescribe(&mut boundary, field, (&points, &at_rest), (component, 0.0))?;
+        }
+        boundary.report_group(&support.name(index), points, [0.0; COMPONENTS]);
     }
-    for (index, load) in case.case.loads.iter().enumerate() {
-        let key = format!("load.{index}");
-        let points = places.points(&key, load.place.as_ref())?;
-        let factors = places.factors(&key, load.profile.as_ref(), &points)?;
+    for (index, load) in setup.loads.iter().enumerate() {
+        let field = Field::element("loads", index);
+        let points = places.points(field, &load.place)?;
+        let factors = places.factors(field, load.profile.as_ref(), &points)?;
         if let Action::Displacement(displacement) = &load.action {
-            places.prescribe(&mut boundary, &key, &points, &factors, displacement)?;
+            for given in displacement.components() {
+                places.prescribe(&mut boundary, field, (&points, &factors), given)?;
+            }
         }
         let mut total = [0.0; COMPONENTS];
-        for (point, force) in places.forces(&key, load, &points)?.at_points {
+        for (point, force) in places.forces(field, load, &points)?.at_points {
             for component in Component::ALL {
                 let value = force[component.index()];
                 boundary.add_force(point, component, value);
@@ -61,17 +55,12 @@ pub(super) fn boundary(
 
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
 pub(super) fn couples_have_stiffness(
-    case: &CaseFile,
+    setup: &Setup,
     boundary: &ProportionalLoading,
     system: &BondSystem,
-) -> Result<(), CaseError> {
-    let loads = case.case.loads.iter().enumerate();
-    let key = |(index, load): (usize, &Load)| match &load.action {
-        Action::Moment(_) => Some(format!("load.{index}.moment")),
-        Action::BodyCouple(_) => Some(format!("load.{index}.body_couple")),
-        _ => None,
-    };
-    let Some(key) = loads.filter_map(key).next() else {
+) -> Result<(), SetupError> {
+    let is_couple = |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
+    let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
     let unknowns = Unknowns::all_but(system, |dof| boundary.prescribed[dof].is_some());
@@ -82,22 +71,12 @@ pub(super) fn couples_have_stiffness(
     };
     let rotations =
         (0..boundary.force.len()).filter(|&dof| Component::of(dof) == Component::Rotation);
-    let idle = rotations.filter(|&dof| is_idle(dof)).count();
-    if idle == 0 {
-        return Ok(());
-    }
-    let reason = format!(
-        "the couple acts on {idle} points that no bond keeps from turning (Poisson's ratio makes the shear stiffness of \
-         their bonds zero, or the bonds have no rotations): apply it as a pair of forces"
-    );
-    Err(case.error(&key, reason))
-}
-
-/// Name of a support in the history.
-pub(super) fn place_name(place: &Place, index: usize) -> String {
-    match place {
-        Place::Group(group) => group.clone(),
-        Place::Box(_) | Place::At(_) => format!("support-{}", index + 1),
+    match rotations.filter(|&dof| is_idle(dof)).count() {
+        0 => Ok(()),
+        points => {
+            let field = Field::element("loads", load).part("action");
+            Err(field.error(Fault::IdleCouple { points }))
+        }
     }
 }
 
@@ -111,49 +90,43 @@ struct Given {
 }
 
 impl Places<'_> {
-    /// Prescribes a displacement times a factor for each point.
+    /// Prescribes a component times a factor for each point.
     fn prescribe(
         &self,
         boundary: &mut ProportionalLoading,
-        key: &str,
-        points: &[u32],
-        factors: &[f64],
-        displacement: &Displacement,
-    ) -> Result<(), CaseError> {
-        let components = [
-            (Component::X, displacement.x),
-            (Component::Y, displacement.y),
-            (Component::Rotation, displacement.rotation),
-        ];
-        for (component, value) in components
-            .into_iter()
-            .filter_map(|(component, value)| Some((component, value?)))
-        {
-            let mut each = points.iter().zip(factors);
-            let done = each.try_for_each(|(&point, factor)| {
-                boundary.prescribe(&[point], component, factor * value)
-            });
-            done.map_err(|BoundaryError::Conflict { point, component, first, second }| {
-                let place = self.body.label(point);
-                let reason = format!(
-                    "component {component} of {place} is prescribed twice: as {first:?} by an earlier support or \
-                     load, as {second:?} here"
-                );
-                self.case.error(&format!("{key}.displacement"), reason)
-            })?;
-        }
-        Ok(())
+        field: Field,
+        (points, factors): (&[u32], &[f64]),
+        (component, value): (Component, f64),
+    ) -> Result<(), SetupError> {
+        let mut each = points.iter().zip(factors);
+        let done = each.try_for_each(|(&point, factor)| {
+            boundary.prescribe(&[point], component, factor * value)
+        });
+        done.map_err(|error| {
+            let BoundaryError::Conflict {
+                point,
+                component,
+                first,
+                second,
+            } = error;
+            let place = self.setup.body.label(point);
+            field.part("displacement").error(Fault::PrescribedTwice {
+                component,
+                place,
+                first,
+                second,
+            })
+        })
     }
 
     /// The first load is the axis of the force-displacement curve; the temperature where there is none.
-    fn control(&self, heating: Option<&Heating>) -> Result<Control, CaseError> {
-        let key = "load.0";
-        let Some(load) = self.case.case.loads.first() else {
+    fn control(&self, heating: Option<&Heating>) -> Result<Control, SetupError> {
+        let field = Field::element("loads", 0);
+        let Some(load) = self.setup.loads.first() else {
             let changes = heating.map_or(&[][..], |it| &it.change);
             let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
             if magnitude == 0.0 {
-                let reason = "there is no [[load]] and no point whose temperature changes: nothing would happen";
-                return Err(self.case.error("temperature", reason));
+                return Err(Field::whole("temperatures").error(Fault::NothingHappens));
             }
             return Ok(Control {
                 kind: ControlKind::Temperature,
@@ -162,12 +135,12 @@ impl Places<'_> {
                 magnitude,
             });
         };
-        let points = self.points(key, load.place.as_ref())?;
-        let factors = self.factors(key, load.profile.as_ref(), &points)?;
-        let given = self.forces(key, load, &points)?;
+        let points = self.points(field, &load.place)?;
+        let factors = self.factors(field, load.profile.as_ref(), &points)?;
+        let given = self.forces(field, load, &points)?;
         let motion = match load.action {
-            Action::Displacement(Displacement { x, y, rotation }) => {
-                let [x, y, rotation] = [x, y, rotation].map(|value| value.unwrap_or(0.0));
+            Action::Displacement(it) => {
+                let [x, y, rotation] = [it.x, it.y, it.rotation].map(|it| it.unwrap_or(0.0));
                 let rotation = if x == 0.0 && y == 0.0 { rotation } else { 0.0 };
                 Some([x, y, rotation])
             }
@@ -175,8 +148,7 @@ impl Places<'_> {
         };
         let magnitude = motion.map_or(given.size, norm);
         if magnitude == 0.0 {
-            let reason = "the first load must be other than zero: it is the axis of the force-displacement curve";
-            return Err(self.case.error(key, reason));
+            return Err(field.error(Fault::ZeroControl));
         }
         let (kind, (points, shape)) = match motion {
             Some(motion) => {
@@ -205,19 +177,17 @@ impl Places<'_> {
     /// Factors of a profile at the points; 1 without one.
     fn factors(
         &self,
-        key: &str,
+        field: Field,
         profile: Option<&Profile>,
         points: &[u32],
-    ) -> Result<Vec<f64>, CaseError> {
+    ) -> Result<Vec<f64>, SetupError> {
         let Some(profile) = profile else {
             return Ok(vec![1.0; points.len()]);
         };
-        let factor = |&point: &u32| profile.at(self.body.positions()[point as usize]);
+        let factor = |&point: &u32| profile.at(self.setup.body.positions()[point as usize]);
         let factors: Vec<f64> = points.iter().map(factor).collect();
         if factors.iter().all(|&factor| factor == 0.0) {
-            let reason =
-                "the load does nothing: its profile is zero at every point that it acts on";
-            return Err(self.case.error(&format!("{key}.profile"), reason));
+            return Err(field.part("profile").error(Fault::ZeroProfile));
         }
         Ok(factors)
     }
@@ -227,9 +197,9 @@ impl Places<'_> {
     /// A total force is spread over a group that has a length by the length that each point stands for, over other places
     /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each
     /// point's share is then multiplied by the profile.
-    fn forces(&self, key: &str, load: &Load, points: &[u32]) -> Result<Given, CaseError> {
+    fn forces(&self, field: Field, load: &Load, points: &[u32]) -> Result<Given, SetupError> {
         let curve = match &load.place {
-            Some(Place::Group(group)) => self.body.lengths_of(group),
+            Place::Group(group) => self.setup.body.lengths_of(group),
             _ => Vec::new(),
         };
         let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
@@ -237,19 +207,17 @@ impl Places<'_> {
         let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
         let (weights, density) = match &load.action {
             Action::Displacement(_) => return Ok(Given::default()),
-            Action::Pressure(pressure) => return self.pressures(key, load, *pressure),
-            Action::BodyForce(force) => (volumes, [force.x, force.y, 0.0]),
+            Action::Pressure(pressure) => return self.pressures(field, load, *pressure),
+            Action::BodyForce(force) => (volumes, in_plane(force)),
             Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
             Action::ForcePerLength(_) if curve.is_empty() => {
-                let reason = "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: \
-                              this group has no length";
-                return Err(self.case.error(&format!("{key}.group"), reason));
+                return Err(field.part("place").error(Fault::NoLength));
             }
-            Action::ForcePerLength(force) => (curve, [force.x, force.y, 0.0]),
+            Action::ForcePerLength(force) => (curve, in_plane(force)),
             Action::Force(force) => {
                 let weights = if curve.is_empty() { volumes } else { curve };
                 let total = size(&weights);
-                (weights, [force.x, force.y, 0.0].map(|value| value / total))
+                (weights, in_plane(force).map(|value| value / total))
             }
             Action::Moment(couple) => {
                 let total = size(&volumes);
@@ -258,7 +226,7 @@ impl Places<'_> {
         };
         let total = size(&weights);
         let loaded: Vec<u32> = weights.iter().map(|(point, _)| *point).collect();
-        let factors = self.factors(key, load.profile.as_ref(), &loaded)?;
+        let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
         let at_points = weights.iter().zip(factors);
         let share = |(&(point, weight), factor): (&(u32, f64), f64)| {
             (point, density.map(|value| factor * (value * weight)))
@@ -272,20 +240,18 @@ impl Places<'_> {
     /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward
     /// normal n, or at the cell of a lattice whose face it is; n and L are those of the body at rest (a dead load). Each point's
     /// share is then multiplied by the profile.
-    fn pressures(&self, key: &str, load: &Load, pressure: f64) -> Result<Given, CaseError> {
-        let group_key = format!("{key}.group");
+    fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
+        let place = field.part("place");
         let normals = match &load.place {
-            Some(Place::Group(group)) => self.body.outline_of(group),
+            Place::Group(group) => self.setup.body.outline_of(group),
             _ => Ok(Vec::new()),
         };
-        let normals = normals.map_err(|error| self.case.error(&group_key, error.to_string()))?;
+        let normals = normals.map_err(|error| place.error(Fault::OffOutline(error)))?;
         if normals.is_empty() {
-            let reason = "a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: \
-                          this group has no part of the outline";
-            return Err(self.case.error(&group_key, reason));
+            return Err(place.error(Fault::NoOutline));
         }
         let loaded: Vec<u32> = normals.iter().map(|(point, _)| *point).collect();
-        let factors = self.factors(key, load.profile.as_ref(), &loaded)?;
+        let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
         let per_length = -pressure * self.cloud.thickness;
         let force = |((point, [x, y]), factor): ((u32, [f64; 2]), f64)| {
             let share = factor * per_length;
@@ -296,6 +262,11 @@ impl Places<'_> {
             size: pressure.abs(),
         })
     }
+}
+
+/// A force in the plane, without a couple.
+fn in_plane([x, y]: &[f64; 2]) -> [f64; COMPONENTS] {
+    [*x, *y, 0.0]
 }
 
 fn norm(vector: [f64; COMPONENTS]) -> f64 {

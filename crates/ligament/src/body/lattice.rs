@@ -1,20 +1,66 @@
 //! A body on a lattice: points at the centres of the cells, named sets.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
 use ligament_model::cloud::lattice::Face;
-use ligament_model::{Lattice, PointCloud, Shape};
-use ligament_output::results::{BodyGrid, Canvas};
+use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape};
+use thiserror::Error;
 
-use super::{Body, OffOutline};
-use crate::case::{CaseError, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection};
+use super::{Body, OffOutline, Origin};
 
+/// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
 #[derive(Debug)]
-pub(super) struct LatticeBody {
+pub struct LatticeBody {
     lattice: Lattice,
     positions: Vec<[f64; 2]>,
     sets: BTreeMap<String, Set>,
+}
+
+/// A hole: cells whose centre lies in it are removed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hole {
+    /// Name of the group that the cells at its rim are; several holes may share it.
+    pub name: Option<String>,
+    /// What it takes.
+    pub shape: Shape,
+}
+
+/// A set of cells.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CellSet {
+    /// So many rows from the bottom.
+    Bottom(u32),
+    /// So many rows from the top.
+    Top(u32),
+    /// So many columns from the left.
+    Left(u32),
+    /// So many columns from the right.
+    Right(u32),
+    /// Cells whose centre lies in a shape.
+    Inside(Shape),
+}
+
+/// Why a lattice is no body.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LatticeError {
+    /// Holes take all cells.
+    #[error("nothing is left of the {cells} cells")]
+    NothingLeft {
+        /// Number of cells of the whole rectangle.
+        cells: usize,
+    },
+    /// A set without a cell.
+    #[error("no cell has its centre in this set")]
+    EmptySet {
+        /// Name of the set.
+        name: String,
+    },
+    /// A named hole without a cell at its rim.
+    #[error("no cell that is left borders on this hole")]
+    NoRim {
+        /// Index of the hole.
+        hole: usize,
+    },
 }
 
 /// A named set of points.
@@ -40,31 +86,41 @@ enum Faces {
 }
 
 impl LatticeBody {
-    pub(super) fn new(case: &CaseFile, section: &LatticeSection) -> Result<Self, CaseError> {
-        let holes = section.remove.iter().map(|it| shape(&it.shape)).collect();
-        let lattice = Lattice::new(section.cells, section.spacing, section.corner, holes);
+    /// A lattice with named sets of cells and the holes that took cells from it, in the order of its own; named holes are groups
+    /// too, unless a set has their name.
+    ///
+    /// # Errors
+    ///
+    /// If nothing is left of the lattice, or a set or the rim of a named hole has no cell.
+    pub fn new(
+        size: [u32; 2],
+        spacing: [f64; 2],
+        corner: [f64; 2],
+        holes: &[Hole],
+        named: &BTreeMap<String, CellSet>,
+    ) -> Result<Self, LatticeError> {
+        let shapes = holes.iter().map(|it| it.shape.clone()).collect();
+        let lattice = Lattice::new(size, spacing, corner, shapes);
         if lattice.cells.is_empty() {
-            let reason = format!("nothing is left of the {} cells", lattice.n_whole());
-            return Err(case.error("lattice.remove", reason));
+            let cells = lattice.n_whole();
+            return Err(LatticeError::NothingLeft { cells });
         }
         let mut sets = BTreeMap::new();
-        for (name, cells) in &section.sets {
+        for (name, cells) in named {
             let set = Set::of(cells, &lattice);
             if set.points.is_empty() {
-                let reason = "no cell has its centre in this set";
-                return Err(case.error(&LatticeSection::set_key(name), reason));
+                return Err(LatticeError::EmptySet { name: name.clone() });
             }
             sets.insert(name.clone(), set);
         }
-        for (index, hole) in section.remove.iter().enumerate() {
+        for (index, hole) in holes.iter().enumerate() {
             let Some(name) = hole.name.as_ref().filter(|&name| !sets.contains_key(name)) else {
                 continue;
             };
             let shares_name = |it: &Hole| it.name.as_ref() == Some(name);
-            let set = Set::at_holes(section.remove.iter().map(shares_name).collect(), &lattice);
+            let set = Set::at_holes(holes.iter().map(shares_name).collect(), &lattice);
             if set.points.is_empty() {
-                let reason = "no cell that is left borders on this hole";
-                return Err(case.error(&format!("lattice.remove.{index}"), reason));
+                return Err(LatticeError::NoRim { hole: index });
             }
             sets.insert(name.clone(), set);
         }
@@ -117,33 +173,16 @@ impl Set {
             CellSet::Right(count) => {
                 side(&|[column, _]| columns - column <= *count, *count, [1, 0])
             }
-            CellSet::Box(corners) => part(Shape::rectangle(*corners)),
-            CellSet::Circle(it) => part(circle(it)),
-            CellSet::Polygon(corners) => part(Shape::Polygon(corners.clone())),
+            CellSet::Inside(shape) => part(shape.clone()),
         }
     }
 }
 
-fn shape(hole: &HoleShape) -> Shape {
-    match hole {
-        HoleShape::Circle(it) => circle(it),
-        HoleShape::Rectangle(corners) => Shape::rectangle(*corners),
-        HoleShape::Polygon(corners) => Shape::Polygon(corners.clone()),
-        HoleShape::Outside(disk) => Shape::Outside {
-            centre: disk.centre,
-            radius: disk.radius,
-        },
-    }
-}
-
-fn circle(circle: &Circle) -> Shape {
-    Shape::Circle {
-        centre: circle.centre,
-        radius: circle.radius,
-    }
-}
-
 impl Body for LatticeBody {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Lattice(&self.lattice)
+    }
+
     fn positions(&self) -> &[[f64; 2]] {
         &self.positions
     }
@@ -238,41 +277,5 @@ impl Body for LatticeBody {
             tagged: self.tagged(),
             canvas: Canvas::Around(self.positions.iter().map(corners).collect()),
         }
-    }
-
-    fn write(&self, out: &mut dyn Write, volume: f64) -> io::Result<()> {
-        let Lattice {
-            size: [nx, ny],
-            spacing: [dx, dy],
-            corner: [x, y],
-            ..
-        } = self.lattice;
-        let left = self.n_cells();
-        let removed = self.lattice.n_whole() - left;
-        let [right, top] = [x + f64::from(nx) * dx, y + f64::from(ny) * dy];
-        writeln!(out, "lattice")?;
-        writeln!(
-            out,
-            "  cells                 {left} of {nx} x {ny} ({removed} removed)"
-        )?;
-        writeln!(out, "  spacing               {dx:.6e} x {dy:.6e} m")?;
-        writeln!(
-            out,
-            "  rectangle             x {x:.5e} to {right:.5e} m, y {y:.5e} to {top:.5e} m"
-        )?;
-        writeln!(
-            out,
-            "  area                  {:.6e} m^2",
-            left as f64 * dx * dy
-        )?;
-        writeln!(out, "  volume of the points  {volume:.6e} m^3")?;
-        for (name, set) in &self.sets {
-            write!(out, "  set {name:<17} {} points", set.points.len())?;
-            match set.length {
-                Some(length) => writeln!(out, ", {length:.4e} m of a side each")?,
-                None => writeln!(out)?,
-            }
-        }
-        Ok(())
     }
 }

@@ -2,56 +2,17 @@
 
 use std::path::Path;
 
-use ligament_model::PointCloud;
+use ligament::setup::Sample;
 
-use crate::body::Body;
-
-/// A row belongs to a point if it is nearer than this part of the distance to the nearest other point: coordinates may be
-/// written with a few digits, but those of another mesh are refused.
-const NEARNESS: f64 = 0.1;
-
-/// A row: its line in the file, position in the coordinates of the case (m) and change (K).
-struct Row {
-    line: usize,
-    position: [f64; 2],
-    change: f64,
-}
-
-/// The change at each point (n_points) that a row belongs to, K; else what is wrong with the file.
-pub(super) fn at_points(
-    path: &Path,
-    body: &dyn Body,
-    cloud: &PointCloud,
-) -> Result<Vec<Option<f64>>, String> {
+/// The rows of a file, each with its line; else what is wrong with the file.
+pub(crate) fn rows_of(path: &Path) -> Result<Vec<(usize, Sample)>, String> {
     let text = std::fs::read_to_string(path)
         .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
-    let rows =
-        rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))?;
-    let positions: Vec<[f64; 2]> = rows.iter().map(|row| row.position).collect();
-    let nearest = cloud.nearest_points(&positions);
-    let mut row_of_point: Vec<Option<&Row>> = vec![None; cloud.len()];
-    for (row, &point) in rows.iter().zip(&nearest) {
-        let (there, here) = (cloud.local(row.position), cloud.positions[point as usize]);
-        let distance = (there[0] - here[0]).hypot(there[1] - here[1]);
-        if distance > NEARNESS * cloud.spacing[point as usize] {
-            continue;
-        }
-        if let Some(first) = row_of_point[point as usize].replace(row) {
-            return Err(format!(
-                "{}:{}: {} has a row already, in line {}",
-                path.display(),
-                row.line,
-                body.place(point),
-                first.line
-            ));
-        }
-    }
-    let change = |row: Option<&Row>| row.map(|row| row.change);
-    Ok(row_of_point.into_iter().map(change).collect())
+    rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
 }
 
 /// The rows below the header; blank lines and those that begin with # say nothing.
-fn rows(text: &str) -> Result<Vec<Row>, (usize, String)> {
+fn rows(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
     // Spreadsheets begin their files with a byte order mark.
     let lines = text.trim_start_matches('\u{feff}').lines();
     let mut lines = (1..)
@@ -84,11 +45,11 @@ fn rows(text: &str) -> Result<Vec<Row>, (usize, String)> {
                 .ok_or_else(|| (line, format!("`{}` is no number", values[column])))
         };
         let [x, y, change] = columns;
-        Ok(Row {
-            line,
+        let sample = Sample {
             position: [value(x)?, value(y)?],
             change: value(change)?,
-        })
+        };
+        Ok((line, sample))
     };
     lines.map(row).collect()
 }

@@ -1,11 +1,11 @@
-//! Temperatures from a field of the mesh file.
+//! Temperatures from a field that the mesh brings along.
 
 use ligament_mesh::NodeField;
 
 use crate::body::Body;
-use crate::case::Fault;
+use crate::error::Fault;
 
-/// The scalar field of a name, at a time step if there are several; else the key that is wrong, and why.
+/// The scalar field of a name, at a time step if there are several; else the part that is wrong, and why.
 pub(super) fn find<'a>(
     body: &'a dyn Body,
     name: &str,
@@ -17,14 +17,19 @@ pub(super) fn find<'a>(
         let mut names: Vec<&str> = fields.iter().map(|field| field.name.as_str()).collect();
         names.dedup();
         let what = "field at the nodes ($NodeData) in the mesh file";
-        return Err(("mesh_field", Fault::unknown_name(what, name, names)));
+        let fault = Fault::UnknownName {
+            what,
+            found: name.to_owned(),
+            candidates: names.into_iter().map(str::to_owned).collect(),
+        };
+        return Err(("name", fault));
     };
     if first.components != 1 {
         let reason = format!(
             "the field `{name}` has {} values a node; a temperature is one value",
             first.components
         );
-        return Err(("mesh_field", reason.into()));
+        return Err(("name", Fault::NoSuchField(reason)));
     }
     let steps: Vec<String> = (named.iter())
         .map(|field| field.time_step.to_string())
@@ -36,7 +41,7 @@ pub(super) fn find<'a>(
                 "the field `{name}` has several time steps ({}): choose one by `time_step`",
                 steps.join(", ")
             );
-            Err(("mesh_field", reason.into()))
+            Err(("name", Fault::NoSuchField(reason)))
         }
         Some(step) => {
             let at_step = named.into_iter().find(|field| field.time_step == step);
@@ -45,7 +50,7 @@ pub(super) fn find<'a>(
                     "the field `{name}` has no time step {step}; it has {}",
                     steps.join(", ")
                 );
-                ("time_step", reason.into())
+                ("time_step", Fault::NoSuchField(reason))
             })
         }
     }

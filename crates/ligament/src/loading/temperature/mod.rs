@@ -3,13 +3,12 @@
 mod field;
 mod table;
 
-use ligament_model::PointCloud;
 use ligament_model::{Elasticity, Material};
 
 use super::places::Places;
-use crate::body::Body;
-use crate::case::{CaseError, CaseFile, Fault, Region, Temperature, TemperatureChange};
-use crate::failure::constants;
+use crate::error::{Fault, Field, SetupError};
+use crate::formulation::constants;
+use crate::setup::{Place, Setup, Temperature, TemperatureChange};
 
 /// A body that is heated or cooled, at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,25 +23,20 @@ pub(super) struct Heating {
 enum Change {
     /// The same everywhere, K.
     Uniform(f64),
-    /// A value for each point (n_points) that has one, K; and the key that says where they come from.
+    /// A value for each point (n_points) that has one, K; and why others have none.
     Each(Vec<Option<f64>>, &'static str),
 }
 
-/// The heating of a case; none without a section `[[temperature]]`.
+/// The heating of a setup; none without a temperature.
 ///
-/// A section holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
+/// A temperature holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
 /// one holds. A point with cells of several groups has the mean by its volume in them.
-pub(super) fn heating(
-    case: &CaseFile,
-    body: &dyn Body,
-    cloud: &PointCloud,
-) -> Result<Option<Heating>, CaseError> {
-    let sections = &case.case.temperatures;
+pub(super) fn heating(places: &Places<'_>) -> Result<Option<Heating>, SetupError> {
+    let (sections, cloud) = (&places.setup.temperatures, places.cloud);
     if sections.is_empty() {
         return Ok(None);
     }
-    let places = Places { case, body, cloud };
-    let reach = Reach::of(&places, sections)?;
+    let reach = Reach::of(places, sections)?;
     let changes = sections.iter().enumerate();
     let changes = changes.map(|(index, section)| places.change(index, section));
     let changes: Vec<Change> = changes.collect::<Result<_, _>>()?;
@@ -59,8 +53,8 @@ pub(super) fn heating(
                 };
         }
     }
-    missing.refuse(&places, &changes)?;
-    let strain = thermal_strain(&places, &change)?;
+    missing.refuse(places, &changes)?;
+    let strain = thermal_strain(places, &change)?;
     Ok(Some(Heating { change, strain }))
 }
 
@@ -75,18 +69,17 @@ struct Reach {
 }
 
 impl Reach {
-    fn of(places: &Places<'_>, sections: &[Temperature]) -> Result<Self, CaseError> {
-        let (body, cloud) = (places.body, places.cloud);
+    fn of(places: &Places<'_>, sections: &[Temperature]) -> Result<Self, SetupError> {
+        let (body, cloud) = (&places.setup.body, places.cloud);
         let mut of_cell = vec![0; body.n_cells()];
         let mut of_point = vec![0; cloud.len()];
         for (index, section) in sections.iter().enumerate() {
-            let key = format!("temperature.{index}");
             let number = index as u32 + 1;
-            let points = places.points_of_region(&key, section.region.as_ref())?;
-            let cells = match &section.region {
-                None => Some((0..body.n_cells() as u32).collect()),
-                Some(Region::Group(group)) => body.cells_of(group).filter(|it| !it.is_empty()),
-                Some(Region::Box(_)) => None,
+            let points = places.points(Field::element("temperatures", index), &section.place)?;
+            let cells = match &section.place {
+                Place::Everywhere => Some((0..body.n_cells() as u32).collect()),
+                Place::Group(group) => body.cells_of(group).filter(|it| !it.is_empty()),
+                Place::Box(_) | Place::At(_) => None,
             };
             match cells {
                 Some(cells) => cells.iter().for_each(|&it| of_cell[it as usize] = number),
@@ -116,33 +109,26 @@ impl Reach {
 }
 
 impl Places<'_> {
-    fn points_of_region(&self, key: &str, region: Option<&Region>) -> Result<Vec<u32>, CaseError> {
-        match region {
-            None => Ok((0..self.cloud.len() as u32).collect()),
-            Some(Region::Group(group)) => self.points_of_group(key, group),
-            Some(Region::Box(corners)) => self.points_in_box(key, *corners),
-        }
-    }
-
-    fn change(&self, index: usize, section: &Temperature) -> Result<Change, CaseError> {
-        let key = format!("temperature.{index}");
-        let refuse = |name: &str, fault: Fault| self.case.error(&format!("{key}.{name}"), fault);
+    fn change(&self, index: usize, section: &Temperature) -> Result<Change, SetupError> {
+        let field = Field::element("temperatures", index);
+        let body = &*self.setup.body;
         Ok(match &section.change {
-            TemperatureChange::Uniform { change } => Change::Uniform(*change),
-            TemperatureChange::Table { file } => {
-                let values = table::at_points(file, self.body, self.cloud);
-                let values = values.map_err(|reason| refuse("file", Fault::Other(reason)))?;
-                Change::Each(values, "file")
+            TemperatureChange::Uniform(change) => Change::Uniform(*change),
+            TemperatureChange::Table(samples) => {
+                let values = table::at_points(samples, body, self.cloud);
+                let values = values.map_err(|fault| field.part("change").error(fault))?;
+                Change::Each(values, table::MISSING)
             }
             TemperatureChange::Field {
-                mesh_field,
+                name,
                 time_step,
                 reference,
             } => {
-                let field = field::find(self.body, mesh_field, *time_step);
-                let field = field.map_err(|(name, fault)| refuse(name, fault))?;
+                let found = field::find(body, name, *time_step);
+                let found = found.map_err(|(part, fault)| field.part(part).error(fault))?;
                 let change = |value: &Option<f64>| value.map(|value| value - reference);
-                Change::Each(field.values.iter().map(change).collect(), "mesh_field")
+                let values = found.values.iter().map(change).collect();
+                Change::Each(values, "the field has no value")
             }
         })
     }
@@ -162,35 +148,28 @@ impl Missing {
         0.0
     }
 
-    fn refuse(&self, places: &Places<'_>, changes: &[Change]) -> Result<(), CaseError> {
+    fn refuse(&self, places: &Places<'_>, changes: &[Change]) -> Result<(), SetupError> {
         let Some((section, point, count)) = self.first else {
             return Ok(());
         };
-        let Change::Each(_, source) = &changes[section] else {
+        let Change::Each(_, reason) = changes[section] else {
             return Ok(());
         };
-        let what = match *source {
-            "file" => {
-                "the table has no row within a tenth of the distance to the nearest other point"
-            }
-            _ => "the field has no value",
+        let fault = Fault::NoTemperature {
+            points: count,
+            reason,
+            first: places.setup.body.place(point),
         };
-        let reason = format!(
-            "{count} points get no temperature: {what}; the first is {}",
-            places.body.place(point)
-        );
-        Err(places
-            .case
-            .error(&format!("temperature.{section}.{source}"), reason))
+        let field = Field::element("temperatures", section).part("change");
+        Err(field.error(fault))
     }
 }
 
 /// Strains of the points (n_points): the mean of their materials by volume.
-fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, CaseError> {
-    let (case, cloud) = (places.case, places.cloud);
-    let materials = super::materials(case);
-    let per_kelvin: Vec<Option<[f64; 3]>> = (materials.iter())
-        .map(|material| free_strain(case, material))
+fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, SetupError> {
+    let (setup, cloud) = (places.setup, places.cloud);
+    let per_kelvin: Vec<Option<[f64; 3]>> = (setup.materials.iter())
+        .map(|it| free_strain(setup, &it.material))
         .collect();
     let at_point = |(point, &change): (usize, &f64)| {
         let mut strain = [0.0; 3];
@@ -202,17 +181,17 @@ fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, 
                 continue;
             }
             let Some(per_kelvin) = per_kelvin[index] else {
-                let fault = Fault::Required {
-                    key: "thermal_expansion",
-                    reason: format!(
-                        "(in 1/K) because the temperature of {} changes, which has this material",
-                        places.body.place(point as u32)
-                    ),
+                let reason = format!(
+                    "(in 1/K) because the temperature of {} changes, which has this material",
+                    setup.body.place(point as u32)
+                );
+                let fault = Fault::Missing {
+                    property: "expansion",
+                    reason,
                 };
-                return Err(case.error(
-                    &format!("{}.thermal_expansion", case.case.materials[index].key()),
-                    fault,
-                ));
+                return Err(Field::element("materials", index)
+                    .part("expansion")
+                    .error(fault));
             };
             for (total, per_kelvin) in strain.iter_mut().zip(per_kelvin) {
                 *total += share * per_kelvin * change;
@@ -224,8 +203,9 @@ fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, 
 }
 
 /// Strain of a material for one kelvin, with the Poisson's ratio that the law makes of it; none without a coefficient.
-fn free_strain(case: &CaseFile, material: &Material) -> Option<[f64; 3]> {
-    let elasticity = constants(case, material).map_or(material.elasticity, Elasticity::Isotropic);
-    let plane = super::plane(case);
+fn free_strain(setup: &Setup, material: &Material) -> Option<[f64; 3]> {
+    let plane = setup.plane();
+    let elasticity = constants(material, &setup.law, plane);
+    let elasticity = elasticity.map_or(material.elasticity, Elasticity::Isotropic);
     Some(material.expansion?.free_strain(&elasticity, plane))
 }

@@ -1,29 +1,23 @@
 //! A meshed body: points at the nodes, physical groups.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, Write};
-use std::path::Path;
 
-use ligament_mesh::{Cell, Group, Mesh, NodeField};
-use ligament_model::PointCloud;
-use ligament_output::results::{BodyGrid, Canvas};
-use ligament_output::vtu;
+use ligament_mesh::{Group, Mesh, NodeField};
+use ligament_model::{BodyGrid, Canvas, PointCloud};
 
-use super::{Body, OffOutline};
-use crate::mesh_file::{MeshFileError, read_mesh};
+use super::{Body, OffOutline, Origin};
 
+/// A body with a point at each node of a mesh, by the names of its physical groups.
 #[derive(Debug)]
-pub(super) struct MeshBody(Mesh);
+pub struct MeshBody(Mesh);
 
-impl MeshBody {
-    pub(super) fn read(path: &Path) -> Result<Self, MeshFileError> {
-        read_mesh(path).map(Self)
-    }
-
-    pub(super) fn new(mesh: Mesh) -> Self {
+impl From<Mesh> for MeshBody {
+    fn from(mesh: Mesh) -> Self {
         Self(mesh)
     }
+}
 
+impl MeshBody {
     /// For each edge of a cell, by its nodes in ascending order, how many cells have it, and the nodes in the order in which the
     /// last of these cells, on their left, goes along it.
     fn edges_of_cells(&self) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
@@ -51,6 +45,10 @@ impl MeshBody {
 }
 
 impl Body for MeshBody {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Mesh(&self.0)
+    }
+
     fn positions(&self) -> &[[f64; 2]] {
         &self.0.positions
     }
@@ -153,33 +151,12 @@ impl Body for MeshBody {
     }
 
     fn grid(&self) -> BodyGrid {
-        let cell = |cell: &Cell| match *cell {
-            Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
-            Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
-        };
         BodyGrid {
             positions: self.0.positions.clone(),
             tags: self.0.node_tags.iter().map(|&tag| tag as i64).collect(),
             tagged: self.tagged(),
-            canvas: Canvas::Between(self.0.cells.iter().map(cell).collect()),
+            canvas: Canvas::Between(self.0.cells.clone()),
         }
-    }
-
-    fn write(&self, out: &mut dyn Write, volume: f64) -> io::Result<()> {
-        let mesh = &self.0;
-        let (nodes, cells) = (mesh.positions.len(), mesh.cells.len());
-        writeln!(out, "mesh")?;
-        writeln!(out, "  nodes, cells          {nodes}, {cells}")?;
-        writeln!(out, "  area                  {:.6e} m^2", mesh.area())?;
-        writeln!(out, "  volume of the points  {volume:.6e} m^3")?;
-        for group in &mesh.groups {
-            let kind = ["points", "curve", "surface"]
-                .get(usize::from(group.dimension))
-                .unwrap_or(&"group");
-            let (name, nodes) = (&group.name, group.nodes.len());
-            writeln!(out, "  group {name:<15} {kind} of {nodes} nodes")?;
-        }
-        Ok(())
     }
 }
 

@@ -1,20 +1,18 @@
-//! The body of a case: a mesh or a lattice behind one interface.
+//! The body: points with their groups, from a mesh, a lattice or arrays.
 
 mod lattice;
 mod mesh;
+mod points;
 
 use std::fmt::Debug;
-use std::io::{self, Write};
 
 use ligament_mesh::{Mesh, NodeField};
-use ligament_model::{PointCloud, Shape};
-use ligament_output::results::BodyGrid;
+use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
-use self::lattice::LatticeBody;
-use self::mesh::MeshBody;
-use crate::case::{BodySection, CaseFile};
-use crate::stages::Stages;
+pub use lattice::{CellSet, Hole, LatticeBody, LatticeError};
+pub use mesh::MeshBody;
+pub use points::{Points, PointsError};
 
 /// An edge of a group that is none of the outline of the body, on which a pressure could act.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -26,18 +24,32 @@ use crate::stages::Stages;
 pub struct OffOutline {
     /// Tags of its nodes.
     pub nodes: [u64; 2],
-    /// Its middle in the coordinates of the case, m.
+    /// Its middle, m.
     pub middle: [f64; 2],
     /// Number of cells that have it.
     pub cells: usize,
 }
 
-/// What the program needs to know of a body, whatever its points come from.
+/// What a body comes from.
+#[derive(Debug, Clone, Copy)]
+pub enum Origin<'a> {
+    /// A mesh with a point at each node.
+    Mesh(&'a Mesh),
+    /// A lattice with a point at the centre of each cell.
+    Lattice(&'a Lattice),
+    /// Arrays of points.
+    Points,
+}
+
+/// What a computation needs to know of a body, whatever its points come from.
 pub trait Body: Debug + Send + Sync {
-    /// Positions of the points in the coordinates of the case, shape (n_points), m.
+    /// What it comes from.
+    fn origin(&self) -> Origin<'_>;
+
+    /// Positions of the points, shape (n_points), m.
     fn positions(&self) -> &[[f64; 2]];
 
-    /// What the tag of a point is one of: `node` or `cell`.
+    /// What the tag of a point is one of: `node`, `cell` or `point`.
     fn tagged(&self) -> &'static str;
 
     /// The tag that a point goes by.
@@ -93,9 +105,6 @@ pub trait Body: Debug + Send + Sync {
     /// How result files show it.
     fn grid(&self) -> BodyGrid;
 
-    /// Writes what it is made of, with the volume of its points.
-    fn write(&self, out: &mut dyn Write, volume: f64) -> io::Result<()>;
-
     /// A point in words: "node 12".
     fn label(&self, point: u32) -> String {
         format!("{} {}", self.tagged(), self.tag(point))
@@ -106,25 +115,4 @@ pub trait Body: Debug + Send + Sync {
         let [x, y] = self.positions()[point as usize];
         format!("{} at ({x:.6}, {y:.6})", self.label(point))
     }
-}
-
-/// The body of a case.
-///
-/// # Errors
-///
-/// If the mesh cannot be read, or nothing is left of the lattice or of one of its sets.
-pub fn of_case(case: &CaseFile, stages: &mut Stages) -> anyhow::Result<Box<dyn Body>> {
-    Ok(match &case.case.body {
-        BodySection::Mesh(section) => {
-            Box::new(stages.time("read mesh", || MeshBody::read(&section.file))?)
-        }
-        BodySection::Lattice(section) => {
-            Box::new(stages.time("lattice", || LatticeBody::new(case, section))?)
-        }
-    })
-}
-
-/// A body on a mesh that is there already.
-pub fn of_mesh(mesh: Mesh) -> Box<dyn Body> {
-    Box::new(MeshBody::new(mesh))
 }
