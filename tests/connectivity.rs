@@ -30,10 +30,7 @@ fn follow(
     while parts < system.cloud.len() {
         let (broken, rest) = order.split_at(sizes.next().unwrap().min(order.len()));
         order = rest;
-        for &bond in broken {
-            intact[bond as usize] = false;
-        }
-        connectivity.bonds_broke(system, &intact, broken);
+        connectivity.bonds_broke(system, &mut intact, broken);
         let found = Fragments::find(system, &intact);
         assert_eq!(connectivity.fragments(), &found);
         let all = 0..found.points.len() as u32;
@@ -157,10 +154,7 @@ fn a_small_part_comes_loose_at_its_own_cost() {
         let mut connectivity = Connectivity::new(system);
         let (last, others) = system.bonds.incidence.at(point).split_last().unwrap();
         let mut intact = vec![true; system.bonds.len()];
-        for &bond in others {
-            intact[bond as usize] = false;
-        }
-        connectivity.bonds_broke(system, &intact, others);
+        connectivity.bonds_broke(system, &mut intact, others);
         let effort = effort_of(&mut connectivity, system, &mut intact, *last);
         assert_eq!(connectivity.fragments().points.len(), 2);
         assert!(effort <= 1 + families(system, *last)[0].max(families(system, *last)[1]));
@@ -175,7 +169,6 @@ fn effort_of(
     bond: u32,
 ) -> usize {
     let before = connectivity.effort();
-    intact[bond as usize] = false;
     connectivity.bonds_broke(system, intact, &[bond]);
     connectivity.effort() - before
 }

@@ -124,10 +124,8 @@ impl Equilibrium {
         let expansion = loads.thermal_strain(state.load_factor);
         let mut breakage = Breakage::new(system, expansion, state, bonds);
         let start = Instant::now();
-        for &bond in bonds {
-            state.intact[bond as usize] = false;
-        }
-        self.connectivity.bonds_broke(system, &state.intact, bonds);
+        self.connectivity
+            .bonds_broke(system, &mut state.intact, bonds);
         let held = &state.held;
         breakage.holds = self.connectivity.missing_holds(
             system,

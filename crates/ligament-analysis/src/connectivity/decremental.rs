@@ -56,16 +56,19 @@ impl Connectivity {
         self.search.effort
     }
 
-    /// Splits the fragments that some bonds held together, which are `intact` (n_bonds) no longer.
+    /// Takes bonds out of those that are `intact` (n_bonds), and splits the fragments that they held together.
     ///
-    /// Each bond may split off a part of a fragment: where two of them leave three parts, the second finds the third.
-    pub fn bonds_broke(&mut self, system: &BondSystem, intact: &[bool], bonds: &[u32]) {
+    /// The bonds go one by one, and the later ones hold until their turn comes: where two of them split a fragment in three, each
+    /// split is seen.
+    pub fn bonds_broke(&mut self, system: &BondSystem, intact: &mut [bool], bonds: &[u32]) {
         for &bond in bonds {
-            let ends = system.bonds.ends[bond as usize];
-            let [first, second] = ends.map(|end| self.fragments.of_point[end as usize]);
-            if first != second {
+            intact[bond as usize] = true;
+        }
+        for &bond in bonds {
+            if !std::mem::replace(&mut intact[bond as usize], false) {
                 continue;
             }
+            let ends = system.bonds.ends[bond as usize];
             if let Some(part) = self.search.part_apart(&system.bonds, intact, ends) {
                 self.fragments.split_off(part);
                 self.changed.extend(ends);
