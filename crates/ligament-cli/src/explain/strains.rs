@@ -18,8 +18,8 @@ pub(super) struct Strains {
 }
 
 impl Strains {
-    /// Those of a run; None where its bonds have no strains of their own.
-    pub(super) fn of(run: &StoredRun, before_breakages: bool) -> Option<Self> {
+    /// The strains of a run; None where its bonds have no strains of their own.
+    pub(super) fn from_run(run: &StoredRun, before_breakages: bool) -> Option<Self> {
         if run.deformation_names.len() < 3 {
             return None;
         }
