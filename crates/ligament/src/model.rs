@@ -6,10 +6,8 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
-use ligament_model::law::mbb_pd;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ElementKind, FixedFields, Horizons,
-    PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, Horizons, PointCloud,
 };
 
 use crate::body::Body;
@@ -140,13 +138,7 @@ fn bond_system(
 ) -> BondSystem {
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
-    let mut system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
-    if element == ElementKind::Pairwise
-        && let Some(elements) = &mut system.imaginary
-    {
-        elements.row_factors = mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud);
-    }
-    system
+    BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
 }
 
 /// The bonds without those across holes of the body, and those.

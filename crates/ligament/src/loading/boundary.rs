@@ -70,7 +70,7 @@ pub(super) fn couples_have_stiffness(
             && unknowns.number(dof).is_none()
     };
     let rotations =
-        (0..boundary.force.len()).filter(|&dof| Component::of(dof) == Component::Rotation);
+        (0..boundary.force.len()).filter(|&dof| Component::at(dof) == Component::Rotation);
     match rotations.filter(|&dof| is_idle(dof)).count() {
         0 => Ok(()),
         points => {
