@@ -21,17 +21,17 @@ use crate::warning::{self, Warning};
 /// The discrete model: all that comes before the first equation.
 #[derive(Debug)]
 pub struct Model {
-    /// What it was built from.
+    /// Setup that the model was built from.
     pub setup: Setup,
     /// Points and corrected bonds.
     pub system: Arc<BondSystem>,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
-    /// How the domain correction went, where there was one.
+    /// Report on the domain correction, where there was one.
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
-    /// When its bonds fail.
+    /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// Number of pairs of points that would be bonded but for a hole between them.
     pub across_holes: usize,
