@@ -16,14 +16,14 @@ use std::process::Command;
 use ligament::Loading;
 use ligament::run::follow;
 use ligament_case::case::CaseFile;
-use ligament_case::model::{Model, build_model};
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::run;
-use ligament_case::stages::Stages;
 use ligament_cli::check::{self, Extent};
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{families, interior};
+use ligament_run::model::{Model, build_model};
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::run;
+use ligament_run::stages::Stages;
 use ligament_study::yielding::subject::Strain;
 use ligament_study::yielding::{self, Families, Request};
 use verification::meshes;
@@ -105,8 +105,8 @@ impl Case {
                 mode.eigenvalue,
                 mode.residual,
             ];
-            let effective = mode.participation.map(|it| it * it);
-            let shares = outcome.moving.shares(mode.participation);
+            let effective = mode.participation.iter().map(|it| it * it);
+            let shares = outcome.moving.shares(&mode.participation);
             let reals = numbers.into_iter().chain(effective).chain(shares);
             let row: [Entry; 2] = [usize::into(number), mode.kind.name().into()];
             table.push(row.into_iter().chain(reals.map(Entry::from)));

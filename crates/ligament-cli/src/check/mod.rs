@@ -21,12 +21,12 @@ use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_case::case::{CaseFile, Control, Steps};
-use ligament_case::gauges::words;
-use ligament_case::model::{Model, build_model};
-use ligament_case::progress::{Progress, ProgressMode};
 use ligament_case::setup::materials;
-use ligament_case::stages::{Stage, Stages};
-use ligament_case::summary::{
+use ligament_run::gauges::words;
+use ligament_run::model::{Model, build_model};
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::{Stage, Stages};
+use ligament_run::summary::{
     Spread, correction_line, family, formulation_line, heading, temperature_change,
 };
 
@@ -65,7 +65,7 @@ fn check_here(
         _ => check_loading(case, extent, &model, &mut stages, out)?,
     }
     write_stages(out, stages.done())?;
-    let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
+    let loose = Fragments::find(&*model.system, &vec![true; model.system.bonds.len()])
         .points
         .len();
     if loose > 1 {
@@ -112,7 +112,7 @@ fn check_loading(
 
     write_model(out, case, model)?;
     write_boundary(out, case, model.body(), &loading)?;
-    for free in gauges::of_intact_body(&model.system, &*loading.boundary) {
+    for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, model.body()))?;
     }
     write_loading(out, case)?;
