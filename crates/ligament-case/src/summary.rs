@@ -13,8 +13,8 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use crate::case::{CaseFile, Units};
-use crate::model::Model;
 use crate::stages::Stage;
+use ligament::Model;
 
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{

@@ -5,7 +5,7 @@ use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
 use crate::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
-use crate::model::Model;
+use ligament::Model;
 
 /// The numbers of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
