@@ -6,9 +6,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use ligament_model::element::BondElement;
+use ligament_model::Bonds;
+use ligament_model::element::Remaining;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
 use ligament_model::law::bbpd;
+use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
 use verification::numbers::relative_error;
@@ -93,7 +95,7 @@ impl Segment {
 
 /// Sum of 1/2 R s_0^2 over the bonds that cross a segment, per area, over G_c.
 fn work(bench: &Bench, segment: &Segment) -> f64 {
-    let rigidity = &bench.model.system.axial_rigidity;
+    let rigidity = &bench.model.system.rigidities.axial;
     let crossing = segment.crossing(bench);
     assert!(!crossing.is_empty());
     let of_bond = |bond: usize| 0.5 * rigidity[bond] * bench.limits()[bond].powi(2);
@@ -311,7 +313,7 @@ struct Separation {
 
 impl Separation {
     fn from_bench(bench: &Bench, segment: &Segment, [x, y]: [f64; 2]) -> Self {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let area = segment.length() * THICKNESS;
         let mut sum = Self {
             counted: 0.0,
@@ -323,19 +325,24 @@ impl Separation {
         let motions: Vec<[f64; 3]> = is_left
             .map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] })
             .collect();
+        let intact = vec![true; system.bonds.len()];
+        let deformations =
+            system.deformations(&intact, motions.as_flattened(), ThermalStrain::NONE);
         for bond in segment.crossing(bench) {
-            let element = BondElement::of(system, &[], bond);
-            let deformation = element.deformation(motions.as_flattened());
+            let deformation = deformations[bond];
             let ratio = bench.model.criteria.utilisation(bond, &deformation);
             if ratio == 0.0 {
                 sum.unbroken += 1;
                 continue;
             }
             let per_energy = 1.0 / (ratio * ratio * area * FRACTURE_ENERGY);
-            let opening = 0.5 * system.axial_rigidity[bond] * deformation.stretch.max(0.0).powi(2);
-            let sliding = 0.5 * system.shear_rigidity[bond] * deformation.shear.powi(2);
+            let opening =
+                0.5 * system.rigidities.axial[bond] * deformation.stretch.max(0.0).powi(2);
+            let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear.powi(2);
             sum.counted += (opening + sliding) * per_energy;
-            sum.stored += element.energy(&deformation) * per_energy;
+            let both = [&deformation; 2];
+            let energy = system.mutual_energy(&intact, bond, &Remaining::WHOLE, both);
+            sum.stored += energy * per_energy;
         }
         sum
     }

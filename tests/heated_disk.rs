@@ -2,8 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::LoadProgram;
-use ligament_analysis::internal;
-use ligament_analysis::stress::virial;
+use ligament_model::Bonds;
 use verification::bench::Bench;
 use verification::numbers::{component, largest, relative_error};
 
@@ -95,9 +94,9 @@ fn hot_disks_are_those_of_thermoelasticity() {
         let off = (off / size).sqrt();
         let state = run.state();
         let expansion = bench.boundary.thermal_strain(state.load_factor);
-        let system = &bench.model.system;
-        let deformations = internal::deformations(system, &state.intact, motion, expansion);
-        let stress = virial::stress(system, state.bonds(), &deformations);
+        let system = &*bench.model.system;
+        let deformations = system.deformations(&state.intact, motion, expansion);
+        let stress = system.virial_stresses(state.bonds(), &deformations);
         let mut ratios = Vec::new();
         for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
             let r = p[0].hypot(p[1]);

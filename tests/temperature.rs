@@ -4,6 +4,7 @@
 
 use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
+use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
 use verification::numbers::{component, largest, relative_error};
@@ -63,7 +64,8 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
     let expansion = bench.boundary.thermal_strain(run.state().load_factor);
     let intact = &run.state().intact;
-    internal::deformations(&bench.model.system, intact, run.displacement(), expansion)
+    let system = &*bench.model.system;
+    system.deformations(intact, run.displacement(), expansion)
 }
 
 /// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
@@ -351,7 +353,7 @@ fn a_linear_temperature_bends_free_bodies() {
             let size = largest(strains.iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(
-                &bench.model.system,
+                &*bench.model.system,
                 run.state().bonds(),
                 &vec![0.0; 3 * bench.points()],
                 bench.boundary.thermal_strain(1.0),

@@ -15,8 +15,8 @@ use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::solver::{SolverSettings, Update};
-use ligament_analysis::thermal_strain::ThermalStrain;
 use ligament_analysis::{Equilibrium, State, Unknowns, assembly, internal};
+use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Watch};
 use verification::problems;
 
@@ -46,7 +46,7 @@ fn equilibrium(criterion: &mut Criterion) {
 }
 
 fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let elastic = bench.solve();
@@ -77,15 +77,11 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
     });
     let whole = Connectivity::new(system);
     let broken = next(10);
-    let mut left = intact.clone();
-    for &bond in &broken {
-        left[bond as usize] = false;
-    }
     group.bench_function("connectivity, 10 bonds", |bencher| {
         bencher.iter_batched(
-            || whole.clone(),
-            |mut connectivity| {
-                connectivity.bonds_broke(system, &left, black_box(&broken));
+            || (whole.clone(), intact.clone()),
+            |(mut connectivity, mut left)| {
+                connectivity.bonds_broke(system, &mut left, black_box(&broken));
                 connectivity
             },
             BatchSize::LargeInput,
@@ -135,7 +131,7 @@ struct Body {
 impl Body {
     fn intact(problem: &Problem) -> Self {
         let mut equilibrium = Equilibrium::new(problem, 1e-4).unwrap();
-        let mut state = State::fresh(&problem.system);
+        let mut state = State::fresh(&*problem.system);
         state.load_factor = 1.0;
         let breakage = equilibrium.break_bonds(&mut state, &[]);
         let mut watch = Watch::default();

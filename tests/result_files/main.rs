@@ -105,8 +105,8 @@ impl Case {
                 mode.eigenvalue,
                 mode.residual,
             ];
-            let effective = mode.participation.map(|it| it * it);
-            let shares = outcome.moving.shares(mode.participation);
+            let effective = mode.participation.iter().map(|it| it * it);
+            let shares = outcome.moving.shares(&mode.participation);
             let reals = numbers.into_iter().chain(effective).chain(shares);
             let row: [Entry; 2] = [usize::into(number), mode.kind.name().into()];
             table.push(row.into_iter().chain(reals.map(Entry::from)));

@@ -2,7 +2,6 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::stress::{traction, virial};
 use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
 use ligament_case::model::Model;
@@ -53,7 +52,7 @@ fn labels(problem: &Problem) -> Vec<String> {
 
 /// Names of the two or three components of bonds that files have, each with how it is read.
 fn deformation_names(problem: &Problem) -> &'static [&'static str] {
-    if problem.system.element.has_strains() {
+    if problem.system.strain_names()[0] == "strain_xx" {
         &["strain_xx", "strain_xy", "strain_yy"]
     } else {
         &["stretch", "shear"]
@@ -123,7 +122,7 @@ impl<'a> Recorder<'a> {
             "stored_energy",
             "broken_bonds",
         ];
-        let n_bonds = problem.system.bonds.len();
+        let n_bonds = problem.system.ends().len();
         Self {
             expected: Expected::default(),
             model,
@@ -187,7 +186,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn write_fields(&mut self, file: &str, view: &View<'_>) {
-        let (system, state, balanced) = (view.system, view.state, view.balanced);
+        let (state, balanced) = (view.state, view.balanced);
+        let system = &*self.model.system;
         let motion = |point: usize| {
             let at = 3 * point;
             [
@@ -245,18 +245,18 @@ impl<'a> Recorder<'a> {
             );
         }
         if self.stress.contains(&StressField::Virial) {
-            let stress = virial::stress(system, state.bonds(), &balanced.deformations);
+            let stress = system.virial_stresses(state.bonds(), &balanced.deformations);
             fields_of.components("stress_virial", ["xx", "yy", "xy"], stress);
         }
         if self.stress.contains(&StressField::Traction) {
-            let stress = traction::stress(system, state.bonds(), &balanced.deformations);
+            let stress = system.tractions(state.bonds(), &balanced.deformations);
             fields_of.components("stress_traction", ["xx", "yx", "yy", "xy"], stress);
         }
         fields_of.fixed(self.model);
     }
 
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
-        let (system, deformations) = (view.system, &view.balanced.deformations);
+        let (system, deformations) = (&*self.model.system, &view.balanced.deformations);
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let positions = self.model.body().positions().iter().copied();
         self.expected.grid(file, positions, ends);
@@ -298,7 +298,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn model_file(&mut self) {
-        let (file, system, fixed) = ("model.vtu", &*self.problem.system, &self.model.fixed);
+        let (file, system, fixed) = ("model.vtu", &*self.model.system, &self.model.fixed);
         let absent = &fixed.absent;
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let absent_ends = absent.iter().map(|it| it.ends.as_slice());
@@ -396,7 +396,7 @@ impl Observer for Recorder<'_> {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
-            let ends = self.problem.system.bonds.ends[record.bond as usize];
+            let ends = self.problem.system.ends()[record.bond as usize];
             let [a, b] = ends.map(|end| self.model.body().tag(end) as usize);
             let row: [Entry; 10] = [
                 record.order.into(),

@@ -73,7 +73,7 @@ impl ModalBench {
 
     /// The degrees of freedom that are unknown, and their masses.
     pub fn unknown_masses(&self, rotations: Rotations) -> Vec<(usize, f64)> {
-        let unknowns = Unknowns::all_but(&self.model.system, |dof| self.supports.held[dof]);
+        let unknowns = Unknowns::all_but(&*self.model.system, |dof| self.supports.held[dof]);
         let mass_of = |dof: usize| match (dof % 3, rotations) {
             (2, Rotations::Massless) => 0.0,
             (2, Rotations::Inertia) => self.mass.inertia[dof / 3],

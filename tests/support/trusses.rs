@@ -8,8 +8,11 @@ use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::driver::{Outcome, Problem, StopRules, event, stepped};
 use ligament_analysis::load_program::{Control, ControlKind, ProportionalLoading};
 use ligament_analysis::unknowns::Component;
+use ligament_model::element::Rigidities;
+use ligament_model::element::pair::Pairs;
 use ligament_model::failure::{Criteria, Criterion, Measure};
-use ligament_model::{BondSet, BondSystem, ElementKind, Horizons, PointCloud};
+use ligament_model::system::Kinematics;
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::bench::Watch;
 
@@ -100,12 +103,13 @@ impl Truss {
                 })
                 .collect(),
             system: BondSystem {
-                element: ElementKind::Beam,
                 weight: vec![1.0; bonds.len()],
-                axial_rigidity: of_bonds(&rigidity),
-                shear_rigidity: of_bonds(&rigidity),
-                rotational_rigidity: of_bonds(&rigidity),
-                imaginary: None,
+                rigidities: Rigidities {
+                    axial: of_bonds(&rigidity),
+                    shear: of_bonds(&rigidity),
+                    rotational: of_bonds(&rigidity),
+                },
+                kinematics: Kinematics::Beam(Pairs::default()),
                 cloud,
                 bonds,
             },

@@ -21,7 +21,7 @@ use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use equations::{ROUNDING, largest_point_stiffness};
+pub(crate) use equations::ROUNDING;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +49,7 @@ impl Equilibrium {
     pub fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         Ok(Self {
             equations: Equations::new(problem, energy_tolerance)?,
-            connectivity: Connectivity::new(&problem.system),
+            connectivity: Connectivity::new(&*problem.system),
             iteration: Iteration::Newton,
         })
     }
@@ -120,14 +120,12 @@ impl Equilibrium {
             costs,
             ..
         } = &mut self.equations;
-        let (system, loads, unknowns) = (&problem.system, &problem.loads, stiffness.unknowns());
+        let (system, loads, unknowns) = (&*problem.system, &problem.loads, stiffness.unknowns());
         let expansion = loads.thermal_strain(state.load_factor);
         let mut breakage = Breakage::new(system, expansion, state, bonds);
         let start = Instant::now();
-        for &bond in bonds {
-            state.intact[bond as usize] = false;
-        }
-        self.connectivity.bonds_broke(system, &state.intact, bonds);
+        self.connectivity
+            .bonds_broke(system, &mut state.intact, bonds);
         let held = &state.held;
         breakage.holds = self.connectivity.missing_holds(
             system,

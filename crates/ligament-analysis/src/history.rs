@@ -1,6 +1,6 @@
 //! What a run reports while it goes on, and how it ends.
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
@@ -145,7 +145,7 @@ pub enum Notice {
 /// A state in equilibrium, for observers that want fields.
 pub struct View<'a> {
     /// The system.
-    pub system: &'a BondSystem,
+    pub system: &'a dyn Bonds,
     /// Its state.
     pub state: &'a State,
     /// Deformations and forces.

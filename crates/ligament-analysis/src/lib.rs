@@ -28,10 +28,8 @@ pub mod softening;
 pub mod solver;
 pub mod state;
 pub mod stiffness;
-pub mod stress;
 pub mod supports;
 mod tangent;
-pub mod thermal_strain;
 pub mod unknowns;
 
 pub use balanced::{Attempt, Balanced, Unbalanced};
@@ -39,6 +37,7 @@ pub use equilibrium::Equilibrium;
 pub use error::SetupError;
 pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
+pub use ligament_model::{Bonds, interface};
 pub use load_program::{BoundaryError, Control, ControlKind, LoadProgram, ProportionalLoading};
 pub use probe::Probe;
 pub use problem::Problem;

@@ -5,8 +5,8 @@ mod proportional;
 use std::fmt::Debug;
 
 use crate::internal::InternalForces;
-use crate::thermal_strain::ThermalStrain;
 use crate::unknowns::COMPONENTS;
+use ligament_model::thermal::ThermalStrain;
 
 pub use proportional::{BoundaryError, ProportionalLoading};
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 use ligament_model::failure::Criteria;
 
 use crate::load_program::LoadProgram;
@@ -13,7 +13,7 @@ use crate::solver::SolverSettings;
 #[derive(Clone)]
 pub struct Problem {
     /// The bond system.
-    pub system: Arc<BondSystem>,
+    pub system: Arc<dyn Bonds>,
     /// Failure criteria; an elastic analysis has none.
     pub criteria: Arc<Criteria>,
     /// Supports and loads.

@@ -2,7 +2,7 @@
 
 use ligament_linalg::Elimination;
 pub use ligament_linalg::FactorKind;
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 
 use crate::dissection;
 use crate::unknowns::Unknowns;
@@ -84,7 +84,7 @@ impl Ordering {
     }
 
     /// The order of elimination of some unknowns.
-    pub fn elimination(self, system: &BondSystem, unknowns: &Unknowns) -> Elimination {
+    pub fn elimination(self, system: &dyn Bonds, unknowns: &Unknowns) -> Elimination {
         match self {
             Self::MinimumDegree => Elimination::MinimumDegree,
             Self::NestedDissection => {

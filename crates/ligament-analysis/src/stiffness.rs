@@ -4,8 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ligament_linalg::{FactorKind, Pattern, Symbolic, SymmetricMatrix};
-use ligament_model::BondSystem;
-use ligament_model::element::ElementKind;
+use ligament_model::Bonds;
 
 use crate::assembly;
 use crate::error::SetupError;
@@ -17,7 +16,7 @@ use crate::unknowns::{COMPONENTS, Unknowns};
 ///
 /// Breakages change values, never the pattern: all of this holds for any state of the bonds.
 pub struct Stiffness {
-    system: Arc<BondSystem>,
+    system: Arc<dyn Bonds>,
     unknowns: Unknowns,
     pattern: Arc<Pattern>,
     symbolic: Arc<Symbolic>,
@@ -32,21 +31,19 @@ impl Stiffness {
     ///
     /// If the factor is too large.
     pub(crate) fn new(
-        system: &Arc<BondSystem>,
+        system: &Arc<dyn Bonds>,
         unknowns: Unknowns,
         settings: SolverSettings,
     ) -> Result<Self, SetupError> {
         let start = Instant::now();
-        let pattern = Arc::new(assembly::pattern(system, &unknowns)?);
+        let pattern = Arc::new(assembly::pattern(&**system, &unknowns)?);
         let ordering = settings
             .ordering
-            .unwrap_or(Ordering::suited_to(system.cloud.len()));
-        let elimination = ordering.elimination(system, &unknowns);
+            .unwrap_or(Ordering::suited_to(system.n_points()));
+        let elimination = ordering.elimination(&**system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
         // Without positive stiffnesses positive definiteness is not to be counted on.
-        let mut rigidities = system.axial_rigidity.iter().chain(&system.shear_rigidity);
-        let definite = rigidities.all(|&rigidity| rigidity > 0.0);
-        let suitable = if definite {
+        let suitable = if system.all_positive() {
             FactorKind::Llt
         } else {
             FactorKind::Ldlt
@@ -55,7 +52,7 @@ impl Stiffness {
             pattern,
             choice: SolverChoice {
                 factorisation: settings.factorisation.unwrap_or(suitable),
-                unsymmetric: system.element == ElementKind::Pairwise,
+                unsymmetric: !system.has_energy(),
                 ordering,
                 update: settings.update.unwrap_or(Update::Incremental),
                 rebuild_every: settings.rebuild_every.max(1),
@@ -69,8 +66,8 @@ impl Stiffness {
     }
 
     /// The bond system.
-    pub fn system(&self) -> &BondSystem {
-        &self.system
+    pub fn system(&self) -> &dyn Bonds {
+        &*self.system
     }
 
     /// The unknowns.
@@ -95,14 +92,14 @@ impl Stiffness {
 
     /// The structure of the factor in another order of elimination.
     pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
-        let elimination = ordering.elimination(&self.system, &self.unknowns);
+        let elimination = ordering.elimination(&*self.system, &self.unknowns);
         Ok(Symbolic::analyse(self.pattern.clone(), elimination)?)
     }
 
     /// The matrix of the bonds of a state.
     pub(crate) fn assemble(&self, state: &State) -> SymmetricMatrix {
         assembly::assemble(
-            &self.system,
+            &*self.system,
             &self.unknowns,
             &self.pattern,
             state.bonds(),
@@ -120,18 +117,14 @@ impl Stiffness {
             return Ok(0);
         }
         let is_alone = |dof: usize| {
-            let mut bonds = self
-                .system
-                .bonds
-                .incidence
-                .at((dof / COMPONENTS) as u32)
-                .iter();
+            let incidence = self.system.incidence();
+            let mut bonds = incidence.at((dof / COMPONENTS) as u32).iter();
             bonds.all(|&bond| !state.intact[bond as usize])
         };
         let alone: Vec<bool> = (0..state.held.len()).map(is_alone).collect();
-        let pattern = Arc::new(assembly::pattern(&self.system, &rotations)?);
-        let block = assembly::assemble(&self.system, &rotations, &pattern, state.bonds(), &alone);
-        let elimination = self.choice.ordering.elimination(&self.system, &rotations);
+        let pattern = Arc::new(assembly::pattern(&*self.system, &rotations)?);
+        let block = assembly::assemble(&*self.system, &rotations, &pattern, state.bonds(), &alone);
+        let elimination = self.choice.ordering.elimination(&*self.system, &rotations);
         let symbolic = Arc::new(Symbolic::analyse(pattern, elimination)?);
         let factor = FactorKind::Ldlt.factorise(&symbolic, &block)?;
         Ok(factor.inertia().negative)

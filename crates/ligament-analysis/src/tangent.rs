@@ -9,7 +9,7 @@ use ligament_linalg::{FactorError, Inertia};
 use crate::breakage::Breakage;
 use crate::costs::Costs;
 use crate::state::State;
-use crate::thermal_strain::ThermalStrain;
+use ligament_model::thermal::ThermalStrain;
 
 /// A solver of K du = f with the tangent stiffness K of a state.
 ///

@@ -51,6 +51,6 @@ fn load(motion: &FreeMotion) -> String {
 
 fn gauge(degree_of_freedom: usize, body: &dyn Body) -> String {
     let place = body.place((degree_of_freedom / COMPONENTS) as u32);
-    let component = Component::of(degree_of_freedom).name();
+    let component = Component::at(degree_of_freedom).name();
     format!("{component} of {place}")
 }

@@ -17,6 +17,7 @@
 //! as NHPD or MPPD: `docs/references.md` lists the papers.
 
 pub mod bonds;
+pub mod change;
 pub mod cloud;
 pub mod correction;
 mod curve;
@@ -25,12 +26,18 @@ pub mod failure;
 pub mod fixed;
 pub mod grid;
 pub mod horizon;
+pub mod interface;
 pub mod law;
+pub mod layout;
 pub mod mass;
 pub mod material;
 pub mod moduli;
+pub mod rigid_motions;
 pub mod shape;
+pub mod stress;
+pub mod sweep;
 pub mod system;
+pub mod thermal;
 pub mod yielding;
 
 pub use bonds::{BondSet, Incidence};
@@ -41,8 +48,9 @@ pub use element::ElementKind;
 pub use fixed::{Absence, AbsentBond, FixedFields};
 pub use grid::{BodyGrid, Canvas};
 pub use horizon::Horizons;
+pub use interface::Bonds;
 pub use law::BondStiffness;
 pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use shape::Shape;
-pub use system::BondSystem;
+pub use system::{BondSystem, BondsLeft};

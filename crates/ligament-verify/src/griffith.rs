@@ -262,7 +262,7 @@ fn energy_at_limits(solution: &Solution, bonds: impl Iterator<Item = usize>) -> 
     let model = &solution.model;
     let limits = &model.criteria.list[0].limit;
     bonds
-        .map(|bond| 0.5 * model.system.axial_rigidity[bond] * limits[bond].powi(2))
+        .map(|bond| 0.5 * model.system.rigidities.axial[bond] * limits[bond].powi(2))
         .sum()
 }
 

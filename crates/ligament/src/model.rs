@@ -6,10 +6,8 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
-use ligament_model::law::mbb_pd;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ElementKind, FixedFields, Horizons,
-    PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, Horizons, PointCloud,
 };
 
 use crate::body::Body;
@@ -23,17 +21,17 @@ use crate::warning::{self, Warning};
 /// The discrete model: all that comes before the first equation.
 #[derive(Debug)]
 pub struct Model {
-    /// What it was built from.
+    /// Setup that the model was built from.
     pub setup: Setup,
     /// Points and corrected bonds.
     pub system: Arc<BondSystem>,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
-    /// How the domain correction went, where there was one.
+    /// Report on the domain correction, where there was one.
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
-    /// When its bonds fail.
+    /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// Number of pairs of points that would be bonded but for a hole between them.
     pub across_holes: usize,
@@ -147,13 +145,7 @@ fn bond_system(
 ) -> BondSystem {
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
-    let mut system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
-    if element == ElementKind::Pairwise
-        && let Some(elements) = &mut system.imaginary
-    {
-        elements.row_factors = mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud);
-    }
-    system
+    BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
 }
 
 /// The bonds without those across holes of the body, and those.

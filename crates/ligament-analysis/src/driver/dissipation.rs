@@ -1,8 +1,9 @@
 //! What the laws of the bonds take for good.
 
+use ligament_model::element::Remaining;
+
 use crate::history::BreakRecord;
 use crate::problem::Problem;
-use crate::softening::energy_at_limit;
 use crate::state::State;
 
 /// Brings the bonds that soften up to date with their extremes.
@@ -10,7 +11,7 @@ pub(super) fn soften(problem: &Problem, state: &mut State) {
     if state.softening.remaining.is_empty() {
         return;
     }
-    for bond in 0..problem.system.bonds.len() {
+    for bond in 0..problem.system.ends().len() {
         if state.intact[bond] {
             state.dissipated[bond] = by_softening(problem, state, bond, None);
         }
@@ -25,8 +26,11 @@ pub(super) fn break_bond(problem: &Problem, state: &mut State, record: &BreakRec
     let (bond, criterion) = (record.bond as usize, record.criterion);
     let after = &problem.criteria.list[criterion].after;
     state.dissipated[bond] = if after.is_brittle() {
-        let stored = state.bonds().element(&problem.system, bond);
-        let stored = stored.map_or(0.0, |element| element.energy(&record.deformation));
+        let left = state.softening.remaining.get(bond);
+        let remaining = left.copied().unwrap_or(Remaining::WHOLE);
+        let both = [&record.deformation; 2];
+        let system = &problem.system;
+        let stored = system.mutual_energy(&state.intact, bond, &remaining, both);
         by_softening(problem, state, bond, None) + stored / record.ratio.powi(2)
     } else {
         by_softening(problem, state, bond, Some(criterion))
@@ -48,7 +52,7 @@ fn by_softening(problem: &Problem, state: &State, bond: usize, end: Option<usize
         if taken == 0.0 {
             0.0
         } else {
-            taken * energy_at_limit(&problem.system, law, bond)
+            taken * problem.system.energy_at_limit(law, bond)
         }
     };
     (0..state.softening.largest.len()).map(of).sum()

@@ -107,7 +107,7 @@ impl<'a> Path<'a> {
 
     /// Lets the bonds soften from here on, if those of the criteria do.
     pub(super) fn soften(&mut self) {
-        let n_bonds = self.problem.system.bonds.len();
+        let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equilibrium.soften();
     }
@@ -291,7 +291,7 @@ impl<'a> Path<'a> {
         );
         self.peak = self.peak.max(record.reaction);
         let view = View {
-            system: &self.problem.system,
+            system: &*self.problem.system,
             state: &self.state,
             balanced,
             loads: &*self.problem.loads,

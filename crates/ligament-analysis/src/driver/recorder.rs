@@ -1,6 +1,6 @@
 //! Bookkeeping that every driver shares: energies and records.
 
-use ligament_model::element::{BondDeformation, BondElement, Remaining};
+use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
@@ -88,8 +88,8 @@ impl Energies {
         for (bond, (before, left_before)) in self.last.iter().enumerate() {
             let lost = left_before.lost(&remaining[bond]);
             if state.intact[bond] && lost != Remaining::NOTHING {
-                let element = BondElement::of(&problem.system, &state.intact, bond).weakened(&lost);
-                self.released += element.mutual_energy(before, &balanced.deformations[bond]);
+                let both = [before, &balanced.deformations[bond]];
+                self.released += (problem.system).mutual_energy(&state.intact, bond, &lost, both);
             }
         }
         let now = balanced.deformations.iter().zip(remaining);
@@ -144,7 +144,9 @@ pub(super) fn step_record(
         probes: problem
             .probes
             .iter()
-            .map(|probe| (probe.reading).value(&problem.system, &problem.criteria, state, balanced))
+            .map(|probe| {
+                (probe.reading).value(&*problem.system, &problem.criteria, state, balanced)
+            })
             .collect(),
     }
 }

@@ -34,10 +34,10 @@ pub(super) fn begin(
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
-    let mut unloaded = State::fresh(&problem.system);
+    let mut unloaded = State::fresh(&*problem.system);
     let breakage = equilibrium.break_bonds(&mut unloaded, &[]);
     let free = gauges::free_bodies(
-        &problem.system,
+        &*problem.system,
         &*problem.loads,
         equilibrium.fragments(),
         &breakage.holds,
@@ -105,7 +105,7 @@ fn stability(
     state: &State,
     observer: &mut dyn Observer,
 ) -> Result<Option<Stability>, SetupError> {
-    if !problem.system.has_negative_stiffness() {
+    if !problem.system.some_negative() {
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;

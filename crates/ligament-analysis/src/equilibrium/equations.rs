@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::FactorKind;
-use ligament_model::BondSystem;
-use ligament_model::element::{BondDeformation, ElementKind};
+use ligament_model::element::BondDeformation;
+use ligament_model::interface::PointStiffness;
 
 use crate::balanced::{Balanced, Unbalanced};
 use crate::breakage::Breakage;
@@ -47,7 +47,7 @@ pub(super) struct Equations {
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
-    point_stiffness: [f64; 2],
+    point_stiffness: PointStiffness,
     /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
     pub(super) largest_forces: [f64; 2],
     pub(super) costs: Costs,
@@ -57,7 +57,7 @@ impl Equations {
     /// Numbers the unknowns, analyses the pattern and chooses the solver; nothing is factorised yet.
     pub(super) fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
-        let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
+        let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
         let stiffness = Arc::new(Stiffness::new(system, unknowns, problem.solver)?);
         let solver: Box<dyn TangentSolver> = if stiffness.choice().unsymmetric {
             Box::new(UnsymmetricSolver::new(stiffness.clone()))
@@ -66,11 +66,12 @@ impl Equations {
         };
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
-            energy_tolerance: match system.element {
-                ElementKind::TrueStrain | ElementKind::Pairwise => 0.0,
-                _ => energy_tolerance,
+            energy_tolerance: if system.is_linear() && system.has_energy() {
+                energy_tolerance
+            } else {
+                0.0
             },
-            point_stiffness: largest_point_stiffness(system),
+            point_stiffness: system.largest_point_stiffness(),
             largest_forces: [0.0; 2],
             costs: Costs {
                 analysis: stiffness.analysis_time(),
@@ -141,8 +142,7 @@ impl Equations {
 
     /// Deformations of a state (n_bonds).
     pub(super) fn deformations(&self, state: &State) -> Vec<BondDeformation> {
-        internal::deformations(
-            &self.problem.system,
+        self.problem.system.deformations(
             &state.intact,
             &state.displacement,
             self.problem.loads.thermal_strain(state.load_factor),
@@ -156,8 +156,7 @@ impl Equations {
         deformations: Vec<BondDeformation>,
     ) -> Balanced {
         let start = Instant::now();
-        let swept = internal::forces(
-            &self.problem.system,
+        let swept = self.problem.system.forces(
             state.bonds(),
             deformations,
             self.problem.loads.thermal_strain(state.load_factor),
@@ -222,8 +221,8 @@ impl Equations {
     /// Force and moment at a point that are rounding of the displacements, N and N m.
     fn forces_of_rounding(&self, state: &State) -> [f64; 2] {
         let displacement = largest_displacement(state);
-        self.point_stiffness
-            .map(|stiffness| ROUNDING * stiffness * displacement)
+        let PointStiffness { force, moment } = self.point_stiffness;
+        [force, moment].map(|stiffness| ROUNDING * stiffness * displacement)
     }
 
     /// Energy that is rounding of the displacements, J.
@@ -240,7 +239,7 @@ impl Equations {
             let Some(&first) = vanishing.first() else {
                 return Ok(held_now);
             };
-            if self.problem.system.has_negative_stiffness() {
+            if self.problem.system.some_negative() {
                 return Err(self.vanishing_pivot(first));
             }
             for unknown in vanishing {
@@ -256,9 +255,9 @@ impl Equations {
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.degrees_of_freedom()[unknown] as usize;
         let point = (dof / COMPONENTS) as u32;
-        let component = Component::of(dof).name();
+        let component = Component::at(dof).name();
         let is_llt = self.stiffness.choice().factorisation == FactorKind::Llt;
-        if is_llt && self.problem.system.has_negative_stiffness() {
+        if is_llt && self.problem.system.some_negative() {
             Unbalanced::NotPositiveDefinite { point, component }
         } else {
             Unbalanced::VanishingPivot { point, component }
@@ -269,23 +268,8 @@ impl Equations {
 fn largest_displacement(state: &State) -> f64 {
     state
         .displacement
-        .chunks(COMPONENTS)
-        .flat_map(|motion| &motion[..Component::Rotation.index()])
-        .fold(0.0, |largest: f64, value| largest.max(value.abs()))
-}
-
-/// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
-pub(crate) fn largest_point_stiffness(system: &BondSystem) -> [f64; 2] {
-    let mut largest = [0.0_f64; 2];
-    for point in 0..system.cloud.len() as u32 {
-        let mut sum = [0.0; 2];
-        for &bond in system.bonds.incidence.at(point) {
-            let bond = bond as usize;
-            let (length, shear) = (system.bonds.length[bond], system.shear_rigidity[bond].abs());
-            sum[0] += (system.axial_rigidity[bond].abs() + shear) / length.powi(2);
-            sum[1] += (shear + system.rotational_rigidity[bond].abs()) / length;
-        }
-        largest = [0, 1].map(|k| largest[k].max(sum[k]));
-    }
-    largest
+        .iter()
+        .enumerate()
+        .filter(|&(dof, _)| !Component::at(dof).is_rotation())
+        .fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()))
 }

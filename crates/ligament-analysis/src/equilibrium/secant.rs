@@ -107,10 +107,13 @@ fn at_unknowns(equations: &Equations, state: &State) -> Vec<f64> {
 
 /// 1 at displacements and the spacing of the point at rotations, which makes lengths of both, shape (n_unknowns).
 fn lengths(equations: &Equations) -> Vec<f64> {
-    let spacing = &equations.problem.system.cloud.spacing;
-    let length = |&dof: &u32| match Component::of(dof as usize) {
-        Component::Rotation => spacing[dof as usize / COMPONENTS],
-        Component::X | Component::Y => 1.0,
+    let spacing = equations.problem.system.spacing();
+    let length = |&dof: &u32| {
+        if Component::at(dof as usize).is_rotation() {
+            spacing[dof as usize / COMPONENTS]
+        } else {
+            1.0
+        }
     };
     equations.degrees_of_freedom().iter().map(length).collect()
 }

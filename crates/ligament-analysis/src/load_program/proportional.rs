@@ -4,8 +4,8 @@ use thiserror::Error;
 
 use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
 use crate::internal::InternalForces;
-use crate::thermal_strain::ThermalStrain;
 use crate::unknowns::{COMPONENTS, Component};
+use ligament_model::thermal::ThermalStrain;
 
 /// Loads that are all proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor
 /// one, and what the history reports of them.

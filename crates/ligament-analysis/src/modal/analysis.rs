@@ -64,10 +64,10 @@ pub struct ModalAnalysis {
 impl ModalAnalysis {
     /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
     pub fn new(problem: &ModalProblem, settings: ModalSettings) -> Result<Self, ModalError> {
-        let (system, supports) = (&problem.system, &problem.supports);
+        let (system, supports) = (&*problem.system, &problem.supports);
         let unknowns = Unknowns::all_but(system, |dof| supports.held[dof]);
         let has_rotations = !unknowns.rotations_only().is_empty();
-        let suitable = if has_rotations && system.shear_rigidity.iter().any(|&k| k < 0.0) {
+        let suitable = if has_rotations && system.some_negative_shear() {
             Rotations::Massless
         } else {
             Rotations::Inertia
@@ -83,7 +83,7 @@ impl ModalAnalysis {
         if massive.is_empty() {
             return Err(ModalError::NothingMoves);
         }
-        let stiffness = Stiffness::new(system, unknowns, problem.solver)?;
+        let stiffness = Stiffness::new(&problem.system, unknowns, problem.solver)?;
         Ok(Self {
             problem: problem.clone(),
             settings,
@@ -117,7 +117,9 @@ impl ModalAnalysis {
     /// inertia), and if there are more than were found, those are sought.
     pub fn find(mut self) -> Result<ModalOutcome, ModalError> {
         let start = Instant::now();
-        let matrix = self.stiffness.assemble(&State::fresh(&self.problem.system));
+        let matrix = self
+            .stiffness
+            .assemble(&State::fresh(&*self.problem.system));
         self.costs.assembly += start.elapsed();
         let largest = self.largest_ratio(&matrix);
         let rigid_below = RIGID * largest;
@@ -130,18 +132,18 @@ impl ModalAnalysis {
             supports,
             ..
         } = self.problem.clone();
-        let motions = rigid::motions(&system, &supports, &self.masses, wanted);
+        let motions = rigid::motions(&*system, &supports, &self.masses, wanted);
         let mut found = Found {
             shapes: motions.shapes,
             stability: None,
             complete: None,
         };
-        let is_rigid = |shape: &Vec<f64>| shape::eigenvalue(&system, shape) <= rigid_below;
+        let is_rigid = |shape: &Vec<f64>| shape::eigenvalue(&*system, shape) <= rigid_below;
         found.shapes.retain(is_rigid);
         if found.shapes.len() < wanted {
             self.find_elastic(&mut found, matrix, largest, wanted, &mut notices)?;
         }
-        let moving = Moving::new(&system.cloud, &mass, &self.masses);
+        let moving = Moving::new(&*system, &mass, &self.masses);
         let modes = self.modes(found.shapes, wanted, &moving, rigid_below);
         notices.extend(notices_after(&modes, motions.count, found.stability));
         Ok(ModalOutcome {
@@ -301,7 +303,7 @@ impl ModalAnalysis {
 
     fn eigenvalues(&mut self, shapes: &[Vec<f64>]) -> Vec<f64> {
         let start = Instant::now();
-        let system = &self.problem.system;
+        let system = &*self.problem.system;
         let values = shapes.iter();
         let values = values
             .map(|shape| shape::eigenvalue(system, shape))
@@ -331,7 +333,7 @@ impl ModalAnalysis {
         };
         numbered.sort_by(|one, other| rank(one.0).total_cmp(&rank(other.0)));
         numbered.truncate(wanted);
-        let (system, unknowns) = (&self.problem.system, self.stiffness.unknowns());
+        let (system, unknowns) = (&*self.problem.system, self.stiffness.unknowns());
         let modes = numbered.into_iter().map(|(_, mut shape)| {
             self.masses.normalise(&mut shape);
             shape::mode(system, unknowns, &self.masses, moving, shape, rigid_below)
@@ -342,8 +344,8 @@ impl ModalAnalysis {
     }
 
     fn stability(&self, negative: usize) -> Result<Option<Stability>, ModalError> {
-        let system = &self.problem.system;
-        if !system.has_negative_stiffness() {
+        let system = &*self.problem.system;
+        if !system.some_negative() {
             return Ok(None);
         }
         let expected = self.stiffness.negative_rotations(&State::fresh(system))?;

@@ -19,7 +19,7 @@ pub(super) struct Masses {
 impl Masses {
     /// Masses of the unknowns.
     pub(super) fn new(mass: &LumpedMass, unknowns: &Unknowns, rotations: Rotations) -> Self {
-        let of_component = |dof: usize| match (Component::of(dof), rotations) {
+        let of_component = |dof: usize| match (Component::at(dof), rotations) {
             (Component::X | Component::Y, _) => mass.mass[dof / COMPONENTS],
             (Component::Rotation, Rotations::Inertia) => mass.inertia[dof / COMPONENTS],
             (Component::Rotation, Rotations::Massless) => 0.0,

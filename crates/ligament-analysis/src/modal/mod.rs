@@ -17,7 +17,7 @@ mod shape;
 use std::sync::Arc;
 
 use ligament_linalg::FactorError;
-use ligament_model::{BondSystem, LumpedMass};
+use ligament_model::{Bonds, LumpedMass};
 use thiserror::Error;
 
 use crate::balanced::Stability;
@@ -34,7 +34,7 @@ pub use participation::Moving;
 #[derive(Clone)]
 pub struct ModalProblem {
     /// The bond system.
-    pub system: Arc<BondSystem>,
+    pub system: Arc<dyn Bonds>,
     /// Masses of its points.
     pub mass: Arc<LumpedMass>,
     /// What holds it.

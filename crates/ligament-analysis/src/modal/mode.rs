@@ -23,7 +23,7 @@ pub struct Mode {
     pub residual: f64,
     /// phi^T M r for the rigid motions r of size one along x, along y and about the centre of mass, kg^(1/2), kg^(1/2) and
     /// kg^(1/2) m: their squares are the effective masses and inertia.
-    pub participation: [f64; 3],
+    pub participation: Vec<f64>,
     /// Displacements and rotations, shape (3 n_points): phi^T M phi = 1 kg, and the first of the largest displacements is
     /// positive.
     pub shape: Vec<f64>,

@@ -1,22 +1,22 @@
 //! Modes from the motions of their points.
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 
 use super::masses::Masses;
 use super::mode::{Mode, ModeKind, RESIDUAL_TOLERANCE};
 use super::participation::Moving;
-use crate::equilibrium::{ROUNDING, largest_point_stiffness};
+use crate::equilibrium::ROUNDING;
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::BondsLeft;
-use crate::thermal_strain::ThermalStrain;
-use crate::unknowns::{COMPONENTS, Unknowns};
+use crate::unknowns::{Component, Unknowns};
+use ligament_model::thermal::ThermalStrain;
 
 /// omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds: exact to the square of the shape's error.
-pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
+pub(super) fn eigenvalue(system: &dyn Bonds, shape: &[f64]) -> f64 {
     2.0 * internal::sweep(
         system,
-        BondsLeft::whole(&vec![true; system.bonds.len()]),
+        BondsLeft::whole(&vec![true; system.ends().len()]),
         shape,
         ThermalStrain::NONE,
     )
@@ -25,14 +25,14 @@ pub(super) fn eigenvalue(system: &BondSystem, shape: &[f64]) -> f64 {
 
 /// The mode of a normalised shape, rigid if its omega^2 is not above `rigid_below`.
 pub(super) fn mode(
-    system: &BondSystem,
+    system: &dyn Bonds,
     unknowns: &Unknowns,
     masses: &Masses,
     moving: &Moving,
     shape: Vec<f64>,
     rigid_below: f64,
 ) -> Mode {
-    let intact = vec![true; system.bonds.len()];
+    let intact = vec![true; system.ends().len()];
     let BondSweep {
         deformations,
         internal,
@@ -66,7 +66,7 @@ pub(super) fn mode(
 /// Largest |K phi - omega^2 M phi|, forces relative to the forces and moments to the moments that meet at a point. A rigid
 /// motion has no forces but rounding: there what rounding may be is the scale.
 fn residual(
-    system: &BondSystem,
+    system: &dyn Bonds,
     unknowns: &Unknowns,
     masses: &Masses,
     shape: &[f64],
@@ -82,13 +82,13 @@ fn residual(
         })
         .collect();
     let largest = (shape.iter().enumerate())
-        .filter(|(dof, _)| dof % COMPONENTS < 2)
+        .filter(|&(dof, _)| !Component::at(dof).is_rotation())
         .fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
-    let of_rounding = largest_point_stiffness(system)
-        .map(|stiffness| ROUNDING / RESIDUAL_TOLERANCE * stiffness * largest);
+    let stiffness = system.largest_point_stiffness();
+    let of_rounding = |stiffness: f64| ROUNDING / RESIDUAL_TOLERANCE * stiffness * largest;
     let scales = InternalForces {
-        force_scale: internal.force_scale.max(of_rounding[0]),
-        moment_scale: internal.moment_scale.max(of_rounding[1]),
+        force_scale: internal.force_scale.max(of_rounding(stiffness.force)),
+        moment_scale: internal.moment_scale.max(of_rounding(stiffness.moment)),
         thermal: 0.0,
         values: Vec::new(),
     };

@@ -13,7 +13,7 @@ use crate::costs::Costs;
 use crate::solver::{SolverChoice, Update};
 use crate::state::State;
 use crate::stiffness::Stiffness;
-use crate::thermal_strain::ThermalStrain;
+use ligament_model::thermal::ThermalStrain;
 
 /// A direct solver for symmetric stiffnesses.
 pub(crate) struct DirectSolver {
@@ -97,12 +97,12 @@ impl TangentSolver for DirectSolver {
         let start = Instant::now();
         let coupled = self.coupled();
         let terms = coupled.of_breakage(breakage);
-        let mut force = Vec::new();
         // A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there: up to rounding,
         // which is taken away. For this the forces at the holds must be in the right-hand side.
-        breakage.unbalanced_force(&state.displacement, expansion, |dof, value| {
-            force.extend(coupled.number(dof).map(|unknown| (unknown, value)));
-        });
+        let force = breakage.unbalanced_force(&state.displacement, expansion);
+        let force: Vec<(usize, f64)> = (force.into_iter())
+            .filter_map(|(dof, value)| Some((coupled.number(dof)?, value)))
+            .collect();
         let half_solved = factor.change(&terms, &force);
         costs.change += start.elapsed();
         costs.changes += 1;

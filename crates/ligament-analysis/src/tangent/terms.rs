@@ -1,7 +1,7 @@
 //! Terms of rank one by which breakages, holds and softening change a factor.
 
 use ligament_linalg::RankOne;
-use ligament_model::element::{BondElement, Remaining, Term};
+use ligament_model::element::{Remaining, Term};
 use rayon::prelude::*;
 
 use crate::breakage::Breakage;
@@ -54,8 +54,7 @@ impl Coupled<'_> {
         for &bond in due {
             let remaining = state.softening.remaining[bond];
             let lost = in_factor[bond].lost(&remaining);
-            let element = BondElement::of(system, &state.intact, bond).weakened(&lost);
-            let of_element = element.terms().into_iter();
+            let of_element = system.terms(&state.intact, bond, &lost).into_iter();
             terms.extend(of_element.filter_map(|term| self.at_unknowns(term, -1.0)));
             in_factor[bond] = remaining;
         }
@@ -91,10 +90,11 @@ impl Coupled<'_> {
     /// Diagonal entry of the matrix with all bonds.
     fn whole_diagonal(self, dof: usize) -> f64 {
         let system = self.stiffness.system();
-        let whole = vec![true; system.bonds.len()];
-        let elements = system.elements_of((dof / COMPONENTS) as u32).iter();
+        let whole = vec![true; system.ends().len()];
+        let point = (dof / COMPONENTS) as u32;
+        let elements = system.elements_at_points().at(point).iter();
         elements
-            .flat_map(|&bond| BondElement::of(system, &whole, bond as usize).terms())
+            .flat_map(|&bond| system.terms(&whole, bond as usize, &Remaining::WHOLE))
             .map(|(rigidity, entries)| {
                 let own = entries.iter().filter(|(of, _)| *of == dof);
                 own.map(|(_, value)| rigidity * value * value).sum::<f64>()

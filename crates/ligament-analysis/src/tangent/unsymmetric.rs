@@ -4,16 +4,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
-use ligament_model::element::Element;
-use ligament_model::element::pairwise::PairwiseElement;
 
 use super::TangentSolver;
 use crate::breakage::Breakage;
 use crate::costs::Costs;
 use crate::state::State;
 use crate::stiffness::Stiffness;
-use crate::thermal_strain::ThermalStrain;
-use crate::unknowns::COMPONENTS;
+use ligament_model::thermal::ThermalStrain;
 
 /// A direct solver for stiffnesses without symmetry, of bonds that do not break.
 pub(crate) struct UnsymmetricSolver {
@@ -35,24 +32,11 @@ impl UnsymmetricSolver {
         let (system, unknowns) = (self.stiffness.system(), self.stiffness.unknowns());
         let free = |dof: usize| unknowns.number(dof).filter(|_| !state.held[dof]);
         let mut entries = Vec::new();
-        for bond in 0..system.bonds.len() {
-            let element = PairwiseElement::of(system, &state.intact, bond);
-            let [a, b] = element.ends();
-            for (point, block) in element.couplings() {
-                for (end, sign) in [(a, -1.0), (b, 1.0)] {
-                    for (r, row) in block.iter().enumerate() {
-                        for (c, value) in row.iter().enumerate() {
-                            let [row, column] = [(end, r), (point, c)].map(|(point, component)| {
-                                free(COMPONENTS * point as usize + component)
-                            });
-                            if let (Some(row), Some(column)) = (row, column) {
-                                entries.push((row, column, sign * value));
-                            }
-                        }
-                    }
-                }
+        system.add_derivatives(&state.intact, &mut |row, column, value| {
+            if let (Some(row), Some(column)) = (free(row), free(column)) {
+                entries.push((row, column, value));
             }
-        }
+        });
         let held = unknowns.degrees_of_freedom().iter().enumerate();
         entries.extend(
             held.filter(|&(_, &dof)| state.held[dof as usize])

@@ -30,7 +30,8 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
     write!(out, "  {:<21} {} = ", criterion.name, measure.formula())?;
     let failing = |bond: &usize| criterion.limit[*bond].is_finite();
     let bonds: Vec<usize> = (0..criterion.limit.len()).filter(failing).collect();
-    let of_bonds = |value: &dyn Fn(usize) -> f64| Range::of(bonds.iter().map(|&bond| value(bond)));
+    let of_bonds =
+        |value: &dyn Fn(usize) -> f64| Range::over(bonds.iter().map(|&bond| value(bond)));
     let Some(limits) = of_bonds(&|bond| criterion.limit[bond]) else {
         return writeln!(out, "no limit: no bond may fail");
     };
@@ -76,7 +77,8 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
     if let [region] = setup.materials.as_slice()
         && let Some(constants) = constants(&region.material, &setup.law, setup.plane())
-        && let Some(limits) = Range::of(criterion.limit.iter().copied().filter(|it| it.is_finite()))
+        && let Some(limits) =
+            Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
         let young = constants.in_plane(setup.plane()).young;
         writeln!(
@@ -101,7 +103,7 @@ fn prefix(name: &str) -> String {
 struct Range([f64; 3]);
 
 impl Range {
-    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+    fn over(values: impl Iterator<Item = f64>) -> Option<Self> {
         let mut values: Vec<f64> = values.collect();
         values.sort_unstable_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;

@@ -65,7 +65,7 @@ fn check_here(
         _ => check_loading(case, extent, &model, &mut stages, out)?,
     }
     write_stages(out, stages.done())?;
-    let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
+    let loose = Fragments::find(&*model.system, &vec![true; model.system.bonds.len()])
         .points
         .len();
     if loose > 1 {
@@ -112,7 +112,7 @@ fn check_loading(
 
     write_model(out, case, model)?;
     write_boundary(out, case, model.body(), &loading)?;
-    for free in gauges::of_intact_body(&model.system, &*loading.boundary) {
+    for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, model.body()))?;
     }
     write_loading(out, case)?;

@@ -67,7 +67,7 @@ impl<'a> ResultWriter<'a> {
             model_file::write(folder, grid, fixed, problem, None)?;
         }
         let can_fail = !problem.criteria.list.is_empty();
-        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.bonds.len()));
+        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
         Ok(Self {
             folder,
             grid,
@@ -97,7 +97,7 @@ impl<'a> ResultWriter<'a> {
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let (system, balanced) = (view.system, view.balanced);
-        let names = deformation_names(system.element);
+        let names = deformation_names(system);
         let deformations: Vec<Vec<f64>> = (0..names.len())
             .map(|place| {
                 let deformations = balanced.deformations.iter();
@@ -106,7 +106,7 @@ impl<'a> ResultWriter<'a> {
                     .collect()
             })
             .collect();
-        let utilisation: Vec<f64> = (0..system.bonds.len())
+        let utilisation: Vec<f64> = (0..system.ends().len())
             .map(|bond| (view.criteria).utilisation(bond, &balanced.deformations[bond]))
             .collect();
         let state: Vec<i64> = view
@@ -117,8 +117,7 @@ impl<'a> ResultWriter<'a> {
             .collect();
         let displacement = point_fields::displacements(view);
         let lines: Vec<vtu::Cell> = system
-            .bonds
-            .ends
+            .ends()
             .iter()
             .map(|&ends| vtu::Cell::Line(ends))
             .collect();
@@ -168,7 +167,7 @@ impl Observer for ResultWriter<'_> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
         }
-        let ends = &self.problem.system.bonds.ends;
+        let ends = self.problem.system.ends();
         failed(self.tables.breaks(records, &self.grid.tags, ends))
     }
 

@@ -40,20 +40,20 @@ pub(super) fn write(
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
-    let lines: Vec<vtu::Cell> = (system.bonds.ends.iter())
+    let lines: Vec<vtu::Cell> = (system.ends().iter())
         .chain(absent.iter().map(|pair| &pair.ends))
         .map(|&ends| vtu::Cell::Line(ends))
         .collect();
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
-    let absence: Vec<i64> = std::iter::repeat_n(0, system.bonds.len())
+    let absence: Vec<i64> = std::iter::repeat_n(0, system.ends().len())
         .chain(absent.iter().map(|pair| pair.absence.number()))
         .collect();
-    let horizon: Vec<f32> = (system.bonds.horizon.iter())
+    let horizon: Vec<f32> = (system.horizons().iter())
         .chain(absent.iter().map(|pair| &pair.horizon))
         .map(|&horizon| horizon as f32)
         .collect();
     let nothing = std::iter::repeat_n(f32::NAN, n_absent);
-    let alpha: Vec<f32> = (system.weight.iter().zip(&fixed.domain_factor))
+    let alpha: Vec<f32> = (system.weights().iter().zip(&fixed.domain_factor))
         .map(|(weight, omega)| (weight / omega) as f32)
         .chain(nothing.clone())
         .collect();
@@ -79,7 +79,7 @@ pub(super) fn write(
         points: &grid.positions,
         cells: &lines,
         point_fields: &[
-            Field::scalar("volume", &system.cloud.volumes),
+            Field::scalar("volume", system.volumes()),
             Field::scalar("horizon", &fixed.horizon),
             Field::integer("no_fail", &no_fail),
             Field::integer(grid.tagged, &grid.tags),

@@ -1,6 +1,6 @@
 //! The CSV tables of a run.
 
-use ligament_analysis::ElementKind;
+use ligament_analysis::Bonds;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
@@ -107,13 +107,15 @@ pub(super) struct Tables {
 
 /// Names of the components of a bond's deformation in results. The relative rotation of the two ends is left out, because no
 /// criterion looks at it.
-pub(super) fn deformation_names(element: ElementKind) -> &'static [&'static str] {
-    const PAIRS: [&str; 3] = ElementKind::Beam.deformation_names();
-    const STRAINS: [&str; 3] = ElementKind::Imaginary.deformation_names();
-    if element.has_strains() {
-        &STRAINS
-    } else {
-        &PAIRS[..2]
+pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
+    told(system.strain_names())
+}
+
+/// The strains that results have of those with these names.
+pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
+    match names {
+        [told @ .., "rotation"] => told,
+        all => all,
     }
 }
 
@@ -141,7 +143,7 @@ impl Tables {
         let breaks_columns: Vec<&str> = (BREAKS.into_iter())
             .chain(ends.iter().map(String::as_str))
             .chain(["utilisation", "criterion"])
-            .chain(deformation_names(problem.system.element).iter().copied())
+            .chain(deformation_names(&*problem.system).iter().copied())
             .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
@@ -149,7 +151,7 @@ impl Tables {
             breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
             timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
             criteria,
-            n_components: deformation_names(problem.system.element).len(),
+            n_components: deformation_names(&*problem.system).len(),
             step: 0,
             round: 0,
             load_factor: 0.0,

@@ -7,7 +7,7 @@ use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
-use crate::plots::{Colour, Mark, Paper, Plot, Series};
+use crate::plots::{Colour, Mark, Plot, Series};
 use crate::stored_loading::stored_loading;
 use ligament::suggestion::hint;
 
@@ -96,7 +96,7 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         .target
         .width
         .unwrap_or(WIDTHS[usize::from(!is_single)]);
-    let svg = plot.on(Paper::new(width, &plot.series))?;
+    let svg = plot.for_paper(width)?;
     request.target.write(file, &svg)
 }
 

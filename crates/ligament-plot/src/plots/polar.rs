@@ -9,8 +9,8 @@ use plotters::prelude::{
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::paper::Pen;
-use super::{Chart, Drawn, GRID, LEGEND, PlotError, Series, TEXT, decimals, draw_legends, tick};
+use super::paper::{LEGEND, Pen};
+use super::{Chart, Drawn, GRID, PlotError, Series, TEXT, decimals, draw_legends, tick};
 
 /// Width and height, in pixels: the room beside the legend is square.
 const SIZE: (u32, u32) = (570 + LEGEND as u32, 600);

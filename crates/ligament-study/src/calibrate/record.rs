@@ -8,13 +8,22 @@ use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
 use serde::{Deserialize, Serialize};
 
+use super::request::{CalibrationError, Request, setting};
 use super::search::{Trial, Verdict};
-use super::{CUT_SHORT, CalibrationError, Request, setting};
 use crate::inputs::Inputs;
 use crate::quantities::{Quantities, QuantityError};
 
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
+
+/// Ends of a run at which it was still carrying more load than before, so that a peak may lie beyond.
+const CUT_SHORT: [&str; 5] = [
+    "steps-done",
+    "full-load",
+    "displacement-reached",
+    "wall-time",
+    "bonds-broken",
+];
 
 /// The runs so far, on disk and in memory.
 pub(super) struct Record {

@@ -307,29 +307,8 @@ impl Handed {
         let n_groups = section(lines.next()?, "groups")?;
         let mut groups: Vec<Group> = Vec::new();
         for _ in 0..n_groups {
-            let mut words = lines.next()?.splitn(3, ' ');
-            let dimension: u8 = words.next()?.parse().ok()?;
-            let count = words.next()?.parse().ok()?;
-            let name = words.next()?.to_owned();
-            let members: Option<Vec<Vec<u32>>> = lines.by_ref().take(count).map(numbers).collect();
-            let (mut nodes, mut edges, mut of_cells) = (Vec::new(), Vec::new(), Vec::new());
-            for member in members? {
-                match (dimension, member.as_slice()) {
-                    (0, &[node]) if is_node(&node) => nodes.push(node),
-                    (1, &[a, b]) if is_node(&a) && is_node(&b) => edges.push([a, b]),
-                    (2, &[cell]) if (cell as usize) < cells.len() => of_cells.push(cell),
-                    _ => return None,
-                }
-            }
-            groups.push(Group {
-                name,
-                dimension,
-                // Numbers of groups are those of their order in their dimension, from 1.
-                number: 1 + groups.iter().filter(|it| it.dimension == dimension).count() as i32,
-                nodes,
-                edges,
-                cells: of_cells,
-            });
+            let group = group(&mut lines, &groups, positions.len(), cells.len())?;
+            groups.push(group);
         }
         (lines.next()? == "end").then_some(Self {
             mesh: Mesh {
@@ -343,6 +322,37 @@ impl Handed {
             remarks,
         })
     }
+}
+
+/// The next group, after those that came before, of a mesh with so many nodes and cells.
+fn group<'a>(
+    lines: &mut impl Iterator<Item = &'a str>,
+    before: &[Group],
+    n_nodes: usize,
+    n_cells: usize,
+) -> Option<Group> {
+    let mut words = lines.next()?.splitn(3, ' ');
+    let dimension: u8 = words.next()?.parse().ok()?;
+    let count = words.next()?.parse().ok()?;
+    let mut group = Group {
+        name: words.next()?.to_owned(),
+        dimension,
+        // Numbers of groups are those of their order in their dimension, from 1.
+        number: 1 + before.iter().filter(|it| it.dimension == dimension).count() as i32,
+        nodes: Vec::new(),
+        edges: Vec::new(),
+        cells: Vec::new(),
+    };
+    let is_node = |node: u32| (node as usize) < n_nodes;
+    for line in lines.take(count) {
+        match (dimension, numbers(line)?.as_slice()) {
+            (0, &[node]) if is_node(node) => group.nodes.push(node),
+            (1, &[a, b]) if is_node(a) && is_node(b) => group.edges.push([a, b]),
+            (2, &[cell]) if (cell as usize) < n_cells => group.cells.push(cell),
+            _ => return None,
+        }
+    }
+    Some(group)
 }
 
 /// The number of lines of a section.

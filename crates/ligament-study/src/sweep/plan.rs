@@ -149,27 +149,10 @@ fn run(
     let mesh = match &study.geometry {
         None => None,
         Some(geometry) => {
-            let numbers = points().filter(|(axis, _)| axis.of_geometry);
-            let numbers = numbers.filter_map(|(axis, point)| {
-                Some((axis.keys.first()?.clone(), point.cells.first()?.as_f64()?))
-            });
-            let name = (points().zip(names).zip(&place))
-                .filter(|(((axis, _), _), _)| axis.of_geometry)
-                .map(|((_, names), &k)| names[k].as_str());
-            let name = name.collect::<Vec<_>>().join(",");
-            let source = KeyPath(vec!["geometry".to_owned()]);
-            let content = contents
-                .identity(geometry)
-                .map_err(|error| StudyError::Input {
-                    location: study.location(&source),
-                    run: self::shortened(name.clone(), LONGEST_NAME),
-                    path: geometry.clone(),
-                    source: error,
-                })?;
-            let plan = MeshPlan::new(geometry, numbers.collect(), meshes, &name, &content);
+            let plan = mesh_plan(study, geometry, names, &place, meshes, contents)?;
             settings.push(Setting {
                 given: format!("mesh.file={}", quoted(&plan.request.out.to_string_lossy())),
-                place: source,
+                place: geometry_key(),
             });
             Some(plan)
         }
@@ -199,6 +182,50 @@ fn run(
         mesh,
         inputs,
     })
+}
+
+/// The mesh of a geometry with the numbers of a run.
+fn mesh_plan(
+    study: &Study,
+    geometry: &Path,
+    names: &[Vec<String>],
+    place: &[usize],
+    meshes: &Path,
+    contents: &mut Contents,
+) -> Result<MeshPlan, StudyError> {
+    let of_geometry = || {
+        let values = study.axes.iter().zip(names).zip(place);
+        values.filter(|((axis, _), _)| axis.of_geometry)
+    };
+    let numbers = of_geometry().filter_map(|((axis, _), &k)| {
+        Some((
+            axis.keys.first()?.clone(),
+            axis.points[k].cells.first()?.as_f64()?,
+        ))
+    });
+    let parts: Vec<&str> = of_geometry()
+        .map(|((_, names), &k)| names[k].as_str())
+        .collect();
+    let name = parts.join(",");
+    let content = contents
+        .identity(geometry)
+        .map_err(|source| StudyError::Input {
+            location: study.location(&geometry_key()),
+            run: shortened(name.clone(), LONGEST_NAME),
+            path: geometry.to_owned(),
+            source,
+        })?;
+    Ok(MeshPlan::new(
+        geometry,
+        numbers.collect(),
+        meshes,
+        &name,
+        &content,
+    ))
+}
+
+fn geometry_key() -> KeyPath {
+    KeyPath(vec!["geometry".to_owned()])
 }
 
 fn case_key() -> KeyPath {

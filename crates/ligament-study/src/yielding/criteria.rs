@@ -7,7 +7,7 @@ use ligament_model::failure::{Criteria, Criterion, Measure, sliding, stretch};
 use ligament_model::yielding::{Family, PrincipalStretches, Worst, margin, printed_orientations};
 use ligament_model::{Isotropic, Plane};
 
-use super::YieldError;
+use super::error::YieldError;
 use ligament::suggestion::hint;
 
 /// A criterion with one limit.

@@ -5,8 +5,8 @@ use ligament_model::failure::softening::brittle;
 use ligament_model::failure::{AfterLimit, Criteria, Criterion};
 use ligament_model::yielding::{Family, PrincipalStretches, Worst, lattice};
 
-use super::YieldError;
 use super::criteria::{Combination, Strengths};
+use super::error::YieldError;
 
 /// A family of bonds with its criteria and a name.
 #[derive(Debug, Clone)]

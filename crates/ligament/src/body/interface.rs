@@ -14,15 +14,15 @@ use thiserror::Error;
     if *.cells == 0 { "is no edge of a cell" } else { "has cells on both sides" }
 )]
 pub struct OffOutline {
-    /// Tags of its nodes.
+    /// Tags of the nodes of the edge.
     pub nodes: [u64; 2],
-    /// Its middle, m.
+    /// Middle of the edge, m.
     pub middle: [f64; 2],
-    /// Number of cells that have it.
+    /// Number of cells that have the edge.
     pub cells: usize,
 }
 
-/// What a body comes from.
+/// Origin of a body's points.
 #[derive(Debug, Clone, Copy)]
 pub enum Origin<'a> {
     /// A mesh with a point at each node.
@@ -33,15 +33,15 @@ pub enum Origin<'a> {
     Points,
 }
 
-/// What a computation needs to know of a body, whatever its points come from.
+/// A body as a computation sees it: points, groups and outline, whatever the points come from.
 pub trait Body: Debug + Send + Sync {
-    /// What it comes from.
+    /// Origin of the points.
     fn origin(&self) -> Origin<'_>;
 
     /// Positions of the points, shape (n_points), m.
     fn positions(&self) -> &[[f64; 2]];
 
-    /// What the tag of a point is one of: `node`, `cell` or `point`.
+    /// The noun that tags belong to: `node`, `cell` or `point`.
     fn tagged(&self) -> &'static str;
 
     /// The tag that a point goes by.
@@ -53,10 +53,10 @@ pub trait Body: Debug + Send + Sync {
     /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud;
 
-    /// What its groups are, for errors: "physical group in the mesh".
+    /// Kind of the body's groups, for errors: "physical group in the mesh".
     fn group_kind(&self) -> &'static str;
 
-    /// The names of its groups.
+    /// Names of the groups.
     fn group_names(&self) -> Vec<String>;
 
     /// Points of the group of this name, ascending; `None` where there is no such group.
@@ -81,20 +81,20 @@ pub trait Body: Debug + Send + Sync {
         &[]
     }
 
-    /// Values at its points that its file brings along.
+    /// Values at the points that the file of the body brings along.
     fn fields(&self) -> &[NodeField] {
         &[]
     }
 
-    /// Marks the points on its rim: at the edge of the body or of a hole (n_points).
+    /// Marks of the points on the rim, at the edge of the body or of a hole (n_points).
     fn rim(&self) -> Vec<bool>;
 
-    /// What the user should know about it.
+    /// Remarks about the body that the user should know.
     fn remarks(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// How result files show it.
+    /// The body as result files show it.
     fn grid(&self) -> BodyGrid;
 
     /// A point in words: "node 12".

@@ -33,7 +33,7 @@ impl MeshBody {
         edges
     }
 
-    /// What the groups of this name hold, whatever their dimension, ascending; `None` where there is none.
+    /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
         let mut groups = self.0.groups_named(name).peekable();
         groups.peek()?;

@@ -36,9 +36,9 @@ pub enum PointsError {
     NoSuchPoint {
         /// Index of the point.
         point: usize,
-        /// Its position, m.
+        /// Position of the point, m.
         position: [f64; 2],
-        /// Its area, m^2.
+        /// Area of the point, m^2.
         area: f64,
     },
     /// A group without points, or with a point that there is not.
@@ -131,7 +131,7 @@ impl Body for Points {
         u64::from(point)
     }
 
-    /// As many as points: each is a cell of its own.
+    /// Number of cells: each point is a cell of its own.
     fn n_cells(&self) -> usize {
         self.positions.len()
     }

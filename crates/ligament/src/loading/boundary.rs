@@ -70,7 +70,7 @@ pub(super) fn couples_have_stiffness(
             && unknowns.number(dof).is_none()
     };
     let rotations =
-        (0..boundary.force.len()).filter(|&dof| Component::of(dof) == Component::Rotation);
+        (0..boundary.force.len()).filter(|&dof| Component::at(dof) == Component::Rotation);
     match rotations.filter(|&dof| is_idle(dof)).count() {
         0 => Ok(()),
         points => {
@@ -83,7 +83,7 @@ pub(super) fn couples_have_stiffness(
 /// Forces and couples of a load at load factor 1, N and N m.
 #[derive(Default)]
 struct Given {
-    /// What its points take.
+    /// Shares of the points of the load.
     at_points: Vec<(u32, [f64; COMPONENTS])>,
     /// Size before the profile: of the sum over the points, or the pressure, Pa.
     size: f64,

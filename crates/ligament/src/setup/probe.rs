@@ -3,6 +3,7 @@
 use ligament_analysis::Component;
 use ligament_analysis::probe::{self, PointField};
 use ligament_model::BondSystem;
+use ligament_model::bonds::precrack;
 
 use super::conditions::Axis;
 
@@ -11,7 +12,7 @@ use super::conditions::Axis;
 pub struct Probe {
     /// Name, unique among the probes.
     pub name: String,
-    /// What it reads.
+    /// Quantity that the probe reads.
     pub reading: Reading,
 }
 
@@ -65,7 +66,11 @@ impl Probe {
                     Axis::X => Component::X,
                     Axis::Y => Component::Y,
                 };
-                probe::Reading::section(system, start, end, component)
+                let (bonds, cloud) = (&system.bonds, &system.cloud);
+                probe::Reading::SectionForce {
+                    bonds: precrack::crossing_bonds(bonds, cloud, start, end),
+                    component,
+                }
             }
         };
         probe::Probe {

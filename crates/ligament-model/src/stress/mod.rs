@@ -9,12 +9,3 @@
 
 pub mod traction;
 pub mod virial;
-
-use ligament_model::element::{BondDeformation, BondElement};
-
-/// Force along x and y that the second end of a bond of two points exerts on the first one, N.
-fn force_on_first(element: &BondElement, deformation: &BondDeformation) -> Option<[f64; 2]> {
-    // The end force is what holds the end in place against the bond: the bond pulls the other way.
-    let [[x, y, _], _] = element.end_forces(deformation)?;
-    Some([-x, -y])
-}
