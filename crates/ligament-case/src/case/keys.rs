@@ -77,15 +77,17 @@ fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault
             return entries.try_for_each(|entry| child(&entry.node, &entry.key));
         }
         Value::List(nodes) => {
-            let mut nodes = nodes.iter().enumerate();
-            return nodes.try_for_each(|(place, node)| child(node, &place.to_string()));
+            // A list of numbers is checked as a whole, by the section that has it.
+            let tables = nodes.iter().enumerate();
+            let mut tables = tables.filter(|(_, node)| matches!(node.value, Value::Table(_)));
+            return tables.try_for_each(|(place, node)| child(node, &place.to_string()));
         }
         Value::Integer(number) if schema["type"] == "integer" => {
             (*number as f64, number.to_string())
         }
         Value::Integer(number) => (*number as f64, format!("{:?}", *number as f64)),
-        Value::Float(number) => (*number, format!("{number:?}")),
-        Value::String(_) | Value::Boolean(_) | Value::Date => return Ok(()),
+        Value::Float(number) if number.is_finite() => (*number, format!("{number:?}")),
+        Value::Float(_) | Value::String(_) | Value::Boolean(_) | Value::Date => return Ok(()),
     };
     let bound = |keyword: &str| schema[keyword].as_f64();
     let holds = bound("minimum").is_none_or(|least| number >= least)
