@@ -9,44 +9,121 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 6] = [
+const ARROWS: [(&str, &[&str]); 11] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
     ("ligament-analysis", &["ligament-linalg", "ligament-model"]),
-    ("ligament-output", &["ligament-analysis"]),
+    (
+        "ligament-output",
+        &["ligament-analysis", "ligament-mesh", "ligament-model"],
+    ),
     (
         "ligament",
+        &["ligament-analysis", "ligament-mesh", "ligament-model"],
+    ),
+    (
+        "ligament-case",
         &[
+            "ligament",
             "ligament-analysis",
             "ligament-mesh",
             "ligament-model",
             "ligament-output",
         ],
     ),
+    ("ligament-plot", &["ligament", "ligament-output"]),
+    (
+        "ligament-study",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+            "ligament-plot",
+        ],
+    ),
+    (
+        "ligament-verify",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+            "ligament-plot",
+            "ligament-study",
+        ],
+    ),
+    (
+        "ligament-cli",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+            "ligament-plot",
+            "ligament-study",
+            "ligament-verify",
+        ],
+    ),
 ];
 
-/// Crates that only the program may use: command line, case files and errors for people.
-const OF_THE_PROGRAM: [&str; 12] = [
-    "anyhow",
-    "clap",
-    "clap_complete",
-    "indicatif",
-    "schemars",
-    "serde",
-    "serde_derive",
-    "serde_json",
-    "strsim",
-    "toml",
-    "toml_edit",
-    "ctrlc",
+/// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
+const RESERVED: [(&str, &[&str]); 11] = [
+    ("clap", &["ligament-cli"]),
+    ("clap_complete", &["ligament-cli"]),
+    ("indicatif", &["ligament-case", "ligament-study"]),
+    (
+        "anyhow",
+        &[
+            "ligament-case",
+            "ligament-cli",
+            "ligament-plot",
+            "ligament-study",
+            "ligament-verify",
+        ],
+    ),
+    ("schemars", &["ligament-case"]),
+    ("serde", &["ligament-case", "ligament-study"]),
+    (
+        "serde_json",
+        &[
+            "ligament-case",
+            "ligament-cli",
+            "ligament-plot",
+            "ligament-study",
+        ],
+    ),
+    ("toml", &["ligament-case", "ligament-cli", "ligament-plot"]),
+    ("toml_edit", &["ligament-case", "ligament-study"]),
+    ("resvg", &["ligament-cli", "ligament-plot"]),
+    ("plotters", &["ligament-plot"]),
 ];
 
-/// The one crate whose benchmarks take a whole problem from this package.
-const WITH_FIXTURES: &str = "ligament-analysis";
+/// Crates that touch files.
+const WITH_FILES: [&str; 6] = [
+    "ligament-case",
+    "ligament-cli",
+    "ligament-output",
+    "ligament-plot",
+    "ligament-study",
+    "ligament-verify",
+];
+
+/// Crates that write to the terminal.
+const TALKING: [&str; 3] = ["ligament-case", "ligament-cli", "ligament-study"];
+
+/// Parts of which no crate holds more than one, so that no room of the house grows over the others.
+const PARTS: usize = 4;
 
 /// What lies at the top of the repository, hidden files and results aside.
-const TOP: [&str; 12] = [
+const TOP: [&str; 13] = [
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -57,6 +134,7 @@ const TOP: [&str; 12] = [
     "README.md",
     "cases",
     "crates",
+    "docs",
     "meshes",
     "tests",
 ];
@@ -163,28 +241,29 @@ fn crates_depend_downwards_only() {
             in_tests, None,
             "{name} knows more of the workspace in its tests"
         );
-        let with_fixtures = of_tests[name].contains(env!("CARGO_PKG_NAME"));
-        assert_eq!(with_fixtures, name == WITH_FIXTURES, "{name}");
+        assert!(
+            !of_tests[name].contains(env!("CARGO_PKG_NAME")),
+            "{name} looks up to the fixtures of the verification"
+        );
     }
 }
 
-/// Case files, the command line and messages to people are the program's business.
+/// The formats of cases, the command line and words for people stay with those whose business they are.
 #[test]
-fn only_the_program_reads_cases_and_talks() {
+fn packages_are_used_where_they_belong() {
     let Dependencies { normal, of_tests } = dependencies();
-    for (name, used) in &normal {
-        let foreign: Vec<&str> = (OF_THE_PROGRAM.iter().copied())
-            .filter(|dependency| used.contains(*dependency) || of_tests[name].contains(*dependency))
-            .collect();
-        if name == "ligament" {
-            assert!(foreign.contains(&"clap") && foreign.contains(&"serde"));
-        } else {
-            assert!(foreign.is_empty(), "{name} depends on {foreign:?}");
-        }
+    for (package, allowed) in RESERVED {
+        let uses = |name: &&String| {
+            [&normal, &of_tests]
+                .iter()
+                .any(|of| of[*name].contains(package))
+        };
+        let users: Vec<&str> = normal.keys().filter(uses).map(String::as_str).collect();
+        assert_eq!(users, allowed, "{package}");
     }
 }
 
-/// The libraries print nothing; only the writer of results and the program touch files.
+/// The libraries print nothing; what computes touches no files.
 #[test]
 fn libraries_neither_print_nor_touch_files() {
     let printing = [
@@ -193,27 +272,49 @@ fn libraries_neither_print_nor_touch_files() {
         "print!(",
         "eprint!(",
         "dbg!",
-        "std::io::stdout",
-        "std::io::stderr",
+        "io::stdout",
+        "io::stderr",
     ];
     let files = ["std::fs", "fs::File", "File::open", "File::create"];
-    let mut writers = 0;
     for (name, _) in ARROWS {
+        let (mut prints, mut touches) = (Vec::new(), Vec::new());
         for (path, lines) in code(name) {
             for (number, line) in lines {
-                let place = format!("{}:{number}: {}", path.display(), line.trim());
-                let touches_files = files.iter().any(|word| line.contains(word));
-                writers += usize::from(touches_files);
-                let may_write = ["ligament", "ligament-output"].contains(&name);
-                assert!(!touches_files || may_write, "{place}");
-                assert!(
-                    name == "ligament" || !printing.iter().any(|word| line.contains(word)),
-                    "{place}"
-                );
+                let has = |words: &[&str]| words.iter().any(|word| line.contains(word));
+                let place = || format!("{}:{number}: {}", path.display(), line.trim());
+                prints.extend(has(&printing).then(place));
+                touches.extend(has(&files).then(place));
             }
         }
+        assert_eq!(
+            TALKING.contains(&name),
+            !prints.is_empty(),
+            "{name} {prints:#?}"
+        );
+        assert_eq!(
+            WITH_FILES.contains(&name),
+            !touches.is_empty(),
+            "{name} {touches:#?}"
+        );
     }
-    assert!(writers > 0, "somebody writes the results");
+}
+
+/// No crate holds more than a quarter of the source lines.
+#[test]
+fn no_crate_outgrows_the_others() {
+    let lines = |path: &PathBuf| std::fs::read_to_string(path).unwrap().lines().count();
+    let of_crate = |name: &str| {
+        let files = sources(&repository().join("crates").join(name).join("src"));
+        files.iter().map(lines).sum::<usize>()
+    };
+    let sizes = ARROWS.map(|(name, _)| (name, of_crate(name)));
+    let whole: usize = sizes.iter().map(|(_, lines)| lines).sum();
+    for (name, lines) in sizes {
+        assert!(
+            PARTS * lines <= whole,
+            "{name} holds {lines} of {whole} lines"
+        );
+    }
 }
 
 /// No source file is longer than 500 lines; there are no exceptions.

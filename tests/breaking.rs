@@ -72,11 +72,11 @@ fn a_pre_crack_is_no_damage() {
     let whole = Bench::new(DISK, &[]).model.system.bonds.len();
     assert_eq!(model.system.bonds.len() + model.cut_bonds, whole);
     let intact = vec![true; model.system.bonds.len()];
-    assert_eq!(largest(fields::damage(&model.system, &intact)), 0.0);
+    assert_eq!(largest(fields::damage(&*model.system, &intact)), 0.0);
     let share = &model.fixed.precrack_share;
     assert!(largest(share.iter().copied()) > 0.3 && share.contains(&0.0));
     // What broke later is damage (NHPD eq. 17), of the bonds that the crack had left.
-    let system = &model.system;
+    let system = &*model.system;
     let (mut broken, mut all) = (vec![0.0; bench.points()], vec![0.0; bench.points()]);
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         let is_broken = run.breaks.iter().any(|record| record.bond as usize == bond);
@@ -104,7 +104,7 @@ fn a_broken_bond_is_an_absent_bond() {
         format!("{DISK}precrack = [{{ points = [[-0.0141, -0.0141], [0.0142, 0.0143]] }}]\n");
     let without = Bench::new(&text, &[]);
     let with = Bench::new(DISK, &[]);
-    let (system, kept) = (&with.model.system, &without.model.system.bonds.ends);
+    let (system, kept) = (&*with.model.system, &without.model.system.bonds.ends);
     let present: BTreeSet<&[u32; 2]> = kept.iter().collect();
     let mut state = State {
         load_factor: 1.0,
@@ -113,11 +113,12 @@ fn a_broken_bond_is_an_absent_bond() {
     let absent: Vec<u32> = (0..system.bonds.len() as u32)
         .filter(|&bond| !present.contains(&system.bonds.ends[bond as usize]))
         .collect();
-    let mut equilibrium = Equilibrium::of(&with.problem(), 1e-4).unwrap();
+    let mut equilibrium = Equilibrium::new(&with.problem(), 1e-4).unwrap();
     let breakage = equilibrium.break_bonds(&mut state, &absent);
     let balanced = equilibrium
         .balance(&mut state, &breakage, &mut Unobserved)
         .unwrap()
+        .balanced()
         .unwrap();
     let run = without.solve();
     let (u, whole) = (run.displacement(), with.solve());

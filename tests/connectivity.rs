@@ -19,8 +19,8 @@ fn follow(
     mut order: &[u32],
     batch: impl FnMut() -> usize,
 ) -> usize {
-    let system = &bench.model.system;
-    let unknowns = Unknowns::of_problem(system, &bench.boundary);
+    let system = &*bench.model.system;
+    let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let can_hold = |dof: usize| unknowns.number(dof).is_some();
     let mut intact = vec![true; system.bonds.len()];
     let mut fixed = prescribed.to_vec();
@@ -30,10 +30,7 @@ fn follow(
     while parts < system.cloud.len() {
         let (broken, rest) = order.split_at(sizes.next().unwrap().min(order.len()));
         order = rest;
-        for &bond in broken {
-            intact[bond as usize] = false;
-        }
-        connectivity.bonds_broke(system, &intact, broken);
+        connectivity.bonds_broke(system, &mut intact, broken);
         let found = Fragments::find(system, &intact);
         assert_eq!(connectivity.fragments(), &found);
         let all = 0..found.points.len() as u32;
@@ -85,7 +82,7 @@ fn fragments_and_holds_follow_every_breakage() {
         ("disk", DISK, 0.025),
     ] {
         let bench = Bench::new(text, &[]);
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let random = &mut Random(7);
         let order = shuffled(system, random);
         let blocks = blocks_first(system, shuffled(system, random), block);
@@ -109,7 +106,7 @@ const PULL: &str = "load = [{ group = \"right\", displacement = { x = 1e-5 } }]\
 #[test]
 fn random_graphs_come_apart_as_a_search_finds() {
     let bench = Bench::new(&format!("{PLATE}{PULL}"), &["model.horizon_factor=100"]);
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let pairs = bench.points() * (bench.points() - 1) / 2;
     assert_eq!(system.bonds.len(), pairs, "every pair is bonded");
     let random = &mut Random(11);
@@ -131,7 +128,7 @@ fn random_graphs_come_apart_as_a_search_finds() {
 fn an_ordinary_breakage_is_local() {
     for file in ["disk-4mm", "disk-2mm"] {
         let bench = Bench::new(DISK, &[&format!("mesh.file=../meshes/{file}.msh")]);
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let mut connectivity = Connectivity::new(system);
         let crossing = crossing_the_y_axis(system);
         let (last, others) = crossing.split_last().unwrap();
@@ -152,15 +149,12 @@ fn an_ordinary_breakage_is_local() {
 #[test]
 fn a_small_part_comes_loose_at_its_own_cost() {
     let bench = Bench::new(DISK, &[]);
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     for point in 0..bench.points() as u32 {
         let mut connectivity = Connectivity::new(system);
         let (last, others) = system.bonds.incidence.at(point).split_last().unwrap();
         let mut intact = vec![true; system.bonds.len()];
-        for &bond in others {
-            intact[bond as usize] = false;
-        }
-        connectivity.bonds_broke(system, &intact, others);
+        connectivity.bonds_broke(system, &mut intact, others);
         let effort = effort_of(&mut connectivity, system, &mut intact, *last);
         assert_eq!(connectivity.fragments().points.len(), 2);
         assert!(effort <= 1 + families(system, *last)[0].max(families(system, *last)[1]));
@@ -175,7 +169,6 @@ fn effort_of(
     bond: u32,
 ) -> usize {
     let before = connectivity.effort();
-    intact[bond as usize] = false;
     connectivity.bonds_broke(system, intact, &[bond]);
     connectivity.effort() - before
 }

@@ -171,9 +171,9 @@ fn threads_do_not_change_a_bit_of_the_model() {
         [
             &system.cloud.spacing,
             &system.weight,
-            &system.axial_rigidity,
-            &system.shear_rigidity,
-            &system.rotational_rigidity,
+            &system.rigidities.axial,
+            &system.rigidities.shear,
+            &system.rigidities.rotational,
             &model.criteria.list[0].limit,
             &model.fixed.domain_factor,
             x,
@@ -211,7 +211,7 @@ fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
         Bench::new(&format!("{BREAKING}{BAR}material = {material}\n"), &[])
     };
     let (left, right) = (alone(15e9, 0.21, 3e6), alone(60e9, 0.3, 8e6));
-    let (system, cloud) = (&bench.model.system, &bench.model.system.cloud);
+    let (system, cloud) = (&*bench.model.system, &bench.model.system.cloud);
     let side = |point: u32| {
         let x = bench.positions()[point as usize][0] - 0.05;
         if x.abs() < 1e-9 { 0 } else { x.signum() as i32 }
@@ -235,15 +235,15 @@ fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
     }
     // k_n of each bond: its rigidity over Omega alpha V_A V_B l.
     let density = |bench: &Bench, bond: usize| {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let [a, b] = system.bonds.ends[bond].map(|end| system.cloud.volumes[end as usize]);
-        system.axial_rigidity[bond] / (system.weight[bond] * a * b * system.bonds.length[bond])
+        system.rigidities.axial[bond] / (system.weight[bond] * a * b * system.bonds.length[bond])
     };
     // e_0 of each bond from s_0^2 = e_0 (V_A + V_B)/(rigidity), NHPD eq. 16.
     let energy = |bench: &Bench, bond: usize| {
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let [a, b] = system.bonds.ends[bond].map(|end| system.cloud.volumes[end as usize]);
-        bench.limits()[bond].powi(2) * system.axial_rigidity[bond] / (a + b)
+        bench.limits()[bond].powi(2) * system.rigidities.axial[bond] / (a + b)
     };
     let (mut across, mut at_interface) = (0, 0);
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
@@ -287,12 +287,12 @@ fn equal_materials_are_one() {
     let (a, b) = (two.solve(), one.solve());
     let numbers = [
         deviation(
-            &two.model.system.axial_rigidity,
-            &one.model.system.axial_rigidity,
+            &two.model.system.rigidities.axial,
+            &one.model.system.rigidities.axial,
         ),
         deviation(
-            &two.model.system.shear_rigidity,
-            &one.model.system.shear_rigidity,
+            &two.model.system.rigidities.shear,
+            &one.model.system.rigidities.shear,
         ),
         deviation(two.limits(), one.limits()),
         deviation(a.displacement(), b.displacement()),

@@ -167,7 +167,7 @@ fn tied_bonds_break_in_one_event() {
     let (mesh, image) = meshes::mirrored(&meshes::read("tests/reference/square.msh"));
     let bench = Bench::on(&mesh, &on_the_exact_path(SQUARE), &[]);
     let run = bench.break_up();
-    let damage = fields::damage(&bench.model.system, &run.state().intact);
+    let damage = fields::damage(&*bench.model.system, &run.state().intact);
     let asymmetry = largest((0..damage.len()).map(|k| damage[k] - damage[image[k]]));
     assert!(largest(damage.iter().copied()) > 0.3 && asymmetry < 1e-12);
     let pairs = (run.outcome.history.iter()).filter(|step| step.broken_in_step == 2);

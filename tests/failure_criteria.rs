@@ -4,16 +4,19 @@
 //! Each test states its problem and where its expectation comes from.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
-use ligament_analysis::{Boundary, Component, Control, ControlKind, SolverSettings};
+use ligament_analysis::{Component, Control, ControlKind, ProportionalLoading};
 use ligament_cli::check::{Extent, check};
-use ligament_model::element::BondElement;
+use ligament_model::Bonds;
 use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
+use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
 use verification::numbers::{deviation, relative_error};
@@ -57,12 +60,12 @@ fn motion([axial, lateral]: [f64; 2], angle: f64, [x, y]: [f64; 2]) -> [f64; 3] 
 /// Load factor of the first breakage, by both drivers, where the points of a frame as wide as the horizon have the
 /// motions of a strain at load factor one and those inside are free.
 fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let cloud = &system.cloud;
     let strain: Vec<f64> = (cloud.positions.iter())
         .flat_map(|&position| motion(strains, angle, position))
         .collect();
-    let mut boundary = Boundary::new(
+    let mut boundary = ProportionalLoading::new(
         cloud.len(),
         Control {
             kind: ControlKind::Displacement,
@@ -86,7 +89,7 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
         }
     }
     let problem = Problem {
-        boundary: &boundary,
+        loads: Arc::new(boundary),
         ..bench.problem()
     };
     let stop = StopRules {
@@ -330,7 +333,7 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 "model.law=pds",
             ],
         );
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let middle = 13 * 6 + 6;
         for (strain, known) in [TENSILE / YOUNG, -COMPRESSIVE / YOUNG]
             .into_iter()
@@ -342,10 +345,12 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 let u: Vec<f64> = of_points
                     .flat_map(|&it| motion([strain, 0.0], angle, it))
                     .collect();
+                let intact = vec![true; system.bonds.len()];
+                let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
                 let utilisation = |&bond: &u32| {
                     let bond = bond as usize;
                     let criteria = &bench.model.criteria;
-                    criteria.utilisation(bond, &BondElement::of(system, &[], bond).deformation(&u))
+                    criteria.utilisation(bond, &deformations[bond])
                 };
                 let family = system.bonds.incidence.at(middle).iter();
                 100.0 * (1.0 / family.map(utilisation).fold(0.0, f64::max) - 1.0)
@@ -512,13 +517,7 @@ fn the_first_criterion_that_is_met_decides() {
         truss.criteria = Criteria {
             list: limits.iter().map(of_limit).collect(),
         };
-        let problem = Problem {
-            system: &truss.system,
-            criteria: &truss.criteria,
-            boundary: &truss.boundary,
-            solver: SolverSettings::default(),
-            probes: &[],
-        };
+        let problem = truss.problem();
         let named = |record: &BreakRecord| {
             let rod = truss
                 .bond_of_rod
@@ -644,7 +643,7 @@ fn bonds_between_materials_take_the_weaker_one() {
         let setting = format!("fracture.criterion.0.kind={kind}");
         let bench = Bench::new(&text, &[&setting]);
         let criterion = &bench.model.criteria.list[0];
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let mut between = 0;
         for (bond, ends) in system.bonds.ends.iter().enumerate() {
             let has = |material: usize| {

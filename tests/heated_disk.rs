@@ -1,8 +1,8 @@
 //! Disks that are hot inside, on an irregular mesh, against the closed form of thermoelasticity.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::internal;
-use ligament_analysis::stress::virial;
+use ligament_analysis::LoadProgram;
+use ligament_model::Bonds;
 use verification::bench::Bench;
 use verification::numbers::{component, largest, relative_error};
 
@@ -93,10 +93,10 @@ fn hot_disks_are_those_of_thermoelasticity() {
         }
         let off = (off / size).sqrt();
         let state = run.state();
-        let expansion = bench.boundary.thermal_strain_at(state.load_factor);
-        let system = &bench.model.system;
-        let deformations = internal::deformations(system, &state.intact, motion, expansion);
-        let stress = virial::stress(system, state.bonds(), &deformations);
+        let expansion = bench.boundary.thermal_strain(state.load_factor);
+        let system = &*bench.model.system;
+        let deformations = system.deformations(&state.intact, motion, expansion);
+        let stress = system.virial_stresses(state.bonds(), &deformations);
         let mut ratios = Vec::new();
         for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
             let r = p[0].hypot(p[1]);

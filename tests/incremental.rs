@@ -7,15 +7,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use ligament::run;
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
-use ligament_analysis::equilibrium::{Balanced, Unbalanced};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::stiffness::{FactorKind, Ordering, Update};
+use ligament_analysis::solver::{FactorKind, Ordering, Update};
+use ligament_analysis::{Balanced, Unbalanced};
 use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
 };
-use ligament_case::run;
 use ligament_linalg::{Elimination, Symbolic};
 use ligament_model::BondSystem;
 use tempfile::TempDir;
@@ -63,12 +63,11 @@ fn follow(bench: &Bench, solver: SolverSettings) -> Run {
         solver,
         ..bench.problem()
     };
-    let fracture = bench.case.case.fracture.as_ref().unwrap();
     let mut watch = Watch {
         displacements: Some(Vec::new()),
         ..Watch::default()
     };
-    let outcome = run::break_bonds(&problem, fracture, &mut watch).unwrap();
+    let outcome = run::follow(&problem, &bench.model.setup.analysis, &mut watch).unwrap();
     (outcome, watch)
 }
 
@@ -253,8 +252,8 @@ fn the_count_is_in_the_files() {
 
 /// Negative eigenvalues by a factorisation of its own, in the other order of elimination.
 fn counted_anew(bench: &Bench, state: &State) -> usize {
-    let system = &bench.model.system;
-    let unknowns = Unknowns::of_problem(system, &bench.boundary);
+    let system = &*bench.model.system;
+    let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let matrix = assembly::assemble(system, &unknowns, &pattern, state.bonds(), &state.held);
     let elimination = Ordering::NestedDissection.elimination(system, &unknowns);
@@ -264,21 +263,21 @@ fn counted_anew(bench: &Bench, state: &State) -> usize {
 }
 
 /// A body that is torn apart in a given order, a few bonds at a time, at load factor one.
-struct Tearing<'a> {
-    problem: Problem<'a>,
-    equilibrium: Equilibrium<'a>,
+struct Tearing {
+    problem: Problem,
+    equilibrium: Equilibrium,
     state: State,
     breakage: Breakage,
 }
 
-impl<'a> Tearing<'a> {
+impl Tearing {
     /// From a state whose bonds may be broken already; the equations know nothing of their past.
-    fn from(bench: &'a Bench, solver: SolverSettings, mut state: State) -> Self {
+    fn from(bench: &Bench, solver: SolverSettings, mut state: State) -> Self {
         let problem = Problem {
             solver,
             ..bench.problem()
         };
-        let mut equilibrium = Equilibrium::of(&problem, 1e-4).unwrap();
+        let mut equilibrium = Equilibrium::new(&problem, 1e-4).unwrap();
         let bonds = 0..state.intact.len() as u32;
         let broken: Vec<u32> = bonds.filter(|&k| !state.intact[k as usize]).collect();
         let breakage = equilibrium.break_bonds(&mut state, &broken);
@@ -290,10 +289,10 @@ impl<'a> Tearing<'a> {
         }
     }
 
-    fn intact(bench: &'a Bench, solver: SolverSettings) -> Self {
+    fn intact(bench: &Bench, solver: SolverSettings) -> Self {
         let state = State {
             load_factor: 1.0,
-            ..State::fresh(&bench.model.system)
+            ..State::fresh(&*bench.model.system)
         };
         Self::from(bench, solver, state)
     }
@@ -302,7 +301,7 @@ impl<'a> Tearing<'a> {
         let balanced = self
             .equilibrium
             .balance(&mut self.state, &self.breakage, &mut Unobserved);
-        balanced.unwrap().unwrap()
+        balanced.unwrap().balanced().unwrap()
     }
 
     fn tear(&mut self, bonds: &[u32]) -> Balanced {
@@ -367,7 +366,7 @@ fn broken_down_to_points() {
         } else {
             Bench::new(SQUARE, &settings)
         };
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         for (seed, width) in [(5, 0.0), (6, 0.035), (7, 0.035)] {
             let [mut run, mut anew] = [IN_PLACE, ANEW].map(|it| Tearing::intact(&bench, it));
             run.balance();
@@ -403,7 +402,7 @@ fn broken_down_to_points() {
 #[test]
 fn tracked_inertia_is_that_of_a_dense_elimination() {
     let bench = Bench::new(SQUARE, &["material.poisson=0.38"]);
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let mut run = Tearing::intact(&bench, IN_PLACE);
     run.balance();
     let mut counts = Vec::new();
@@ -414,7 +413,11 @@ fn tracked_inertia_is_that_of_a_dense_elimination() {
         if round % 20 == 0 && iterations > 0 {
             let count = run.equilibrium.negative_eigenvalues();
             counts.push(count);
-            assert_eq!(count, dense_count(&run.problem, &run.state), "{round}");
+            assert_eq!(
+                count,
+                dense_count(&bench, &run.problem, &run.state),
+                "{round}"
+            );
         }
     }
     println!("negative eigenvalues on the way: {counts:?}");
@@ -433,15 +436,15 @@ fn modes(system: &BondSystem, bond: usize) -> [(f64, [f64; 6]); 3] {
     let [a, b] = system.bonds.direction[bond];
     [
         (
-            system.axial_rigidity[bond],
+            system.rigidities.axial[bond],
             [-a / l, -b / l, 0.0, a / l, b / l, 0.0],
         ),
         (
-            system.shear_rigidity[bond],
+            system.rigidities.shear[bond],
             [b / l, -a / l, -0.5, -b / l, a / l, -0.5],
         ),
         (
-            system.rotational_rigidity[bond],
+            system.rigidities.rotational[bond],
             [0.0, 0.0, -1.0, 0.0, 0.0, 1.0],
         ),
     ]
@@ -453,9 +456,9 @@ fn degrees_of_freedom(system: &BondSystem, bond: usize) -> [usize; 6] {
     [a, a + 1, a + 2, b, b + 1, b + 2]
 }
 
-fn dense_count(problem: &Problem<'_>, state: &State) -> usize {
-    let (system, prescribed) = (problem.system, &problem.boundary.prescribed);
-    let free = |dof: &usize| prescribed[*dof].is_none() && !state.held[*dof];
+fn dense_count(bench: &Bench, problem: &Problem, state: &State) -> usize {
+    let (system, loads) = (&*bench.model.system, &problem.loads);
+    let free = |dof: &usize| !loads.is_prescribed(*dof) && !state.held[*dof];
     let rows: Vec<usize> = (0..state.held.len()).filter(free).collect();
     let mut place = vec![None; state.held.len()];
     for (row, &dof) in rows.iter().enumerate() {
@@ -526,7 +529,7 @@ fn two_thousand_breakages_with_one_factor() {
     ];
     let bench = Bench::new(DISK, &settings);
     let (outcome, watch) = follow(&bench, IN_PLACE);
-    let (system, state) = (&bench.model.system, &outcome.state);
+    let (system, state) = (&*bench.model.system, &outcome.state);
     assert!(watch.breaks.len() >= 2000);
     assert_eq!(outcome.costs.factorisations, 1);
     assert!(outcome.costs.changes >= 150);
@@ -676,7 +679,7 @@ fn a_run_may_be_taken_up_where_its_factor_is_made_anew() {
         .collect();
     let mut run = Tearing::intact(&bench, solver);
     run.balance();
-    let mut taken_up: Vec<(usize, Tearing<'_>)> = Vec::new();
+    let mut taken_up: Vec<(usize, Tearing)> = Vec::new();
     let mut worst = 0.0_f64;
     for (before, bond) in order[..450].iter().enumerate() {
         let start = run.state.clone();
@@ -749,8 +752,8 @@ fn whatever_the_order_and_the_factorisation() {
 #[test]
 fn nested_dissection_leaves_little_fill() {
     let bench = Bench::new(DISK, &["mesh.file=../meshes/disk-2mm.msh"]);
-    let system = &bench.model.system;
-    let unknowns = Unknowns::of_problem(system, &bench.boundary);
+    let system = &*bench.model.system;
+    let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let order = assert_permutation(system, &unknowns);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let natural = (0..unknowns.len()).collect();
@@ -799,7 +802,9 @@ fn nested_dissection_of_degenerate_clouds() {
         let chain: Vec<Rod> = (0..n - 1).map(rod).collect();
         for rods in [&chain[..], &[]] {
             let truss = Truss::new(&places, rods, ControlKind::Force, 0);
-            let unknowns = Unknowns::of_problem(&truss.system, &truss.boundary);
+            let unknowns = Unknowns::all_but(&truss.system, |dof| {
+                truss.boundary.prescribed[dof].is_some()
+            });
             // Without a bond no rotation has a stiffness.
             assert!(unknowns.len() >= 2 * n as usize);
             assert_permutation(&truss.system, &unknowns);
@@ -812,7 +817,9 @@ fn nested_dissection_of_degenerate_clouds() {
         supports,
     );
     let bench = Bench::on(&mesh, &text, &["solver.ordering=nested-dissection"]);
-    let unknowns = Unknowns::of_problem(&bench.model.system, &bench.boundary);
-    assert_permutation(&bench.model.system, &unknowns);
+    let unknowns = Unknowns::all_but(&*bench.model.system, |dof| {
+        bench.boundary.prescribed[dof].is_some()
+    });
+    assert_permutation(&*bench.model.system, &unknowns);
     assert!(bench.solve().largest_residual < 1e-10);
 }

@@ -320,11 +320,10 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
         .map(|&point| run.displacement()[3 * point as usize])
         .collect();
     assert!(largest(at_right) > 0.0);
-    let error = ligament_case::resolve::Loading::of(
-        &verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]),
-        &*bench.model.body,
-        &bench.model.system,
-    );
+    let case =
+        verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]);
+    let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
+    let error = ligament::Loading::new(&setup, &bench.model.system);
     let error = error.unwrap_err().to_string();
     assert!(error.contains("this group has no length"), "{error}");
 }

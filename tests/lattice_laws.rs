@@ -2,13 +2,12 @@
 //! program: plates under load, natural frequencies, and the elastic constants of infinite lattices.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_analysis::stress::{traction, virial};
 use ligament_case::progress::ProgressMode;
 use ligament_case::run;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
+use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
 use verification::numbers::{deviation, relative_error};
@@ -241,7 +240,7 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
     for law in ["model.law=pds", "model.law=mppd"] {
         let settings = [law, "material.poisson=0.25", "lattice.cells=[25, 25]"];
         let bench = Bench::new(PLATE, &settings);
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let intact = vec![true; system.bonds.len()];
         let inner: Vec<usize> = (0..bench.points())
             .filter(|&point| {
@@ -266,8 +265,8 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
             let deformations =
                 internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;
-            let virial = virial::stress(system, BondsLeft::whole(&intact), &deformations);
-            let traction = traction::stress(system, BondsLeft::whole(&intact), &deformations);
+            let virial = system.virial_stresses(BondsLeft::whole(&intact), &deformations);
+            let traction = system.tractions(BondsLeft::whole(&intact), &deformations);
             let largest: f64 = expected
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.abs()));

@@ -1,13 +1,13 @@
 //! Loads that vary linearly, couples, and bodies that only gauges hold, against closed forms and statics.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, gauges};
 use ligament_case::progress::ProgressMode;
 use ligament_cli::check::{Extent, check};
+use ligament_model::thermal::ThermalStrain;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
 use verification::numbers::{component, deviation, largest, relative_error};
@@ -46,7 +46,7 @@ fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
 
 fn sweep(bench: &Bench, run: &Run) -> BondSweep {
     internal::sweep(
-        &bench.model.system,
+        &*bench.model.system,
         run.state().bonds(),
         run.displacement(),
         ThermalStrain::NONE,
@@ -339,7 +339,7 @@ fn missing_equilibrium_is_told() {
         assert!(sum.abs() < 1e-6, "{sum:e}");
     }
     assert_eq!(
-        gauges::of_intact_body(&bench.model.system, &bench.boundary),
+        gauges::of_intact_body(&*bench.model.system, &bench.boundary),
         std::slice::from_ref(body)
     );
     // Held along x at the whole left side: only y is free, and only what is missing along it is told.

@@ -5,12 +5,12 @@
 use std::sync::Arc;
 
 use ligament_analysis::assembly;
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::unknowns::Unknowns;
 use ligament_linalg::SymmetricMatrix;
 use ligament_model::element::imaginary::matrix;
+use ligament_model::thermal::ThermalStrain;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use verification::bench::Bench;
 use verification::numbers::relative_error;
@@ -34,8 +34,8 @@ const HOLES: &str = "lattice.remove=[{ circle = { centre = [0.002, 0.001], radiu
 
 /// The stiffness of the plane of the one material.
 fn plane_stiffness(bench: &Bench) -> Matrix3<f64> {
-    let materials = ligament_case::resolve::materials(&bench.case);
-    let plane = ligament_case::resolve::plane(&bench.case);
+    let materials = ligament_case::setup::materials(&bench.case);
+    let plane = ligament_case::setup::plane(&bench.case);
     materials[0].elasticity.plane_stiffness(plane)
 }
 
@@ -48,7 +48,7 @@ fn sweep(bench: &Bench, intact: &[bool], displacement: impl Fn([f64; 2]) -> [f64
     let displacement: Vec<f64> = bench.positions().iter().flat_map(of_point).collect();
     let bonds = BondsLeft::whole(intact);
     internal::sweep(
-        &bench.model.system,
+        &*bench.model.system,
         bonds,
         &displacement,
         ThermalStrain::NONE,
@@ -80,7 +80,7 @@ fn offset(bench: &Bench, bond: usize) -> [i32; 2] {
 #[test]
 fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
     let bench = Bench::new(PLATE, &[]);
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let lengths = |at: [f64; 2]| -> f64 {
         let family = system.bonds.incidence.at(point_at(&bench, at) as u32);
         family
@@ -107,7 +107,7 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
             .iter()
             .map(|&bond| bond as usize);
         let bond = family.find(|&bond| offset(&bench, bond) == wanted).unwrap();
-        let stiffness = matrix(system.imaginary.as_ref().unwrap().stiffness[bond].entries);
+        let stiffness = matrix(system.kinematics.lattice().unwrap().stiffness[bond].entries);
         // All of it is a multiple of c.
         let weight = stiffness[(2, 2)] / c[(2, 2)];
         assert!((stiffness - weight * c).norm() < 1e-15 * stiffness.norm());
@@ -136,7 +136,7 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
 
 /// The stiffness of the body that nothing holds.
 fn free_stiffness(bench: &Bench, intact: &[bool]) -> (Unknowns, SymmetricMatrix) {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let held = vec![false; 3 * system.cloud.len()];

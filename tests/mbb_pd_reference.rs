@@ -4,10 +4,11 @@
 
 use std::collections::BTreeSet;
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::{COMPONENTS, Termination};
+use ligament_model::Bonds;
+use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::Bench;
 use verification::numbers::{deviation, relative_error, short};
@@ -113,8 +114,8 @@ fn strains_of_bonds_beside_cracks() {
     let expected = Table::reference("mbb-pd-bonds.csv");
     let bench = Bench::new(PLATE, &[CRACKS, "model.horizon_factor=2.0"]);
     let run = bench.solve();
-    let (system, intact) = (&bench.model.system, &run.state().intact);
-    let found = internal::deformations(system, intact, run.displacement(), ThermalStrain::NONE);
+    let (system, intact) = (&*bench.model.system, &run.state().intact);
+    let found = system.deformations(intact, run.displacement(), ThermalStrain::NONE);
     let bonds = &system.bonds;
     let size = 1e-3;
     let mut worst = [0.0_f64; 3];
@@ -142,7 +143,7 @@ fn strains_of_bonds_beside_cracks() {
 fn stiffness_beside_cracks() {
     let expected = Table::reference("mbb-pd-stiffness.csv");
     let bench = Bench::new(PLATE, &[CRACKS]);
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let intact = vec![true; system.bonds.len()];
     let axis = |row: usize, column: &str| usize::from(expected.text(row, column) == "y");
     let unknown = |row: usize, point: &str, of: &str| {

@@ -3,15 +3,18 @@
 //! Frequencies of lattices against an independent program and published numbers are in `lattices`.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use std::f64::consts::PI;
 
-use ligament_analysis::boundary::ControlKind;
+use ligament_analysis::load_program::ControlKind;
 use ligament_analysis::modal::{
     ModalAnalysis, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind,
     Rotations,
 };
 use ligament_analysis::{Component, SolverSettings, Supports};
-use ligament_model::element::BondElement;
+use ligament_model::Bonds;
+use ligament_model::element::Remaining;
 use ligament_model::{BondSystem, LumpedMass};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use verification::modal::ModalBench;
@@ -40,7 +43,8 @@ modal = { modes = 5 }
 "#;
 
 fn shares(outcome: &ModalOutcome, mode: &Mode) -> [f64; 3] {
-    outcome.moving.shares(mode.participation)
+    let shares = outcome.moving.shares(&mode.participation);
+    [0, 1, 2].map(|k| shares[k])
 }
 
 fn elastic(outcome: &ModalOutcome) -> impl Iterator<Item = &Mode> {
@@ -134,8 +138,8 @@ fn three_masses_on_two_springs() {
         critical_elongation: 1.0,
     };
     let mut truss = Truss::new(&[0.0, 1.0, 3.0], &[rod(0), rod(1)], ControlKind::Force, 2);
-    truss.system.shear_rigidity.fill(0.0);
-    truss.system.rotational_rigidity.fill(0.0);
+    truss.system.rigidities.shear.fill(0.0);
+    truss.system.rigidities.rotational.fill(0.0);
     let mass = LumpedMass {
         mass: vec![0.5; 3],
         inertia: vec![1.0; 3],
@@ -168,9 +172,9 @@ fn modes_of(
     rotations: Option<Rotations>,
 ) -> ModalOutcome {
     let problem = ModalProblem {
-        system,
-        mass,
-        supports,
+        system: Arc::new(system.clone()),
+        mass: Arc::new(mass.clone()),
+        supports: Arc::new(supports.clone()),
         solver: SolverSettings::default(),
     };
     let settings = ModalSettings {
@@ -178,7 +182,7 @@ fn modes_of(
         rotations,
         tolerance: 1e-10,
     };
-    ModalAnalysis::of(problem, settings)
+    ModalAnalysis::new(&problem, settings)
         .unwrap()
         .find()
         .unwrap()
@@ -186,14 +190,14 @@ fn modes_of(
 
 /// Stiffness of the unknowns as a dense matrix, from the elements' rows.
 fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let mut place = vec![usize::MAX; 3 * system.cloud.len()];
     for (k, (dof, _)) in dofs.iter().enumerate() {
         place[*dof] = k;
     }
     let mut matrix = DMatrix::zeros(dofs.len(), dofs.len());
     for bond in 0..system.bonds.len() {
-        for (rigidity, mut row) in BondElement::of(system, &[], bond).terms() {
+        for (rigidity, mut row) in system.terms(&[], bond, &Remaining::WHOLE) {
             row.retain(|(dof, _)| place[*dof] != usize::MAX);
             for &(i, a) in &row {
                 for &(j, b) in &row {

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use ligament_case::resolve::Loading;
+use ligament::Loading;
 use ligament_mesh::Group;
 use verification::bench::{self, Bench};
 use verification::meshes;
@@ -305,8 +305,9 @@ outside = { centre = [0.0, 0.0], radius = 2.2 }
 
 fn fault(bench: &Bench, text: &str, settings: &[&str]) -> String {
     let case = bench::case(text, settings);
-    let loading = Loading::of(&case, &*bench.model.body, &bench.model.system);
-    loading.unwrap_err().to_string()
+    let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
+    let loading = Loading::new(&setup, &bench.model.system);
+    case.located(loading.unwrap_err()).to_string()
 }
 
 /// An edge inside the body has cells on both sides, a diagonal of a cell is no edge of one: both are told by their nodes. So

@@ -32,7 +32,7 @@ fn passes(experiment: &Experiment) {
     for case in experiment.cases {
         assert!(repository().join(case).is_file(), "{case}");
     }
-    let tally = Tally::of(&findings);
+    let tally = Tally::from_findings(&findings);
     assert!(
         tally.count(Verdict::Shown) < tally.entries(),
         "{} judges nothing",

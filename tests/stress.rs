@@ -1,11 +1,10 @@
 //! Stresses at the points against the continuum, and against the forces that the bodies bear.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::boundary::ThermalStrain;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_analysis::stress::{traction, virial};
 use ligament_mesh::Mesh;
+use ligament_model::thermal::ThermalStrain;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
 use verification::numbers::{Random, largest, relative_error};
@@ -30,13 +29,13 @@ const POISSON: f64 = 0.21;
 
 /// Virial stress (xx, yy, xy) and tractions (xx, yx, yy, xy) of displacements (3 n_points).
 fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
-    let system = &bench.model.system;
+    let system = &*bench.model.system;
     let deformations =
         internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
-    let of_bonds = virial::stress(system, BondsLeft::whole(intact), &deformations);
+    let left = BondsLeft::whole(intact);
     (
-        of_bonds,
-        traction::stress(system, BondsLeft::whole(intact), &deformations),
+        system.virial_stresses(left, &deformations),
+        system.tractions(left, &deformations),
     )
 }
 
@@ -67,7 +66,7 @@ fn stresses_have_the_mean_of_the_forces() {
     for mesh in ["plate-coarse", "diagonal-plate"] {
         let text = format!("{PLATE}load = [{{ body_force = {{ x = 1.0 }} }}]\n");
         let bench = Bench::new(&text, &[&format!("mesh.file=../meshes/{mesh}.msh")]);
-        let system = &bench.model.system;
+        let system = &*bench.model.system;
         let random = &mut Random(3);
         let motion = |[x, y]: &[f64; 2]| {
             let strained = [1e-4 * x + 3e-4 * y, 2e-4 * y - 1e-4 * x, 1e-4];

@@ -182,7 +182,7 @@ fn ties_keep_a_symmetric_body_symmetric() {
     let asymmetry = |settings: &[&str]| {
         let bench = Bench::on(&mesh, &text, settings);
         let run = bench.break_up();
-        let damage = fields::damage(&bench.model.system, &run.state().intact);
+        let damage = fields::damage(&*bench.model.system, &run.state().intact);
         assert!(largest(damage.iter().copied()) > 0.3, "it tears");
         let u = component(run.displacement(), 1);
         let mirrored = |values: &[f64]| image.iter().map(|&k| values[k]).collect::<Vec<f64>>();

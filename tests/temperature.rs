@@ -2,7 +2,9 @@
 //! breakages against the same bodies under displacements.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
+use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
 use verification::numbers::{component, largest, relative_error};
@@ -60,9 +62,10 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 
 /// Deformations of the bonds beyond what the temperature gives them, in the last state.
 fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
-    let expansion = bench.boundary.thermal_strain_at(run.state().load_factor);
+    let expansion = bench.boundary.thermal_strain(run.state().load_factor);
     let intact = &run.state().intact;
-    internal::deformations(&bench.model.system, intact, run.displacement(), expansion)
+    let system = &*bench.model.system;
+    system.deformations(intact, run.displacement(), expansion)
 }
 
 /// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
@@ -350,10 +353,10 @@ fn a_linear_temperature_bends_free_bodies() {
             let size = largest(strains.iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(
-                &bench.model.system,
+                &*bench.model.system,
                 run.state().bonds(),
                 &vec![0.0; 3 * bench.points()],
-                bench.boundary.thermal_strain_at(1.0),
+                bench.boundary.thermal_strain(1.0),
             );
             let stretch = largest(left.iter().map(|it| it.stretch.abs())) / size;
             assert_eq!(run.last().load_factor, 1.0, "{name}");

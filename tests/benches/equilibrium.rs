@@ -9,14 +9,14 @@ use criterion::measurement::WallTime;
 use criterion::{
     BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use ligament_analysis::boundary::ThermalStrain;
+use ligament_analysis::Balanced;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule, next_to_break};
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::driver::Problem;
-use ligament_analysis::equilibrium::Balanced;
-use ligament_analysis::stiffness::{SolverSettings, Update};
+use ligament_analysis::solver::{SolverSettings, Update};
 use ligament_analysis::{Equilibrium, State, Unknowns, assembly, internal};
+use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Watch};
 use verification::problems;
 
@@ -46,8 +46,8 @@ fn equilibrium(criterion: &mut Criterion) {
 }
 
 fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
-    let system = &bench.model.system;
-    let unknowns = Unknowns::of_problem(system, &bench.boundary);
+    let system = &*bench.model.system;
+    let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let elastic = bench.solve();
     let (displacement, intact) = (elastic.displacement(), &elastic.state().intact);
@@ -77,15 +77,11 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
     });
     let whole = Connectivity::new(system);
     let broken = next(10);
-    let mut left = intact.clone();
-    for &bond in &broken {
-        left[bond as usize] = false;
-    }
     group.bench_function("connectivity, 10 bonds", |bencher| {
         bencher.iter_batched(
-            || whole.clone(),
-            |mut connectivity| {
-                connectivity.bonds_broke(system, &left, black_box(&broken));
+            || (whole.clone(), intact.clone()),
+            |(mut connectivity, mut left)| {
+                connectivity.bonds_broke(system, &mut left, black_box(&broken));
                 connectivity
             },
             BatchSize::LargeInput,
@@ -125,23 +121,23 @@ fn breakages(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
 }
 
 /// A body in equilibrium whose bonds break.
-struct Body<'a> {
-    equilibrium: Equilibrium<'a>,
+struct Body {
+    equilibrium: Equilibrium,
     state: State,
     balanced: Balanced,
     watch: Watch,
 }
 
-impl<'a> Body<'a> {
-    fn intact(problem: &Problem<'a>) -> Self {
-        let mut equilibrium = Equilibrium::of(problem, 1e-4).unwrap();
-        let mut state = State::fresh(problem.system);
+impl Body {
+    fn intact(problem: &Problem) -> Self {
+        let mut equilibrium = Equilibrium::new(problem, 1e-4).unwrap();
+        let mut state = State::fresh(&*problem.system);
         state.load_factor = 1.0;
         let breakage = equilibrium.break_bonds(&mut state, &[]);
         let mut watch = Watch::default();
         let balanced = equilibrium.balance(&mut state, &breakage, &mut watch);
         Self {
-            balanced: balanced.unwrap().unwrap(),
+            balanced: balanced.unwrap().balanced().unwrap(),
             equilibrium,
             state,
             watch,
@@ -161,7 +157,7 @@ impl<'a> Body<'a> {
         let (state, watch) = (&mut self.state, &mut self.watch);
         let balanced = self.equilibrium.balance(state, &breakage, watch);
         let duration = start.elapsed();
-        self.balanced = balanced.unwrap().unwrap();
+        self.balanced = balanced.unwrap().balanced().unwrap();
         duration
     }
 }

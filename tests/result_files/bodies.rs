@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use ligament_case::body::Body;
+use ligament::Body;
 use ligament_case::model::Model;
 use ligament_mesh::{Cell, Group, Mesh};
-use ligament_output::results::Canvas as Drawn;
+use ligament_model::Canvas as Drawn;
 use verification::meshes;
 
 use crate::expected::{Expected, Place};
@@ -206,8 +206,8 @@ impl<'a> PointFields<'a> {
     /// The tag of every point.
     pub(crate) fn tags(&mut self, model: &Model) {
         let points = 0..model.system.cloud.len() as u32;
-        let tags = points.map(|it| model.body.tag(it) as i64);
-        self.integers(model.body.tagged(), tags);
+        let tags = points.map(|it| model.body().tag(it) as i64);
+        self.integers(model.body().tagged(), tags);
     }
 
     /// The fields that a run does not change.

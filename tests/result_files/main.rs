@@ -13,12 +13,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use ligament_analysis::driver;
+use ligament::Loading;
+use ligament::run::follow;
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::Loading;
-use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE};
+use ligament_case::run;
 use ligament_case::stages::Stages;
 use ligament_cli::check::{self, Extent};
 use ligament_model::failure::Criteria;
@@ -61,7 +61,7 @@ impl Case {
     fn model(&self) -> (Model, Canvas) {
         let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
         let model = build_model(&self.file, &mut stages, &progress).unwrap();
-        let canvas = Canvas::new(self.mesh.as_deref(), &*model.body);
+        let canvas = Canvas::new(self.mesh.as_deref(), model.body());
         (model, canvas)
     }
 
@@ -69,14 +69,10 @@ impl Case {
     fn run(&self) {
         run::run(&self.file, &self.results(), false, ProgressMode::Quiet).unwrap();
         let (model, canvas) = self.model();
-        let loading = Loading::of(&self.file, &*model.body, &model.system).unwrap();
+        let loading = Loading::new(&model.setup, &model.system).unwrap();
         let problem = loading.problem(&model.system, &model.criteria);
-        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem);
-        let outcome = match &self.file.case.fracture {
-            None => driver::elastic::run(&problem, ELASTIC_ENERGY_TOLERANCE, &mut recorder),
-            Some(fracture) => run::break_bonds(&problem, fracture, &mut recorder),
-        };
-        outcome.unwrap();
+        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem.clone());
+        follow(&problem, &model.setup.analysis, &mut recorder).unwrap();
         recorder.finish().write(&self.folder);
     }
 
@@ -84,7 +80,7 @@ impl Case {
     fn vibrate(&self) {
         run::run(&self.file, &self.results(), false, ProgressMode::Quiet).unwrap();
         let (model, canvas) = self.model();
-        let outcome = ligament_case::solve::modes(&self.file).unwrap();
+        let outcome = self.file.setup(&mut ()).unwrap().modes().unwrap();
         let mut expected = Expected::default();
         let mut table = Rows::new([
             "mode",
@@ -109,8 +105,8 @@ impl Case {
                 mode.eigenvalue,
                 mode.residual,
             ];
-            let effective = mode.participation.map(|it| it * it);
-            let shares = outcome.moving.shares(mode.participation);
+            let effective = mode.participation.iter().map(|it| it * it);
+            let shares = outcome.moving.shares(&mode.participation);
             let reals = numbers.into_iter().chain(effective).chain(shares);
             let row: [Entry; 2] = [usize::into(number), mode.kind.name().into()];
             table.push(row.into_iter().chain(reals.map(Entry::from)));
@@ -162,7 +158,7 @@ impl Case {
             ("strength", alone(0)),
             ("sliding", alone(1)),
             ("compression", alone(2)),
-            ("first_of_all", model.criteria.clone()),
+            ("first_of_all", Criteria::clone(&model.criteria)),
         ];
         let mut expected = Expected::default();
         canvas.grid("points.vtu", &mut expected);
@@ -183,7 +179,7 @@ impl Case {
                 fields.reals(&name("least_strain"), values(|it| it.least_load));
             }
         }
-        let inside = interior(system, &model.body.rim(), &model.fixed.precrack_share);
+        let inside = interior(system, &model.body().rim(), &model.fixed.precrack_share);
         fields.integers("interior", inside.iter().map(|&it| i64::from(it)));
         let sizes = (0..system.cloud.len() as u32).map(|it| system.bonds.incidence.at(it).len());
         fields.integers("bonds", sizes.map(|it| it as i64));

@@ -2,11 +2,10 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::stress::{traction, virial};
 use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
 use ligament_case::model::Model;
-use ligament_output::results::Absence;
+use ligament_model::Absence;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};
@@ -23,7 +22,7 @@ pub(crate) struct Recorder<'a> {
     pub(crate) expected: Expected,
     model: &'a Model,
     canvas: &'a Canvas,
-    problem: Problem<'a>,
+    problem: Problem,
     fields_every: usize,
     bonds: bool,
     stress: Vec<StressField>,
@@ -41,7 +40,7 @@ pub(crate) struct Recorder<'a> {
 }
 
 /// A criterion's name, with a number from the second of its kind on.
-fn labels(problem: &Problem<'_>) -> Vec<String> {
+fn labels(problem: &Problem) -> Vec<String> {
     let names: Vec<&str> = problem.criteria.list.iter().map(|it| it.name).collect();
     let label = |(k, name): (usize, &&str)| match names[..k].iter().filter(|it| *it == name).count()
     {
@@ -52,8 +51,8 @@ fn labels(problem: &Problem<'_>) -> Vec<String> {
 }
 
 /// Names of the two or three components of bonds that files have, each with how it is read.
-fn deformation_names(problem: &Problem<'_>) -> &'static [&'static str] {
-    if problem.system.element.has_strains() {
+fn deformation_names(problem: &Problem) -> &'static [&'static str] {
+    if problem.system.strain_names()[0] == "strain_xx" {
         &["strain_xx", "strain_xy", "strain_yy"]
     } else {
         &["stretch", "shear"]
@@ -77,7 +76,7 @@ impl<'a> Recorder<'a> {
         case: &ligament_case::case::Case,
         model: &'a Model,
         canvas: &'a Canvas,
-        problem: Problem<'a>,
+        problem: Problem,
     ) -> Self {
         let history = [
             "step",
@@ -98,12 +97,13 @@ impl<'a> Recorder<'a> {
             "negative_eigenvalues",
             "dissipated_energy",
         ];
-        let groups = problem.boundary.groups.iter().flat_map(|group| {
+        let groups = problem.loads.groups().iter();
+        let groups = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
         });
         let probes = problem.probes.iter().map(|it| it.name.clone());
         let history = history.map(str::to_owned).into_iter();
-        let tagged = model.body.tagged();
+        let tagged = model.body().tagged();
         let breaks = ["order", "step", "round", "load_factor"].map(str::to_owned);
         let breaks = breaks
             .into_iter()
@@ -122,12 +122,11 @@ impl<'a> Recorder<'a> {
             "stored_energy",
             "broken_bonds",
         ];
-        let n_bonds = problem.system.bonds.len();
+        let n_bonds = problem.system.ends().len();
         Self {
             expected: Expected::default(),
             model,
             canvas,
-            problem,
             fields_every: case.output.fields_every as usize,
             bonds: case.output.bonds,
             stress: case.output.stress.clone(),
@@ -136,6 +135,7 @@ impl<'a> Recorder<'a> {
                 Some(Control::Event)
             ),
             labels: labels(&problem),
+            problem: problem.clone(),
             history: Rows::new(history.chain(groups).chain(probes)),
             breaks: Rows::new(breaks.chain(ends).chain(after).chain(names)),
             iterations: Rows::new(iterations),
@@ -186,7 +186,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn write_fields(&mut self, file: &str, view: &View<'_>) {
-        let (system, state, balanced) = (view.system, view.state, view.balanced);
+        let (state, balanced) = (view.state, view.balanced);
+        let system = &*self.model.system;
         let motion = |point: usize| {
             let at = 3 * point;
             [
@@ -204,7 +205,7 @@ impl<'a> Recorder<'a> {
         self.canvas
             .displacement(file, &displacement, &mut self.expected);
         let reactions = view
-            .boundary
+            .loads
             .reactions(state.load_factor, &balanced.internal.values);
         let mut fields_of = self.canvas.on(file, &mut self.expected);
         fields_of.reals("rotation", points.clone().map(|it| motion(it)[2]));
@@ -233,35 +234,31 @@ impl<'a> Recorder<'a> {
             let values = fields::dissipated_energy_density(system, &state.dissipated);
             fields_of.reals("dissipated_energy_density", values);
         }
-        let boundary = view.boundary;
-        if !boundary.temperature_change.is_empty() {
-            let change = boundary.temperature_change.iter();
-            fields_of.reals(
-                "temperature_change",
-                change.map(|it| state.load_factor * it),
-            );
-            let strain = boundary.thermal_strain.iter();
+        let change = view.loads.temperature_change(state.load_factor);
+        if !change.is_empty() {
+            fields_of.reals("temperature_change", change);
+            let strain = view.loads.thermal_strain(state.load_factor);
             fields_of.components(
                 "thermal_strain",
                 ["xx", "yy", "xy"],
-                strain.map(|it| it.map(|it| state.load_factor * it)),
+                points.clone().map(|it| strain.of_point(it)),
             );
         }
         if self.stress.contains(&StressField::Virial) {
-            let stress = virial::stress(system, state.bonds(), &balanced.deformations);
+            let stress = system.virial_stresses(state.bonds(), &balanced.deformations);
             fields_of.components("stress_virial", ["xx", "yy", "xy"], stress);
         }
         if self.stress.contains(&StressField::Traction) {
-            let stress = traction::stress(system, state.bonds(), &balanced.deformations);
+            let stress = system.tractions(state.bonds(), &balanced.deformations);
             fields_of.components("stress_traction", ["xx", "yx", "yy", "xy"], stress);
         }
         fields_of.fixed(self.model);
     }
 
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
-        let (system, deformations) = (view.system, &view.balanced.deformations);
+        let (system, deformations) = (&*self.model.system, &view.balanced.deformations);
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
-        let positions = self.model.body.positions().iter().copied();
+        let positions = self.model.body().positions().iter().copied();
         self.expected.grid(file, positions, ends);
         let point = Place {
             file,
@@ -301,11 +298,11 @@ impl<'a> Recorder<'a> {
     }
 
     fn model_file(&mut self) {
-        let (file, system, fixed) = ("model.vtu", self.problem.system, &self.model.fixed);
+        let (file, system, fixed) = ("model.vtu", &*self.model.system, &self.model.fixed);
         let absent = &fixed.absent;
         let ends = system.bonds.ends.iter().map(|it| it.as_slice());
         let absent_ends = absent.iter().map(|it| it.ends.as_slice());
-        let positions = self.model.body.positions().iter().copied();
+        let positions = self.model.body().positions().iter().copied();
         let expected = &mut self.expected;
         expected.grid(file, positions, ends.chain(absent_ends));
         let point = |name| Place {
@@ -317,8 +314,8 @@ impl<'a> Recorder<'a> {
         expected.reals(point("horizon"), fixed.horizon.iter().copied());
         let no_fail = fixed.no_fail.iter().map(|&it| i64::from(it));
         expected.integers(point("no_fail"), no_fail);
-        let tags = (0..system.cloud.len() as u32).map(|it| self.model.body.tag(it) as i64);
-        expected.integers(point(self.model.body.tagged()), tags);
+        let tags = (0..system.cloud.len() as u32).map(|it| self.model.body().tag(it) as i64);
+        expected.integers(point(self.model.body().tagged()), tags);
 
         fn cell(name: &str) -> Place<'_> {
             let (file, part) = ("model.vtu", "cell");
@@ -399,8 +396,8 @@ impl Observer for Recorder<'_> {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
-            let ends = self.problem.system.bonds.ends[record.bond as usize];
-            let [a, b] = ends.map(|end| self.model.body.tag(end) as usize);
+            let ends = self.problem.system.ends()[record.bond as usize];
+            let [a, b] = ends.map(|end| self.model.body().tag(end) as usize);
             let row: [Entry; 10] = [
                 record.order.into(),
                 record.step.into(),
@@ -426,7 +423,7 @@ impl Observer for Recorder<'_> {
             every => record.step.is_multiple_of(every),
         };
         if is_due || view.is_last {
-            let time = match view.boundary.control.kind {
+            let time = match view.loads.control().kind {
                 _ if self.times_are_steps => record.step as f64,
                 ControlKind::Force => record.reaction,
                 ControlKind::Displacement | ControlKind::Temperature => record.displacement,

@@ -1,16 +1,19 @@
 //! A bench: a case, its model, its supports and loads, and what happens when it is run.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use ligament::Loading;
+use ligament::run::follow;
+use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
-use ligament_analysis::{Boundary, State};
+use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Loading};
-use ligament_case::run::{self, ELASTIC_ENERGY_TOLERANCE, Report};
+use ligament_case::run::{self, Report};
 use ligament_case::stages::Stages;
 use ligament_case::summary::Summary;
 use ligament_mesh::Mesh;
@@ -25,8 +28,8 @@ pub struct Bench {
     /// Its model.
     pub model: Model,
     /// Its supports and loads.
-    pub boundary: Boundary,
-    probes: Vec<Probe>,
+    pub boundary: ProportionalLoading,
+    probes: Arc<[Probe]>,
     _folder: Option<TempDir>,
 }
 
@@ -90,24 +93,24 @@ impl Bench {
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
         let Loading {
             boundary, probes, ..
-        } = Loading::of(&case, &*model.body, &model.system).unwrap();
+        } = Loading::new(&model.setup, &model.system).unwrap();
         Self {
             case,
             model,
-            boundary,
+            boundary: Arc::unwrap_or_clone(boundary),
             probes,
             _folder: folder,
         }
     }
 
     /// The problem of the bench.
-    pub fn problem(&self) -> Problem<'_> {
+    pub fn problem(&self) -> Problem {
         Problem {
-            system: &self.model.system,
-            criteria: &self.model.criteria,
-            boundary: &self.boundary,
-            solver: resolve::solver(&self.case),
-            probes: &self.probes,
+            system: self.model.system.clone(),
+            criteria: self.model.criteria.clone(),
+            loads: Arc::new(self.boundary.clone()),
+            solver: self.model.setup.solver,
+            probes: self.probes.clone(),
         }
     }
 
@@ -120,8 +123,9 @@ impl Bench {
 
     /// Follows the loading as the fracture section says.
     pub fn break_up(&self) -> Run {
-        let fracture = self.case.case.fracture.as_ref().unwrap();
-        self.watched(|watch| run::break_bonds(&self.problem(), fracture, watch).unwrap())
+        let analysis = &self.model.setup.analysis;
+        assert!(analysis.is_fracture());
+        self.watched(|watch| follow(&self.problem(), analysis, watch).unwrap())
     }
 
     fn watched(&self, run: impl FnOnce(&mut dyn Observer) -> Outcome) -> Run {
@@ -149,17 +153,17 @@ impl Bench {
 
     /// Positions as in the mesh file, or of the centres of the cells.
     pub fn positions(&self) -> &[[f64; 2]] {
-        self.model.body.positions()
+        self.model.body().positions()
     }
 
     /// Points of a group.
     pub fn group(&self, name: &str) -> Vec<u32> {
-        self.model.body.points_of(name).unwrap()
+        self.model.body().points_of(name).unwrap()
     }
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] = self.model.system.bonds.ends[bond].map(|end| self.model.body.tag(end));
+        let [a, b] = self.model.system.bonds.ends[bond].map(|end| self.model.body().tag(end));
         [a.min(b), a.max(b)]
     }
 }

@@ -1,11 +1,14 @@
 //! A modal bench: a case with its model, supports and masses, and its modes.
 
+use std::sync::Arc;
+
+use ligament::Vibration;
+use ligament::setup::Analysis;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
 use ligament_case::case::CaseFile;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Vibration};
 use ligament_case::stages::Stages;
 use ligament_mesh::Mesh;
 use ligament_model::LumpedMass;
@@ -20,9 +23,9 @@ pub struct ModalBench {
     /// Its model.
     pub model: Model,
     /// Its supports.
-    pub supports: Supports,
+    pub supports: Arc<Supports>,
     /// The masses of its points.
-    pub mass: LumpedMass,
+    pub mass: Arc<LumpedMass>,
 }
 
 impl ModalBench {
@@ -42,7 +45,7 @@ impl ModalBench {
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let vibration = Vibration::of(&case, &*model.body, &model.system.cloud).unwrap();
+        let vibration = Vibration::new(&model.setup, &model.system.cloud).unwrap();
         Self {
             supports: vibration.supports,
             mass: vibration.mass,
@@ -54,13 +57,15 @@ impl ModalBench {
     /// Finds its modes.
     pub fn find(&self) -> ModalOutcome {
         let problem = ModalProblem {
-            system: &self.model.system,
-            mass: &self.mass,
-            supports: &self.supports,
-            solver: resolve::solver(&self.case),
+            system: self.model.system.clone(),
+            mass: self.mass.clone(),
+            supports: self.supports.clone(),
+            solver: self.model.setup.solver,
         };
-        let settings = resolve::modal(self.case.case.modal.as_ref().unwrap());
-        ModalAnalysis::of(problem, settings)
+        let Analysis::Modal(settings) = self.model.setup.analysis else {
+            panic!("this case is not modal");
+        };
+        ModalAnalysis::new(&problem, settings)
             .unwrap()
             .find()
             .unwrap()
@@ -68,7 +73,7 @@ impl ModalBench {
 
     /// The degrees of freedom that are unknown, and their masses.
     pub fn unknown_masses(&self, rotations: Rotations) -> Vec<(usize, f64)> {
-        let unknowns = Unknowns::all_but(&self.model.system, |dof| self.supports.held[dof]);
+        let unknowns = Unknowns::all_but(&*self.model.system, |dof| self.supports.held[dof]);
         let mass_of = |dof: usize| match (dof % 3, rotations) {
             (2, Rotations::Massless) => 0.0,
             (2, Rotations::Inertia) => self.mass.inertia[dof / 3],

@@ -1,13 +1,18 @@
 //! Points on a line with bonds of given stiffness and strength, for closed forms.
 
+use std::sync::Arc;
+
 use ligament_analysis::SolverSettings;
-use ligament_analysis::boundary::{Boundary, Control, ControlKind};
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::driver::{Outcome, Problem, StopRules, event, stepped};
+use ligament_analysis::load_program::{Control, ControlKind, ProportionalLoading};
 use ligament_analysis::unknowns::Component;
+use ligament_model::element::Rigidities;
+use ligament_model::element::pair::Pairs;
 use ligament_model::failure::{Criteria, Criterion, Measure};
-use ligament_model::{BondSet, BondSystem, ElementKind, Horizons, PointCloud};
+use ligament_model::system::Kinematics;
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::bench::Watch;
 
@@ -29,7 +34,7 @@ pub struct Truss {
     /// Critical stretches of the bonds.
     pub criteria: Criteria,
     /// Supports and loads.
-    pub boundary: Boundary,
+    pub boundary: ProportionalLoading,
     /// The bond that each rod is.
     pub bond_of_rod: Vec<usize>,
 }
@@ -87,7 +92,7 @@ impl Truss {
             magnitude: 1.0,
         };
         Self {
-            boundary: Boundary::new(n, control),
+            boundary: ProportionalLoading::new(n, control),
             bond_of_rod: (rods.iter())
                 .map(|rod| {
                     bonds
@@ -98,12 +103,13 @@ impl Truss {
                 })
                 .collect(),
             system: BondSystem {
-                element: ElementKind::Beam,
                 weight: vec![1.0; bonds.len()],
-                axial_rigidity: of_bonds(&rigidity),
-                shear_rigidity: of_bonds(&rigidity),
-                rotational_rigidity: of_bonds(&rigidity),
-                imaginary: None,
+                rigidities: Rigidities {
+                    axial: of_bonds(&rigidity),
+                    shear: of_bonds(&rigidity),
+                    rotational: of_bonds(&rigidity),
+                },
+                kinematics: Kinematics::Beam(Pairs::default()),
                 cloud,
                 bonds,
             },
@@ -125,13 +131,13 @@ impl Truss {
     }
 
     /// Its problem.
-    pub fn problem(&self) -> Problem<'_> {
+    pub fn problem(&self) -> Problem {
         Problem {
-            system: &self.system,
-            criteria: &self.criteria,
-            boundary: &self.boundary,
+            system: Arc::new(self.system.clone()),
+            criteria: Arc::new(self.criteria.clone()),
+            loads: Arc::new(self.boundary.clone()),
             solver: SolverSettings::default(),
-            probes: &[],
+            probes: Arc::default(),
         }
     }
 

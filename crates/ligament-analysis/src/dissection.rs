@@ -1,9 +1,10 @@
 //! Nested dissection of the points: the order of elimination that a mesh calls for.
 //!
-//! A part is cut at the median of its longer side (George, SIAM J. Numer. Anal. 10, 1973); the points of one half that bonds
+//! A part is cut at the median of its longer side (George 1973); the points of one half that bonds
 //! connect with the other separate the two, and are eliminated after both.
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
+use ligament_model::interface::CoupledPoints;
 
 use crate::unknowns::Unknowns;
 
@@ -12,7 +13,7 @@ use crate::unknowns::Unknowns;
 const SMALLEST_PART: usize = 12;
 
 /// The unknowns in the order of elimination: those of a point together, points by nested dissection.
-pub fn elimination_order(system: &BondSystem, unknowns: &Unknowns) -> Vec<usize> {
+pub fn elimination_order(system: &dyn Bonds, unknowns: &Unknowns) -> Vec<usize> {
     points_in_order(system)
         .into_iter()
         .flat_map(|point| unknowns.of_point(point as usize))
@@ -20,11 +21,12 @@ pub fn elimination_order(system: &BondSystem, unknowns: &Unknowns) -> Vec<usize>
         .collect()
 }
 
-/// The points by nested dissection; ties among coordinates are broken by number.
-fn points_in_order(system: &BondSystem) -> Vec<u32> {
-    let n_points = system.cloud.len() as u32;
+/// The points by nested dissection.
+fn points_in_order(system: &dyn Bonds) -> Vec<u32> {
+    let n_points = system.n_points() as u32;
     let mut dissection = Dissection {
         system,
+        coupled: system.coupled_points(),
         half: vec![0; n_points as usize],
         halves: 0,
         order: Vec::with_capacity(n_points as usize),
@@ -34,7 +36,8 @@ fn points_in_order(system: &BondSystem) -> Vec<u32> {
 }
 
 struct Dissection<'a> {
-    system: &'a BondSystem,
+    system: &'a dyn Bonds,
+    coupled: CoupledPoints<'a>,
     /// Number of the last half that a point was put into.
     half: Vec<u32>,
     halves: u32,
@@ -47,14 +50,8 @@ impl Dissection<'_> {
             self.order.extend_from_slice(points);
             return;
         }
-        let axis = self.longer_side(points);
-        let coordinate = |point: u32| self.system.cloud.positions[point as usize][axis];
         let middle = points.len() / 2;
-        points.select_nth_unstable_by(middle, |&one, &other| {
-            coordinate(one)
-                .total_cmp(&coordinate(other))
-                .then(one.cmp(&other))
-        });
+        self.system.halve(points);
         let (lower, upper) = points.split_at_mut(middle);
         let [in_lower, in_upper] = [&*lower, &*upper].map(|half| self.mark(half));
         let rim_of_lower = self.rim(lower, in_upper);
@@ -78,7 +75,7 @@ impl Dissection<'_> {
     /// The points of one half that elements couple with the other.
     fn rim(&self, half: &[u32], other_half: u32) -> Vec<u32> {
         let touches = |point: u32| {
-            let mut coupled = self.system.coupled_points(point);
+            let mut coupled = self.coupled.at(point);
             coupled.any(|other| self.half[other as usize] == other_half)
         };
         half.iter()
@@ -93,18 +90,5 @@ impl Dissection<'_> {
             self.half[point as usize] = self.halves;
         }
         self.halves
-    }
-
-    fn longer_side(&self, points: &[u32]) -> usize {
-        let extent = |axis: usize| {
-            let (lowest, highest) = points
-                .iter()
-                .map(|&point| self.system.cloud.positions[point as usize][axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            highest - lowest
-        };
-        usize::from(extent(1) > extent(0))
     }
 }

@@ -1,24 +1,25 @@
 //! Fields on the points, for output and probes.
 
-use ligament_model::BondSystem;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Weakened};
+use ligament_model::{Bonds, BondsLeft};
 
-use crate::state::{BondsLeft, State};
+use crate::state::State;
 
 /// Damage of every point (NHPD eq. 17): 1 - (sum over its intact bonds of Omega alpha)/(sum over all its bonds).
 ///
 /// The bonds are those that were there at the start: what a pre-crack cut is no damage, and a point that lost all its
 /// bonds to one has damage 0.
-pub fn damage(system: &BondSystem, intact: &[bool]) -> Vec<f64> {
+pub fn damage(system: &dyn Bonds, intact: &[bool]) -> Vec<f64> {
     gather(system, |point| point_damage(system, intact, point))
 }
 
 /// Damage of one point, see [`damage`].
-pub fn point_damage(system: &BondSystem, intact: &[bool], point: u32) -> f64 {
+pub fn point_damage(system: &dyn Bonds, intact: &[bool], point: u32) -> f64 {
     let (mut broken, mut all) = (0.0, 0.0);
-    for &bond in system.bonds.incidence.at(point) {
-        let weight = system.weight[bond as usize];
+    let weights = system.weights();
+    for &bond in system.incidence().at(point) {
+        let weight = weights[bond as usize];
         all += weight;
         if !intact[bond as usize] {
             broken += weight;
@@ -30,7 +31,7 @@ pub fn point_damage(system: &BondSystem, intact: &[bool], point: u32) -> f64 {
 
 /// Damage of every point by each way in which some criterion lets bonds fail, with its name.
 pub fn damages(
-    system: &BondSystem,
+    system: &dyn Bonds,
     criteria: &Criteria,
     state: &State,
 ) -> Vec<(&'static str, Vec<f64>)> {
@@ -52,7 +53,7 @@ pub fn damages(
 /// d_t of opening, d_c of crushing and d_gamma of sliding. A bond that broke counts as lost (mu = 0) for the criterion by which
 /// it broke; with brittle bonds these are the shares of [`damage`], by volume.
 pub fn damage_by(
-    system: &BondSystem,
+    system: &dyn Bonds,
     criteria: &Criteria,
     state: &State,
     way: Weakened,
@@ -64,7 +65,7 @@ pub fn damage_by(
 
 /// Damage of one point by one way of failing, see [`damage_by`].
 pub fn point_damage_by(
-    system: &BondSystem,
+    system: &dyn Bonds,
     criteria: &Criteria,
     state: &State,
     way: Weakened,
@@ -81,9 +82,10 @@ pub fn point_damage_by(
             .fold(1.0, f64::min)
     };
     let (mut lost, mut all) = (0.0, 0.0);
-    for &bond in system.bonds.incidence.at(point) {
-        let volume = system.cloud.volumes[system.bonds.neighbour(bond, point) as usize];
-        let weight = system.weight[bond as usize] * volume;
+    let (topology, volumes, weights) = (system.topology(), system.volumes(), system.weights());
+    for &bond in topology.incidence.at(point) {
+        let volume = volumes[topology.neighbour(bond, point) as usize];
+        let weight = weights[bond as usize] * volume;
         all += weight;
         lost += (1.0 - force(bond as usize)) * weight;
     }
@@ -92,18 +94,18 @@ pub fn point_damage_by(
 
 /// Energy that the bonds of every point have taken for good, J/m^3: its share of each bond's, mostly a half, over its
 /// volume.
-pub fn dissipated_energy_density(system: &BondSystem, dissipated: &[f64]) -> Vec<f64> {
+pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<f64> {
     gather(system, |point| {
-        let bonds = system.bonds.incidence.at(point).iter();
+        let bonds = system.incidence().at(point).iter();
         let shares = bonds.map(|&bond| system.share(bond, point) * dissipated[bond as usize]);
-        shares.sum::<f64>() / system.cloud.volumes[point as usize]
+        shares.sum::<f64>() / system.volumes()[point as usize]
     })
 }
 
 /// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, over its
 /// volume.
 pub fn strain_energy_density(
-    system: &BondSystem,
+    system: &dyn Bonds,
     bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
 ) -> Vec<f64> {
@@ -114,21 +116,14 @@ pub fn strain_energy_density(
 
 /// Strain energy density of one point, see [`strain_energy_density`].
 pub fn point_energy_density(
-    system: &BondSystem,
+    system: &dyn Bonds,
     bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
     point: u32,
 ) -> f64 {
-    let family = system.bonds.incidence.at(point).iter();
-    let energy: f64 = family
-        .filter_map(|&bond| {
-            let element = bonds.element(system, bond as usize)?;
-            Some(system.share(bond, point) * element.energy(&deformations[bond as usize]))
-        })
-        .sum();
-    energy / system.cloud.volumes[point as usize]
+    system.energy_density(bonds, deformations, point)
 }
 
-fn gather(system: &BondSystem, value: impl Fn(u32) -> f64) -> Vec<f64> {
-    (0..system.cloud.len() as u32).map(value).collect()
+fn gather(system: &dyn Bonds, value: impl Fn(u32) -> f64) -> Vec<f64> {
+    (0..system.n_points() as u32).map(value).collect()
 }

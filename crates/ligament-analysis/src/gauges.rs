@@ -5,15 +5,12 @@
 //! and strains and stresses do not depend on it. It carries none exactly if the given loads do no work on the free motions;
 //! reactions never do, for supports and prescribed motions do not move with them.
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
+pub use ligament_model::rigid_motions::FreeMotion;
 
-use crate::boundary::Boundary;
-use crate::connectivity::{Fragments, Hold, degrees_of_freedom, rigid_motions};
-use crate::unknowns::{Component, Unknowns};
-
-/// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
-/// spread over many points, and below what results are read to.
-const BALANCE_TOLERANCE: f64 = 1e-6;
+use crate::connectivity::{Fragments, Hold};
+use crate::load_program::LoadProgram;
+use crate::unknowns::Unknowns;
 
 /// A connected part of the intact body that can move rigidly.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,25 +27,6 @@ pub struct FreeBody {
     pub gauges: Vec<usize>,
 }
 
-/// A rigid motion that nothing holds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FreeMotion {
-    /// A translation along x or y, or the rotation.
-    pub component: Component,
-    /// What the given loads at load factor 1 exert along it, N; for the rotation the moment about the place that is held, or
-    /// the middle of the points, N m.
-    pub load: f64,
-    /// Its work relative to the sizes of the loads on the part, 0 to 1.
-    pub imbalance: f64,
-}
-
-impl FreeMotion {
-    /// Whether the loads are in equilibrium along it.
-    pub fn is_balanced(&self) -> bool {
-        self.imbalance <= BALANCE_TOLERANCE
-    }
-}
-
 impl FreeBody {
     /// Whether the loads are in equilibrium without supports, so that gauges carry nothing.
     pub fn is_balanced(&self) -> bool {
@@ -57,65 +35,47 @@ impl FreeBody {
 }
 
 /// The free parts of the intact body, before anything is solved.
-pub fn of_intact_body(system: &BondSystem, boundary: &Boundary) -> Vec<FreeBody> {
-    let fragments = Fragments::find(system, &vec![true; system.bonds.len()]);
-    let unknowns = Unknowns::of_problem(system, boundary);
+pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBody> {
+    let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
+    let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
     let holds = fragments.missing_holds(
         0..fragments.points.len() as u32,
         system,
-        |dof| boundary.prescribed[dof].is_some(),
+        |dof| loads.is_prescribed(dof),
         |dof| unknowns.number(dof).is_some(),
     );
-    free_bodies(system, boundary, &fragments, &holds)
+    free_bodies(system, loads, &fragments, &holds)
 }
 
 /// The free parts of the intact body, given the holds that they need.
 pub fn free_bodies(
-    system: &BondSystem,
-    boundary: &Boundary,
+    system: &dyn Bonds,
+    loads: &dyn LoadProgram,
     fragments: &Fragments,
     holds: &[Hold],
 ) -> Vec<FreeBody> {
     let of_one_body = holds.chunk_by(|one, other| one.fragment == other.fragment);
     of_one_body
-        .map(|holds| free_body(system, boundary, fragments, holds))
+        .map(|holds| free_body(system, loads, fragments, holds))
         .collect()
 }
 
 fn free_body(
-    system: &BondSystem,
-    boundary: &Boundary,
+    system: &dyn Bonds,
+    loads: &dyn LoadProgram,
     fragments: &Fragments,
     holds: &[Hold],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
-    let motions = rigid_motions(system, points);
-    let spanned = motions.spanned_by(points, |dof| boundary.prescribed[dof].is_some());
-    let loads = || degrees_of_freedom(points).map(|dof| (dof, boundary.force[dof]));
-    let free = Component::ALL.into_iter().zip(motions.free(&spanned));
-    let free = free.filter_map(|(component, motion)| Some((component, motion?)));
-    let told = free.map(|(component, motion)| {
-        let [load, size] = motions.work(motion, loads());
-        let length = motion
-            .iter()
-            .fold(0.0, |largest: f64, part| largest.max(part.abs()));
-        FreeMotion {
-            component,
-            load,
-            imbalance: if load == 0.0 {
-                0.0
-            } else {
-                load.abs() / (size * length)
-            },
-        }
-    });
+    let is_prescribed = |dof| loads.is_prescribed(dof);
+    let force = |dof: usize| loads.forces(1.0, &[dof as u32])[0];
     let mut gauges: Vec<usize> = holds.iter().map(|hold| hold.degree_of_freedom).collect();
     gauges.sort_unstable();
     FreeBody {
         points: points.len(),
-        is_whole: points.len() == system.cloud.len(),
+        is_whole: points.len() == system.n_points(),
         first: points[0],
-        motions: told.collect(),
+        motions: system.free_motions(points, &is_prescribed, &force),
         gauges,
     }
 }

@@ -1,16 +1,16 @@
 //! What a run reports while it goes on, and how it ends.
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
-use crate::boundary::Boundary;
+use crate::balanced::{Balanced, Unbalanced};
 use crate::connectivity::Fragments;
-use crate::equilibrium::{Balanced, Unbalanced};
+use crate::costs::Costs;
 use crate::gauges::FreeBody;
+use crate::load_program::LoadProgram;
 use crate::state::State;
-use crate::stiffness::Costs;
 use crate::unknowns::COMPONENTS;
 
 /// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
@@ -145,13 +145,13 @@ pub enum Notice {
 /// A state in equilibrium, for observers that want fields.
 pub struct View<'a> {
     /// The system.
-    pub system: &'a BondSystem,
+    pub system: &'a dyn Bonds,
     /// Its state.
     pub state: &'a State,
     /// Deformations and forces.
     pub balanced: &'a Balanced,
     /// Supports and loads.
-    pub boundary: &'a Boundary,
+    pub loads: &'a dyn LoadProgram,
     /// Failure criteria; none in an elastic analysis.
     pub criteria: &'a Criteria,
     /// Connected parts.

@@ -1,14 +1,11 @@
 //! Probes: numbers read off the body at every load step.
 
-use ligament_model::BondSystem;
-use ligament_model::bonds::precrack::{Ends, PreCrack};
-use ligament_model::failure::Weakened;
+use ligament_model::Bonds;
+use ligament_model::failure::{Criteria, Weakened};
 
-use crate::driver::Problem;
-use crate::equilibrium::Balanced;
+use crate::balanced::Balanced;
 use crate::fields;
 use crate::state::State;
-use crate::stress::virial;
 use crate::unknowns::{COMPONENTS, Component};
 
 /// A column of the history.
@@ -74,34 +71,14 @@ pub enum StressComponent {
 }
 
 impl Reading {
-    /// The force through the straight line from `start` to `end` (mesh-file coordinates): all bonds that cross it, by the
-    /// rule of pre-cracks.
-    pub fn section(
-        system: &BondSystem,
-        start: [f64; 2],
-        end: [f64; 2],
-        component: Component,
-    ) -> Self {
-        let line = PreCrack {
-            points: vec![start, end],
-            ends: Ends::Excluded,
-        }
-        .in_local_coordinates(&system.cloud);
-        let position = |point: u32| system.cloud.positions[point as usize];
-        let bonds = system
-            .bonds
-            .ends
-            .iter()
-            .enumerate()
-            .filter(|(_, ends)| line.cuts(position(ends[0]), position(ends[1])))
-            .map(|(bond, ends)| (bond as u32, line.starts_on_the_left(position(ends[0]))))
-            .collect();
-        Self::SectionForce { bonds, component }
-    }
-
     /// The value in a state of equilibrium.
-    pub fn value(&self, problem: &Problem<'_>, state: &State, balanced: &Balanced) -> f64 {
-        let system = problem.system;
+    pub fn value(
+        &self,
+        system: &dyn Bonds,
+        criteria: &Criteria,
+        state: &State,
+        balanced: &Balanced,
+    ) -> f64 {
         match self {
             Self::RelativeDisplacement {
                 points: [first, second],
@@ -115,14 +92,14 @@ impl Reading {
             Self::Field { point, field } => match field {
                 PointField::Damage => fields::point_damage(system, &state.intact, *point),
                 PointField::DamageBy(way) => {
-                    fields::point_damage_by(problem.system, problem.criteria, state, *way, *point)
+                    fields::point_damage_by(system, criteria, state, *way, *point)
                 }
                 PointField::Motion(component) => {
                     state.displacement[COMPONENTS * *point as usize + component.index()]
                 }
                 PointField::Stress(component) => {
                     let deformations = &balanced.deformations;
-                    let stress = virial::point_stress(system, state.bonds(), deformations, *point);
+                    let stress = system.stress(state.bonds(), deformations, *point);
                     stress[*component as usize]
                 }
                 PointField::StrainEnergyDensity => fields::point_energy_density(
@@ -132,15 +109,10 @@ impl Reading {
                     *point,
                 ),
             },
-            Self::SectionForce { bonds, component } => bonds
-                .iter()
-                .filter_map(|&(bond, first_is_left)| {
-                    let element = state.bonds().element(system, bond as usize)?;
-                    let forces = element.end_forces(&balanced.deformations[bond as usize])?;
-                    // The end force is what holds the end in place against the bond: the bond pulls the other way.
-                    Some(-forces[usize::from(!first_is_left)][component.index()])
-                })
-                .sum(),
+            Self::SectionForce { bonds, component } => {
+                let deformations = &balanced.deformations;
+                system.force_through(state.bonds(), deformations, bonds, *component)
+            }
         }
     }
 }

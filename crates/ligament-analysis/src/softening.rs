@@ -4,7 +4,6 @@
 //! left of its stiffness. What an opened bond lost it lacks in tension, shear and rotation, not in compression; see
 //! [`Weakened`].
 
-use ligament_model::BondSystem;
 use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
@@ -121,20 +120,5 @@ fn remaining_of(
         axial: if is_open { opening } else { crushing },
         shear: opening.min(crushing).min(sliding),
         rotational: opening.min(crushing),
-    }
-}
-
-/// Energy 1/2 R e_0^2 that a bond stores at the limit e_0 of a criterion, with the rigidity R that the criterion is about, J; 0
-/// where the bond never gets there.
-pub fn energy_at_limit(system: &BondSystem, criterion: &Criterion, bond: usize) -> f64 {
-    let rigidity = match criterion.measure.weakens() {
-        Weakened::Opening | Weakened::Crushing => system.axial_rigidity[bond],
-        Weakened::Sliding => system.shear_rigidity[bond],
-    };
-    let limit = criterion.limit[bond];
-    if limit.is_finite() {
-        0.5 * rigidity * limit * limit
-    } else {
-        0.0
     }
 }

@@ -1,7 +1,7 @@
 //! What changes during a run.
 
-use ligament_model::BondSystem;
-use ligament_model::element::{BondElement, Element, Remaining};
+use ligament_model::Bonds;
+pub use ligament_model::BondsLeft;
 
 use crate::softening::Softening;
 use crate::unknowns::COMPONENTS;
@@ -27,8 +27,8 @@ pub struct State {
 
 impl State {
     /// The unloaded body with all its bonds.
-    pub fn fresh(system: &BondSystem) -> Self {
-        let (n, n_bonds) = (COMPONENTS * system.cloud.len(), system.bonds.len());
+    pub fn fresh(system: &dyn Bonds) -> Self {
+        let (n, n_bonds) = (COMPONENTS * system.n_points(), system.ends().len());
         Self {
             load_factor: 0.0,
             displacement: vec![0.0; n],
@@ -50,52 +50,6 @@ impl State {
         BondsLeft {
             intact: &self.intact,
             remaining: &self.softening.remaining,
-        }
-    }
-}
-
-/// Which bonds are left, and how much of their stiffness.
-#[derive(Debug, Clone, Copy)]
-pub struct BondsLeft<'a> {
-    /// Which are unbroken, shape (n_bonds).
-    pub intact: &'a [bool],
-    /// What is left of their stiffness, shape (n_bonds); empty where that is all of it.
-    pub remaining: &'a [Remaining],
-}
-
-impl<'a> BondsLeft<'a> {
-    /// Unbroken bonds (n_bonds) with all of their stiffness.
-    pub fn whole(intact: &'a [bool]) -> Self {
-        Self {
-            intact,
-            remaining: &[],
-        }
-    }
-
-    /// The element of a bond with what is left of it; None if it is broken.
-    #[inline(always)]
-    pub fn typed_element<E: Element>(self, system: &BondSystem, bond: usize) -> Option<E> {
-        if !self.intact[bond] {
-            return None;
-        }
-        let whole = E::of(system, self.intact, bond);
-        Some(self.left_of(bond, whole, E::weakened))
-    }
-
-    /// The same, of whatever kind it is.
-    pub fn element(self, system: &BondSystem, bond: usize) -> Option<BondElement> {
-        if !self.intact[bond] {
-            return None;
-        }
-        let whole = BondElement::of(system, self.intact, bond);
-        Some(self.left_of(bond, whole, BondElement::weakened))
-    }
-
-    #[inline(always)]
-    fn left_of<E>(self, bond: usize, whole: E, weakened: impl FnOnce(E, &Remaining) -> E) -> E {
-        match self.remaining.get(bond) {
-            None => whole,
-            Some(remaining) => weakened(whole, remaining),
         }
     }
 }

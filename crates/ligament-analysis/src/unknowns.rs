@@ -1,46 +1,10 @@
 //! Numbering of the unknowns: which components of which points the system of equations solves for.
 
-use ligament_model::{BondSystem, ElementKind};
-
-use crate::boundary::Boundary;
+use ligament_model::Bonds;
+pub use ligament_model::layout::Component;
 
 /// Components of a point: displacement along x, along y, rotation.
-pub const COMPONENTS: usize = 3;
-
-/// A component of the motion of a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Component {
-    /// Displacement along x, m.
-    X,
-    /// Displacement along y, m.
-    Y,
-    /// Rotation, counter-clockwise, rad.
-    Rotation,
-}
-
-impl Component {
-    /// All components in their order at a point.
-    pub const ALL: [Self; COMPONENTS] = [Self::X, Self::Y, Self::Rotation];
-
-    /// Position among the components of a point.
-    pub fn index(self) -> usize {
-        self as usize
-    }
-
-    /// The component at a position of the arrays over (3 n_points).
-    pub fn of(degree_of_freedom: usize) -> Self {
-        Self::ALL[degree_of_freedom % COMPONENTS]
-    }
-
-    /// Name in case files and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Rotation => "rotation",
-        }
-    }
-}
+pub const COMPONENTS: usize = ligament_model::element::UNKNOWNS;
 
 /// The degrees of freedom (3 n_points) that are unknown, numbered in the order of the points.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,20 +16,15 @@ pub struct Unknowns {
 const KNOWN: u32 = u32::MAX;
 
 impl Unknowns {
-    /// Everything that no support or load prescribes and that has a stiffness at all.
+    /// Everything that is not fixed and has a stiffness at all.
     ///
     /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point, and bonds without
     /// rotations never do: such rotations carry nothing and are held at zero.
-    pub fn of_problem(system: &BondSystem, boundary: &Boundary) -> Self {
-        Self::all_but(system, |dof| boundary.prescribed[dof].is_some())
-    }
-
-    /// Everything that is not fixed and has a stiffness at all.
-    pub fn all_but(system: &BondSystem, is_fixed: impl Fn(usize) -> bool) -> Self {
-        let rotates = rotations_with_stiffness(system);
-        Self::select(system.cloud.len(), |point, component| {
-            !is_fixed(COMPONENTS * point + component.index())
-                && (component != Component::Rotation || rotates[point])
+    pub fn all_but(system: &dyn Bonds, is_fixed: impl Fn(usize) -> bool) -> Self {
+        let resisted = system.resisted();
+        Self::select(system.n_points(), |point, component| {
+            let dof = COMPONENTS * point + component.index();
+            !is_fixed(dof) && resisted[dof]
         })
     }
 
@@ -128,19 +87,4 @@ impl Unknowns {
                 .map(|number| (number, c))
         })
     }
-}
-
-fn rotations_with_stiffness(system: &BondSystem) -> Vec<bool> {
-    let mut rotates = vec![false; system.cloud.len()];
-    if system.element != ElementKind::Beam {
-        return rotates;
-    }
-    for (bond, ends) in system.bonds.ends.iter().enumerate() {
-        if system.shear_rigidity[bond] != 0.0 || system.rotational_rigidity[bond] != 0.0 {
-            for end in ends {
-                rotates[*end as usize] = true;
-            }
-        }
-    }
-    rotates
 }

@@ -1,9 +1,8 @@
 //! What the user is told of a body that supports and loads do not hold.
 
+use ligament::Body;
 use ligament_analysis::gauges::{FreeBody, FreeMotion};
 use ligament_analysis::{COMPONENTS, Component};
-
-use crate::body::Body;
 
 /// Which rigid motions are free, what is held instead, and whether the loads are in equilibrium without it.
 pub fn words(free: &FreeBody, body: &dyn Body) -> String {
@@ -52,6 +51,6 @@ fn load(motion: &FreeMotion) -> String {
 
 fn gauge(degree_of_freedom: usize, body: &dyn Body) -> String {
     let place = body.place((degree_of_freedom / COMPONENTS) as u32);
-    let component = Component::of(degree_of_freedom).name();
+    let component = Component::at(degree_of_freedom).name();
     format!("{component} of {place}")
 }

@@ -12,7 +12,7 @@ const FACTOR_VALUE: usize = size_of::<f64>();
 const BOND: usize = 250;
 
 /// Estimated bytes of the equations of a system and of what stands around them.
-pub fn of_equations(system: &BondSystem, stiffness: &Stiffness<'_>) -> usize {
+pub fn of_equations(system: &BondSystem, stiffness: &Stiffness) -> usize {
     let symbolic = stiffness.symbolic();
     let (matrix, factor) = (symbolic.pattern().n_entries(), symbolic.n_factor_values());
     // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.

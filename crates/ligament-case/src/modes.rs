@@ -3,32 +3,31 @@
 use std::path::Path;
 
 use anyhow::Context;
-use ligament_analysis::modal::ModalAnalysis;
+use ligament::Vibration;
+use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::write_modes;
 
-use crate::case::{CaseFile, Modal};
+use crate::case::CaseFile;
 use crate::model::Model;
 use crate::progress::Progress;
-use crate::resolve::{self, Vibration};
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 
 /// Finds the modes of a model and writes them into a new folder.
 pub(crate) fn find_modes(
     case: &CaseFile,
-    modal: &Modal,
+    settings: ModalSettings,
     model: &Model,
     out: &Path,
     force: bool,
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<ModalSummary> {
-    let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
+    let vibration = Vibration::new(&model.setup, &model.system.cloud);
+    let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
-    let analysis = stages.time("analysis", || {
-        ModalAnalysis::of(problem, resolve::modal(modal))
-    })?;
+    let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 
@@ -39,7 +38,7 @@ pub(crate) fn find_modes(
         let (cloud, fixed) = (&model.system.cloud, &model.fixed);
         write_modes(
             &folder,
-            &model.body.grid(),
+            &model.body().grid(),
             &cloud.volumes,
             &cloud.spacing,
             fixed,

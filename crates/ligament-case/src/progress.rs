@@ -167,7 +167,7 @@ fn log_line(line: &StepLine, done: bool, total: Option<u64>, elapsed: Duration) 
     let of = total
         .map(|total| format!(" of {total}"))
         .unwrap_or_default();
-    let state = if done { "" } else { " (in it)" };
+    let state = if done { "" } else { " (under way)" };
     let mut text = format!("step {}{of}{state}: {}", line.step, line.text());
     if let Some(total) = total.filter(|&total| done && line.step > 0 && line.step < total) {
         let left = elapsed.mul_f64((total - line.step) as f64 / line.step as f64);

@@ -1,25 +1,22 @@
-//! The method, second page: from the discrete model to a broken specimen, or to its modes. The first is [`crate::model`].
+//! A run of a case: from the file to the folder with its results.
 
 use std::io::{self, Write};
 use std::path::Path;
 
 use anyhow::Context;
-use ligament_analysis::driver::{self, Outcome, Problem};
-use ligament_analysis::{Observer, SetupError};
+use ligament::Loading;
+use ligament::run::{follow, on_threads};
+use ligament::setup::Analysis;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, Control, Fracture, StressField};
+use crate::case::{CaseFile, Control, StressField};
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
-use crate::resolve::{self, Loading};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use crate::watch::Watch;
-
-/// Energy rule of an elastic solution, which has no fracture section to say it (NHPD's value).
-pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +39,7 @@ impl Report {
 
 /// Runs a case and writes its results into a new folder.
 pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
-    resolve::on_threads(case, || run_here(case, out, force, mode))?
+    on_threads(case.threads(), || run_here(case, out, force, mode))?
 }
 
 /// Runs a case on the threads of the caller.
@@ -56,15 +53,12 @@ fn run_here(
     let mut stages = Stages::default();
     let progress = Progress::new(mode);
     let model = build_model(case, &mut stages, &progress)?;
-    match &case.case.modal {
-        Some(modal) => {
-            let summary = find_modes(case, modal, &model, out, force, stages, progress)?;
-            Ok(Report::Modes(Box::new(summary)))
-        }
-        None => {
-            let summary = follow_loads(case, &model, out, force, stages, progress)?;
-            Ok(Report::Loading(Box::new(summary)))
-        }
+    if let Analysis::Modal(settings) = model.setup.analysis {
+        let summary = find_modes(case, settings, &model, out, force, stages, progress)?;
+        Ok(Report::Modes(Box::new(summary)))
+    } else {
+        let summary = follow_loads(case, &model, out, force, stages, progress)?;
+        Ok(Report::Loading(Box::new(summary)))
     }
 }
 
@@ -77,13 +71,13 @@ fn follow_loads(
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
-    let loading = Loading::of(case, &*model.body, &model.system)?;
+    let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
     let problem = loading.problem(&model.system, &model.criteria);
 
     // Nothing is written, and nothing replaced, before all input was found good.
     let folder = ResultFolder::create(out, force)?;
     folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    let grid = model.body.grid();
+    let grid = model.body().grid();
     let rule = WriteRule {
         fields_every: case.case.output.fields_every as usize,
         bonds: case.case.output.bonds,
@@ -96,8 +90,10 @@ fn follow_loads(
         },
     };
     let writer = ResultWriter::new(&folder, &grid, &model.fixed, rule, &problem)?;
-    let mut watch = Watch::new(writer, &mut progress, &*model.body, &case.case);
-    let outcome = stages.time("solution", || follow(case, &problem, &mut watch))?;
+    let mut watch = Watch::new(writer, &mut progress, model.body(), &case.case);
+    let outcome = stages.time("solution", || {
+        follow(&problem, &model.setup.analysis, &mut watch)
+    })?;
 
     let notices = watch.into_notices();
     let summary = Summary::new(
@@ -113,34 +109,4 @@ fn follow_loads(
     folder.write_text("summary.json", &(text + "\n"))?;
     progress.finish(&outcome.termination.to_string());
     Ok(summary)
-}
-
-/// Solves the case, or follows its loading up to failure.
-pub fn follow(
-    case: &CaseFile,
-    problem: &Problem<'_>,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
-    match &case.case.fracture {
-        None => driver::elastic::run(problem, ELASTIC_ENERGY_TOLERANCE, observer),
-        Some(fracture) => break_bonds(problem, fracture, observer),
-    }
-}
-
-/// Follows the loading with the driver that the case chooses.
-pub fn break_bonds(
-    problem: &Problem<'_>,
-    fracture: &Fracture,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
-    match &fracture.control {
-        Control::Stepped(stepping) => {
-            let settings = resolve::stepped(fracture, stepping);
-            driver::stepped::run(problem, &settings, observer)
-        }
-        Control::Event => {
-            let settings = resolve::event(fracture);
-            driver::event::run(problem, &settings, observer)
-        }
-    }
 }

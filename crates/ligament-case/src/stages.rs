@@ -19,19 +19,31 @@ pub struct Stage {
 #[derive(Debug, Default)]
 pub struct Stages {
     done: Vec<Stage>,
+    begun: Option<Instant>,
 }
 
 impl Stages {
     /// Does a stage and notes what it took.
     pub fn time<T>(&mut self, name: &'static str, stage: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
+        self.begin();
         let result = stage();
+        self.end(name);
+        result
+    }
+
+    /// Begins a stage.
+    pub(crate) fn begin(&mut self) {
+        self.begun = Some(Instant::now());
+    }
+
+    /// Ends the stage that was begun last, and notes what it took.
+    pub(crate) fn end(&mut self, name: &'static str) {
+        let start = self.begun.take();
         self.done.push(Stage {
             name,
-            seconds: start.elapsed().as_secs_f64(),
+            seconds: start.map_or(0.0, |start| start.elapsed().as_secs_f64()),
             peak_bytes: peak_memory(),
         });
-        result
     }
 
     /// The stages in their order.

@@ -6,9 +6,9 @@ mod solver;
 
 use std::io::{self, Write};
 
-use ligament_analysis::Boundary;
+use ligament_analysis::ProportionalLoading;
+use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
-use ligament_analysis::equilibrium::Stability;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -132,7 +132,7 @@ impl From<Stability> for StabilitySummary {
 }
 
 /// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
-pub fn temperature_change(boundary: &Boundary) -> Option<Spread> {
+pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
     let changes = &boundary.temperature_change;
     (!changes.is_empty()).then(|| Spread::of(changes.iter().copied()))
 }
@@ -142,7 +142,7 @@ impl Summary {
     pub fn new(
         case: &CaseFile,
         model: &Model,
-        boundary: &Boundary,
+        boundary: &ProportionalLoading,
         outcome: &Outcome,
         notices: Vec<String>,
         stages: &[Stage],
@@ -155,7 +155,7 @@ impl Summary {
                 .iter()
                 .map(|s| (s.external_work - s.stored_energy - s.released_energy).abs()),
         );
-        let mut warnings = model.warnings.clone();
+        let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(notices);
         Self {
             model: ModelSummary::new(case, model),

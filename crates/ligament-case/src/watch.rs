@@ -1,10 +1,10 @@
 //! Watches a run: writes its results, shows its progress and keeps its notices.
 
+use ligament::Body;
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
-use crate::body::Body;
 use crate::case::{Case, Control, Steps};
 use crate::gauges;
 use crate::progress::{Progress, StepLine};

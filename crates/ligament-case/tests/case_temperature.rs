@@ -5,11 +5,11 @@
 use std::fs;
 use std::path::Path;
 
+use ligament::Loading;
 use ligament_analysis::ControlKind;
 use ligament_case::case::{CaseFile, Expansion, Region, TemperatureChange};
 use ligament_case::model::build_model;
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::Loading;
 use ligament_case::stages::Stages;
 use tempfile::TempDir;
 
@@ -124,14 +124,14 @@ fn error_with(old: &str, new: &str) -> String {
 fn loading(case: &CaseFile) -> anyhow::Result<Loading> {
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &progress)?;
-    Ok(Loading::of(case, &*model.body, &model.system)?)
+    Ok(Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?)
 }
 
 /// Changes of the points of a case in a folder, K.
 fn changes_in(folder: &Path, text: &str) -> Result<Vec<f64>, String> {
     let case = parse_in(folder, text)?;
     let loading = loading(&case).map_err(|error| error.to_string())?;
-    Ok(loading.boundary.temperature_change)
+    Ok(loading.boundary.temperature_change.clone())
 }
 
 fn changes(text: &str) -> Result<Vec<f64>, String> {
@@ -308,7 +308,11 @@ fn the_last_section_holds() {
         }
     }
     let loaded = format!("{text}[[load]]\ngroup = \"top\"\nforce = {{ y = 1.0 }}\n");
-    let control = loading(&parse(&loaded).unwrap()).unwrap().boundary.control;
+    let control = loading(&parse(&loaded).unwrap())
+        .unwrap()
+        .boundary
+        .control
+        .clone();
     assert_eq!(control.kind, ControlKind::Force);
 }
 

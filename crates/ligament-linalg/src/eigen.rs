@@ -1,6 +1,6 @@
 //! Largest eigenvalues of a symmetric operator that is known only by its products.
 //!
-//! Block Lanczos with full orthogonalisation and thick restarts (Wu and Simon, SIAM J. Matrix Anal. Appl. 22, 2000, for
+//! Block Lanczos with full orthogonalisation and thick restarts (Wu and Simon 2000, for
 //! blocks of one): the operator is projected on a growing orthonormal basis, and where that is full it is cut down to the
 //! best approximations found so far. A block of two sees an eigenvalue that occurs twice, as the modes of a square plate
 //! do, which a single vector finds only by rounding.

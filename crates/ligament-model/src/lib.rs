@@ -13,21 +13,31 @@
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
 //!
-//! All quantities are in SI units. No matrices, no files and no printing here.
+//! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
+//! as NHPD or MPPD: `docs/references.md` lists the papers.
 
 pub mod bonds;
+pub mod change;
 pub mod cloud;
 pub mod correction;
 mod curve;
 pub mod element;
 pub mod failure;
+pub mod fixed;
+pub mod grid;
 pub mod horizon;
+pub mod interface;
 pub mod law;
+pub mod layout;
 pub mod mass;
 pub mod material;
 pub mod moduli;
+pub mod rigid_motions;
 pub mod shape;
+pub mod stress;
+pub mod sweep;
 pub mod system;
+pub mod thermal;
 pub mod yielding;
 
 pub use bonds::{BondSet, Incidence};
@@ -35,9 +45,12 @@ pub use cloud::PointCloud;
 pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use element::ElementKind;
+pub use fixed::{Absence, AbsentBond, FixedFields};
+pub use grid::{BodyGrid, Canvas};
 pub use horizon::Horizons;
+pub use interface::Bonds;
 pub use law::BondStiffness;
 pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use shape::Shape;
-pub use system::BondSystem;
+pub use system::{BondSystem, BondsLeft};

@@ -4,9 +4,14 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::element::ElementKind;
+use crate::element::beam::BeamBond;
 use crate::element::imaginary::{ImaginaryElements, StrainStiffness};
-use crate::law::BondStiffness;
+use crate::element::pair::Pairs;
+use crate::element::pairwise::PairwiseElements;
+use crate::element::spring::SpringBond;
+use crate::element::true_strain::TrueStrainElements;
+use crate::element::{Element, ElementKind, Elements, Remaining, Rigidities};
+use crate::law::{BondStiffness, mbb_pd};
 
 /// Points and bonds with their rigidities; it never changes after construction.
 #[derive(Debug, Clone)]
@@ -15,18 +20,50 @@ pub struct BondSystem {
     pub cloud: PointCloud,
     /// The bonds (without those that pre-cracks cut).
     pub bonds: BondSet,
-    /// Kinematics of the bonds.
-    pub element: ElementKind,
     /// Omega alpha of each bond: its weight in the damage of its ends, shape (n_bonds).
     pub weight: Vec<f64>,
-    /// Omega alpha V_A V_B k_n l, shape (n_bonds), J.
-    pub axial_rigidity: Vec<f64>,
-    /// Omega alpha V_A V_B k_t l, shape (n_bonds), J.
-    pub shear_rigidity: Vec<f64>,
-    /// Omega alpha V_A V_B k_theta, shape (n_bonds), J.
-    pub rotational_rigidity: Vec<f64>,
-    /// What imaginary elements have besides; there if these are the elements.
-    pub imaginary: Option<ImaginaryElements>,
+    /// Rigidities of the bonds.
+    pub rigidities: Rigidities,
+    /// Kinematics of the bonds.
+    pub kinematics: Kinematics,
+}
+
+/// The kinematics of the bonds of a body.
+#[derive(Debug, Clone)]
+pub enum Kinematics {
+    /// Pairs of points that turn.
+    Beam(Pairs<BeamBond>),
+    /// Pairs of points that do not.
+    Spring(Pairs<SpringBond>),
+    /// The imaginary lattice.
+    Imaginary(ImaginaryElements),
+    /// The imaginary lattice with true strains.
+    TrueStrain(TrueStrainElements),
+    /// The imaginary lattice with the printed forces.
+    Pairwise(PairwiseElements),
+}
+
+impl Kinematics {
+    /// Which elements the bonds have.
+    pub fn kind(&self) -> ElementKind {
+        match self {
+            Self::Beam(_) => ElementKind::Beam,
+            Self::Spring(_) => ElementKind::Spring,
+            Self::Imaginary(_) => ElementKind::Imaginary,
+            Self::TrueStrain(_) => ElementKind::TrueStrain,
+            Self::Pairwise(_) => ElementKind::Pairwise,
+        }
+    }
+
+    /// The imaginary lattice, where the bonds are of one.
+    pub fn lattice(&self) -> Option<&ImaginaryElements> {
+        match self {
+            Self::Beam(_) | Self::Spring(_) => None,
+            Self::Imaginary(lattice) => Some(lattice),
+            Self::TrueStrain(elements) => Some(&elements.lattice),
+            Self::Pairwise(elements) => Some(&elements.lattice),
+        }
+    }
 }
 
 impl BondSystem {
@@ -60,7 +97,7 @@ impl BondSystem {
                 *shear = factor * *shear * l;
                 *rotational *= factor;
             });
-        let imaginary = element.has_strains().then(|| {
+        let lattice = || {
             let of_bond = |(bond, density): (usize, StrainStiffness)| {
                 let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
                 let factor = weight[bond] * a * b * bonds.length[bond];
@@ -71,66 +108,89 @@ impl BondSystem {
             };
             let stiffness = strain.into_iter().enumerate().map(of_bond).collect();
             ImaginaryElements::new(&bonds, cloud.positions.clone(), stiffness)
-        });
+        };
+        let kinematics = match element {
+            ElementKind::Beam => Kinematics::Beam(Pairs::default()),
+            ElementKind::Spring => Kinematics::Spring(Pairs::default()),
+            ElementKind::Imaginary => Kinematics::Imaginary(lattice()),
+            ElementKind::TrueStrain => {
+                Kinematics::TrueStrain(TrueStrainElements { lattice: lattice() })
+            }
+            ElementKind::Pairwise => Kinematics::Pairwise(PairwiseElements {
+                lattice: lattice(),
+                row_factors: mbb_pd::pairwise::row_factors(&bonds, &cloud),
+                spacing: cloud.spacing.clone(),
+            }),
+        };
+        let rigidities = Rigidities {
+            axial,
+            shear,
+            rotational,
+        };
         Self {
-            axial_rigidity: axial,
-            shear_rigidity: shear,
-            rotational_rigidity: rotational,
+            rigidities,
             weight,
-            imaginary,
-            element,
+            kinematics,
             bonds,
             cloud,
         }
     }
+}
 
-    /// Whether some bond has a negative axial or shear stiffness, or an indefinite one of its strains, so that the stiffness of the
-    /// body may be indefinite.
-    pub fn has_negative_stiffness(&self) -> bool {
-        if let Some(elements) = &self.imaginary {
-            return elements.some_indefinite();
-        }
-        let mut rigidities = self.axial_rigidity.iter().chain(&self.shear_rigidity);
-        rigidities.any(|&rigidity| rigidity < 0.0)
-    }
+/// Which bonds are left, and how much of their stiffness.
+#[derive(Debug, Clone, Copy)]
+pub struct BondsLeft<'a> {
+    /// Which are unbroken, shape (n_bonds).
+    pub intact: &'a [bool],
+    /// What is left of their stiffness, shape (n_bonds); empty where that is all of it.
+    pub remaining: &'a [Remaining],
+}
 
-    /// Share of the energy of a bond that belongs to one of its ends: a half, but for imaginary elements.
-    #[inline]
-    pub fn share(&self, bond: u32, point: u32) -> f64 {
-        match &self.imaginary {
-            None => 0.5,
-            Some(elements) => {
-                let first_share = elements.stiffness[bond as usize].first_share;
-                if self.bonds.ends[bond as usize][0] == point {
-                    first_share
-                } else {
-                    1.0 - first_share
-                }
-            }
+impl<'a> BondsLeft<'a> {
+    /// Unbroken bonds (n_bonds) with all of their stiffness.
+    pub fn whole(intact: &'a [bool]) -> Self {
+        Self {
+            intact,
+            remaining: &[],
         }
     }
+}
 
-    /// The other points that elements couple with a point, ascending.
-    pub fn coupled_points(&self, point: u32) -> impl Iterator<Item = u32> + '_ {
-        // Of a pair a bond holds the other end, of other elements the list holds it as it is.
-        let (entries, are_bonds) = match &self.imaginary {
-            None => (self.bonds.incidence.at(point), true),
-            Some(elements) => (elements.neighbours.at(point), false),
-        };
-        entries.iter().map(move |&entry| {
-            if are_bonds {
-                self.bonds.neighbour(entry, point)
-            } else {
-                entry
-            }
+/// A bond system whose elements are known as a type, so that loops over its bonds ask for it once.
+pub(crate) struct Typed<'a, E> {
+    pub(crate) system: &'a BondSystem,
+    pub(crate) elements: &'a E,
+}
+
+impl<E> Clone for Typed<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Typed<'_, E> {}
+
+// The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
+impl<E: Elements> Typed<'_, E> {
+    /// The element of a bond with all of its stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
+    #[inline(always)]
+    pub(crate) fn whole(self, intact: &[bool], bond: usize) -> E::Element {
+        let BondSystem {
+            bonds, rigidities, ..
+        } = self.system;
+        self.elements.element(bonds, rigidities, intact, bond)
+    }
+
+    /// The element of a bond with what is left of it; None if it is broken.
+    #[inline(always)]
+    pub(crate) fn left(self, bonds: BondsLeft<'_>, bond: usize) -> Option<E::Element> {
+        if !bonds.intact[bond] {
+            return None;
+        }
+        let whole = self.whole(bonds.intact, bond);
+        Some(match bonds.remaining.get(bond) {
+            None => whole,
+            Some(remaining) => whole.weakened(remaining),
         })
-    }
-
-    /// The bonds whose elements couple a point, ascending; with imaginary elements more than those that end there.
-    pub fn elements_of(&self, point: u32) -> &[u32] {
-        match &self.imaginary {
-            None => self.bonds.incidence.at(point),
-            Some(elements) => elements.couplings.at(point),
-        }
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_case::case::{BodySection, CaseFile, TemperatureChange};
 
-/// All inputs of a run as text, the same wherever its files lie and however many threads it has.
+/// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Inputs(String);
 
@@ -16,8 +16,8 @@ pub struct Inputs(String);
 pub(crate) struct Contents(HashMap<PathBuf, String>);
 
 impl Contents {
-    /// What tells the content of a file: its size and a digest of its bytes.
-    pub(crate) fn of(&mut self, path: &Path) -> io::Result<String> {
+    /// The identity of the content of a file: its size and a digest of its bytes.
+    pub(crate) fn identity(&mut self, path: &Path) -> io::Result<String> {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
@@ -30,19 +30,23 @@ impl Contents {
 }
 
 impl Inputs {
-    /// Those of a case; `mesh` is what stands for the content of its mesh file where that is not there yet.
+    /// The inputs of a case; `mesh` stands for the content of its mesh file where that is not there yet.
     ///
     /// # Errors
     ///
     /// If a file cannot be read, with its path.
-    pub(crate) fn of(
+    pub(crate) fn from_case(
         case: &CaseFile,
         mesh: Option<&str>,
         contents: &mut Contents,
     ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
         plain.case.solver.threads = None;
-        let mut content = |path: &PathBuf| contents.of(path).map_err(|error| (path.clone(), error));
+        let mut content = |path: &PathBuf| {
+            contents
+                .identity(path)
+                .map_err(|error| (path.clone(), error))
+        };
         if let BodySection::Mesh(section) = &mut plain.case.body {
             let content = match mesh {
                 Some(content) => content.to_owned(),
@@ -59,12 +63,12 @@ impl Inputs {
         Ok(Self(plain.resolved_toml().unwrap_or_default()))
     }
 
-    /// What a record keeps of them.
+    /// The text of the inputs, as a record keeps it.
     pub fn text(&self) -> &str {
         &self.0
     }
 
-    /// How they differ from those of an earlier run, in a few words.
+    /// The difference from the inputs of an earlier run, in a few words.
     pub fn difference(&self, earlier: &str) -> String {
         let added: Vec<&str> = self.0.lines().filter(|line| !has(earlier, line)).collect();
         let gone = earlier.lines().filter(|line| !has(&self.0, line)).count();

@@ -40,7 +40,7 @@ impl LineFit {
     /// # Errors
     ///
     /// If there are not two points at different x, or a coordinate is not finite.
-    pub fn of(points: &[[f64; 2]]) -> Result<Self, FitError> {
+    pub fn through(points: &[[f64; 2]]) -> Result<Self, FitError> {
         if points.iter().flatten().any(|value| !value.is_finite()) {
             return Err(FitError::NotFinite);
         }
@@ -97,7 +97,7 @@ mod tests {
             8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68,
         ];
         let points: Vec<[f64; 2]> = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();
-        let fit = LineFit::of(&points).unwrap();
+        let fit = LineFit::through(&points).unwrap();
         // Half a unit of the last digit given.
         let near = |value: f64, known: f64, digit: f64| (value - known).abs() <= 0.5 * digit;
         assert!(near(fit.slope, 0.5001, 1e-4), "{fit:?}");
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn three_points_have_their_closed_form() {
         for c in [0.0, 1e6] {
-            let fit = LineFit::of(&[[c, 0.0], [c + 1.0, 1.0], [c + 2.0, 1.0]]).unwrap();
+            let fit = LineFit::through(&[[c, 0.0], [c + 1.0, 1.0], [c + 2.0, 1.0]]).unwrap();
             // The means of numbers of size 1e6 have 1e-10 left of their rounding.
             assert!((fit.slope - 0.5).abs() < 1e-9, "{fit:?}");
             assert!((fit.at(c + 1.0) - 2.0 / 3.0).abs() < 1e-9, "{fit:?}");
@@ -128,22 +128,24 @@ mod tests {
 
     #[test]
     fn two_points_leave_no_scatter() {
-        let fit = LineFit::of(&[[1.0, 2.0], [3.0, 8.0]]).unwrap();
+        let fit = LineFit::through(&[[1.0, 2.0], [3.0, 8.0]]).unwrap();
         assert_eq!((fit.slope, fit.intercept), (3.0, -1.0));
         assert_eq!((fit.slope_error, fit.intercept_error), (None, None));
         assert_eq!(
-            LineFit::of(&[[0.0, 2.0], [1.0, 2.0]]).unwrap().r_squared,
+            LineFit::through(&[[0.0, 2.0], [1.0, 2.0]])
+                .unwrap()
+                .r_squared,
             1.0
         );
     }
 
     #[test]
     fn points_without_a_line_are_told() {
-        assert_eq!(LineFit::of(&[]), Err(FitError::TooFew(0)));
-        assert_eq!(LineFit::of(&[[1.0, 2.0]]), Err(FitError::TooFew(1)));
-        let upright = LineFit::of(&[[1.0, 2.0], [1.0, 3.0]]);
+        assert_eq!(LineFit::through(&[]), Err(FitError::TooFew(0)));
+        assert_eq!(LineFit::through(&[[1.0, 2.0]]), Err(FitError::TooFew(1)));
+        let upright = LineFit::through(&[[1.0, 2.0], [1.0, 3.0]]);
         assert_eq!(upright, Err(FitError::OnePlace(1.0)));
-        let lost = LineFit::of(&[[1.0, f64::NAN], [2.0, 3.0]]);
+        let lost = LineFit::through(&[[1.0, f64::NAN], [2.0, 3.0]]);
         assert_eq!(lost, Err(FitError::NotFinite));
     }
 }

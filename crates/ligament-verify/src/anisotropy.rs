@@ -1,16 +1,19 @@
 //! First yield on irregular meshes beside that of lattices: what the directions of their bonds do to criteria.
 
+use std::sync::Arc;
+
 use anyhow::Context;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{Distribution, families, interior, mean_error};
 use ligament_model::yielding::{Family, PrincipalStretches, lattice};
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, LabelError, Labels, Table};
-use super::trial::{Memory, StoredMesh, Template};
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, LabelError, Labels, Table};
+use super::trial::{Memory, StoredMesh, Template, stored_mesh, template};
 use ligament_case::model::Model;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
 /// The experiment.
@@ -37,25 +40,13 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static DISK: Template = Template {
-    path: "cases/brazilian-disk/case.toml",
-    text: include_str!("../../../cases/brazilian-disk/case.toml"),
-};
+static DISK: Template = template!("brazilian-disk/case.toml");
 
-static PLATE: Template = Template {
-    path: "cases/plate-tension/case.toml",
-    text: include_str!("../../../cases/plate-tension/case.toml"),
-};
+static PLATE: Template = template!("plate-tension/case.toml");
 
-static DISK_MESH: StoredMesh = StoredMesh {
-    path: "../../meshes/disk-2mm-platen-1.5mm.msh",
-    bytes: include_bytes!("../../../meshes/disk-2mm-platen-1.5mm.msh"),
-};
+static DISK_MESH: StoredMesh = stored_mesh!("disk-2mm-platen-1.5mm.msh");
 
-static PLATE_MESH: StoredMesh = StoredMesh {
-    path: "../../meshes/plate.msh",
-    bytes: include_bytes!("../../../meshes/plate.msh"),
-};
+static PLATE_MESH: StoredMesh = stored_mesh!("plate.msh");
 
 /// Limits that are the same for all bonds; the errors under one measure do not depend on them.
 const STRENGTHS: Strengths = Strengths {
@@ -65,10 +56,9 @@ const STRENGTHS: Strengths = Strengths {
 };
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let text = include_str!("published/mesh-anisotropy.csv");
     let mut memory = Memory::default();
-    let table = Known::parse("mesh-anisotropy", text)?
-        .judge(extent, |labels| statistic(labels, &mut memory))?;
+    let table =
+        published!("mesh-anisotropy").judge(extent, |labels| statistic(labels, &mut memory))?;
     let plots = vec![
         plot(&table, "stretch", "extension")?,
         plot(&table, "sliding", "shear")?,
@@ -133,7 +123,7 @@ fn statistic(labels: Labels<'_>, memory: &mut Memory<Anisotropy>) -> anyhow::Res
         .set("fracture.steps", 1);
     let (name, strains) = (criterion(labels)?, strains(labels)?);
     let key = format!("{} {name} {strains:?}", trial.command());
-    let found = memory.of(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
+    let found = memory.result(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
     let Distribution {
         mean,
         percentile_5,
@@ -160,9 +150,9 @@ fn anisotropy(
     let system = &model.system;
     let criteria = match criterion {
         "strength" => model.criteria.clone(),
-        other => uniform(other, system.bonds.len())?,
+        other => Arc::new(uniform(other, system.bonds.len())?),
     };
-    let is_interior = interior(system, &model.body.rim(), &model.fixed.precrack_share);
+    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
     let yields = families(system, &criteria, |_| strains);
     let inside: Vec<u32> = (0..)
         .zip(&is_interior)

@@ -3,10 +3,11 @@
 use anyhow::{Context, bail};
 use ligament_analysis::driver::Outcome;
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels};
-use super::trial::{Memory, Template};
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, Labels};
+use super::trial::{Memory, Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -25,25 +26,16 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CENTRAL: Template = Template {
-    path: "cases/mbb-central-crack/case.toml",
-    text: include_str!("../../../cases/mbb-central-crack/case.toml"),
-};
+static CENTRAL: Template = template!("mbb-central-crack/case.toml");
 
-static THREE: Template = Template {
-    path: "cases/three-cracks/case.toml",
-    text: include_str!("../../../cases/three-cracks/case.toml"),
-};
+static THREE: Template = template!("three-cracks/case.toml");
 
-static HOLE: Template = Template {
-    path: "cases/square-hole/case.toml",
-    text: include_str!("../../../cases/square-hole/case.toml"),
-};
+static HOLE: Template = template!("square-hole/case.toml");
 
 /// Side of the plate, m.
 const SIDE: f64 = 0.1;
 
-/// Its section, m^2.
+/// Section of the plate, m^2.
 const SECTION: f64 = SIDE * 1e-3;
 
 const MEGAPASCALS: f64 = 1e-6;
@@ -58,7 +50,6 @@ struct Failure {
 }
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let table = |name, text| Known::parse(name, text);
     let mut runs = Memory::default();
     let mut curves = Vec::new();
     let mut failure = |labels: Labels<'_>| -> anyhow::Result<Failure> {
@@ -68,13 +59,13 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .set("lattice.cells", [cells, cells])
             .set("lattice.spacing", 1e-3 * d)
             .set("fracture.stop.load_fraction", 0.8);
-        runs.of(trial.command(), || {
-            let failure = Failure::of(&trial.solve()?.outcome)?;
+        runs.result(trial.command(), || {
+            let failure = Failure::from_outcome(&trial.solve()?.outcome)?;
             curves.push((format!("{case}, {d} mm"), failure.curve.clone()));
             Ok(failure)
         })
     };
-    let peaks = table("mbb-peaks", include_str!("published/mbb-peaks.csv"))?;
+    let peaks = published!("mbb-peaks");
     let peaks = peaks.judge(extent, |labels| {
         let failure = failure(labels)?;
         match labels.text("of")? {
@@ -83,8 +74,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             other => bail!("of is `first` or `peak`, not `{other}`"),
         }
     })?;
-    let griffith = table("mbb-griffith", include_str!("published/mbb-griffith.csv"))?
-        .judge(extent, |labels| Ok(failure(labels)?.peak))?;
+    let griffith = published!("mbb-griffith").judge(extent, |labels| Ok(failure(labels)?.peak))?;
     let colours = [
         Colour::Blue,
         Colour::Sky,
@@ -100,13 +90,10 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         x: "strain, %".to_owned(),
         y: "stress on the whole section, MPa".to_owned(),
         series: series
-            .map(|((label, curve), colour)| Series::new(&label, Mark::Curve, colour, curve))
+            .map(|((label, curve), colour)| Series::curve(label, colour, curve))
             .collect(),
     };
-    Ok(Findings {
-        tables: vec![peaks, griffith],
-        plots: vec![plot],
-    })
+    Ok(Findings::new(vec![peaks, griffith], vec![plot]))
 }
 
 fn template(case: &str) -> anyhow::Result<&'static Template> {
@@ -119,7 +106,7 @@ fn template(case: &str) -> anyhow::Result<&'static Template> {
 }
 
 impl Failure {
-    fn of(outcome: &Outcome) -> anyhow::Result<Self> {
+    fn from_outcome(outcome: &Outcome) -> anyhow::Result<Self> {
         let stress = |force: f64| MEGAPASCALS * force / SECTION;
         let first = outcome.first_break.context("no bond breaks")?;
         let peak = outcome.peak().context("the run has no state at rest")?;

@@ -2,10 +2,11 @@
 
 use ligament_analysis::COMPONENTS;
 
-use super::table::{Extent, Known};
-use super::trial::Template;
-use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::Extent;
+use super::trial::{Template, template};
+use ligament::run::Solution;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -18,10 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static RING: Template = Template {
-    path: "cases/thick-cylinder/case.toml",
-    text: include_str!("../../../cases/thick-cylinder/case.toml"),
-};
+static RING: Template = template!("thick-cylinder/case.toml");
 
 const INNER: f64 = 1.5;
 const OUTER: f64 = 2.2;
@@ -29,8 +27,7 @@ const YOUNG: f64 = 65.8e9;
 const PRESSURE: f64 = 400e6;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let known = Known::parse("mbb-cylinder", include_str!("published/mbb-cylinder.csv"))?;
-    let table = known.judge(extent, |labels| {
+    let table = published!("mbb-cylinder").judge(extent, |labels| {
         let (spacing, nu) = (1e-3 * labels.number("d")?, labels.number("nu")?);
         let cells = 2 * (OUTER / spacing).round() as u32;
         let trial = (RING.trial())
@@ -39,10 +36,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .set("material.poisson", nu);
         Ok(100.0 * difference(&trial.solve()?, nu))
     })?;
-    Ok(Findings {
-        tables: vec![table],
-        plots: Vec::new(),
-    })
+    Ok(Findings::new(vec![table], Vec::new()))
 }
 
 /// L2 norm over the points of the difference from Lame's u_r over that of u_r, where

@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 
 use anyhow::Context;
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels};
-use super::trial::{StoredMesh, Template};
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, Labels};
+use super::trial::{StoredMesh, Template, stored_mesh, template};
 use ligament_case::summary::DROP;
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -23,37 +24,20 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-const TABLE: &str = include_str!("published/disk-peak.csv");
+static CASE: Template = template!("brazilian-disk/case.toml");
 
-static CASE: Template = Template {
-    path: "cases/brazilian-disk/case.toml",
-    text: include_str!("../../../cases/brazilian-disk/case.toml"),
-};
+static COARSE: StoredMesh = stored_mesh!("disk-3mm-platen-1.5mm.msh");
 
-static COARSE: StoredMesh = StoredMesh {
-    path: "../../meshes/disk-3mm-platen-1.5mm.msh",
-    bytes: include_bytes!("../../../meshes/disk-3mm-platen-1.5mm.msh"),
-};
-
-static FINE: StoredMesh = StoredMesh {
-    path: "../../meshes/disk-2mm-platen-1.5mm.msh",
-    bytes: include_bytes!("../../../meshes/disk-2mm-platen-1.5mm.msh"),
-};
+static FINE: StoredMesh = stored_mesh!("disk-2mm-platen-1.5mm.msh");
 
 /// Load at which a disk of a material with this strength splits: pi D t F_t/2, N.
 const CLOSED_FORM: f64 = 0.5 * PI * 0.1 * 1.0 * 3.81e6;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let known = Known::parse("disk-peak", TABLE)?;
-    let table = known.judge(extent, relative_peak)?;
+    let table = published!("disk-peak").judge(extent, relative_peak)?;
     let curve = |mesh: &str, colour| {
         let points = table.computed("lambda", &[("mesh", mesh)])?;
-        anyhow::Ok(Series::new(
-            &format!("computed, {mesh}"),
-            Mark::Line,
-            colour,
-            points,
-        ))
+        anyhow::Ok(Series::line(format!("computed, {mesh}"), colour, points))
     };
     let eq_22 = (8..=16)
         .map(|quarters| 0.25 * f64::from(quarters))
@@ -64,15 +48,12 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         x: "horizon factor lambda".to_owned(),
         y: "peak load / (pi D t F_t/2)".to_owned(),
         series: vec![
-            Series::new("NHPD eq. 22", Mark::Dashes, Colour::Black, eq_22.collect()),
+            Series::dashes("NHPD eq. 22", Colour::Black, eq_22.collect()),
             curve("3 mm", Colour::Blue)?,
             curve("2 mm", Colour::Vermilion)?,
         ],
     };
-    Ok(Findings {
-        tables: vec![table],
-        plots: vec![plot],
-    })
+    Ok(Findings::new(vec![table], vec![plot]))
 }
 
 fn relative_peak(labels: Labels<'_>) -> anyhow::Result<f64> {

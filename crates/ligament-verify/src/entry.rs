@@ -5,58 +5,58 @@ use super::printed::{Allowed, Printed};
 /// A value that is known before it is computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    /// What it is the value of, a label for each key of the heading.
+    /// Labels of the value, one for each key of the heading.
     pub labels: Vec<String>,
     /// The value.
     pub known: Printed,
-    /// How far the computed value may be from it.
+    /// Allowed distance of the computed value from the known one.
     pub allowed: Allowed,
     /// Whether the value is to be trusted.
     pub standing: Standing,
-    /// Whether it belongs to the fast subset.
+    /// Whether the entry belongs to the fast subset.
     pub is_fast: bool,
 }
 
 /// Whether a known value is to be trusted.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Standing {
-    /// It is.
+    /// The value is to be trusted.
     Sound,
-    /// It is, but its last digit was cut off, not rounded.
+    /// The value is to be trusted, but its last digit was cut off, not rounded.
     Truncated {
-        /// What shows it.
+        /// The evidence for the cut.
         reason: String,
     },
-    /// It was printed in error.
+    /// The value was printed in error.
     Misprint {
         /// What should stand there, and is compared with.
         instead: Printed,
-        /// What shows it.
+        /// The evidence for the error.
         reason: String,
     },
-    /// No set-up is known that leads to it.
+    /// No set-up is known that leads to the value.
     Open {
         /// What an independent calculation gives, and is compared with.
         instead: Printed,
-        /// What is known about it.
+        /// The knowledge about the value.
         reason: String,
     },
 }
 
-/// What became of an entry.
+/// The outcome of comparing an entry with what was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// The computed value is the known one to its last digit.
     Met,
-    /// It is as near as it should be.
+    /// The computed value is as near as it should be.
     Within,
     /// The known value is a misprint, and the computed one is what should stand there.
     Misprint,
     /// The known value is not met, and the computed one is that of an independent calculation.
     NotReproduced,
-    /// It is not judged.
+    /// The entry is shown, not judged.
     Shown,
-    /// It should be near, and is not.
+    /// The computed value should be near the known one, and is not.
     Failed,
 }
 
@@ -79,7 +79,7 @@ impl Entry {
 }
 
 impl Standing {
-    /// Why the known value is not taken as it is.
+    /// The reason why the known value is not taken as it is.
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Sound => None,

@@ -1,10 +1,11 @@
 //! Natural frequencies of a square lamina with PDS and the micropolar model (MPPD Tables 4 to 6).
 
+use super::experiment::{Experiment, Findings};
 use super::named_modes::Frequencies;
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Table};
-use super::trial::{Memory, Template};
-use super::{Experiment, Findings};
+use super::published::{Published, published};
+use super::table::{Extent, Table};
+use super::trial::{Memory, Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -19,47 +20,32 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = Template {
-    path: "cases/verification/square-modes.toml",
-    text: include_str!("../../../cases/verification/square-modes.toml"),
-};
+static CASE: Template = template!("verification/square-modes.toml");
 
 /// The lamina stands on its base.
 const ALONG: usize = 1;
 
 /// A table and the mode it is of.
-type OfMode = (&'static str, &'static str, fn(Frequencies) -> f64);
+type OfMode = (Published, fn(Frequencies) -> f64);
 
 const TABLES: [OfMode; 3] = [
-    (
-        "mppd-table-4",
-        include_str!("published/mppd-table-4.csv"),
-        |it| it.flexural,
-    ),
-    (
-        "mppd-table-5",
-        include_str!("published/mppd-table-5.csv"),
-        |it| it.axial,
-    ),
-    (
-        "mppd-table-6",
-        include_str!("published/mppd-table-6.csv"),
-        |it| it.second_flexural,
-    ),
+    (published!("mppd-table-4"), |it| it.flexural),
+    (published!("mppd-table-5"), |it| it.axial),
+    (published!("mppd-table-6"), |it| it.second_flexural),
 ];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
     let mut findings = Findings::default();
-    for (name, text, frequency) in TABLES {
-        let table = Known::parse(name, text)?.judge(extent, |labels| {
+    for (table, frequency) in TABLES {
+        let table = table.judge(extent, |labels| {
             let (nu, law) = (labels.number("nu")?, labels.text("model")?.to_lowercase());
             let trial = CASE
                 .trial()
                 .set("material.poisson", nu)
                 .set("model.law", law);
             memory
-                .of(trial.command(), || Frequencies::of(&trial, ALONG))
+                .result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
                 .map(frequency)
         })?;
         findings.plots.push(plot(&table)?);
@@ -71,9 +57,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 fn plot(table: &Table) -> anyhow::Result<Plot> {
     let of = |model, from| [("model", model), ("of", from)];
     let elements = table.known("nu", &of("MPPD", "finite elements"))?;
-    let mut series = vec![Series::new(
+    let mut series = vec![Series::dashes(
         "finite elements, printed",
-        Mark::Dashes,
         Colour::Black,
         elements,
     )];
@@ -82,18 +67,8 @@ fn plot(table: &Table) -> anyhow::Result<Plot> {
             table.known("nu", &of(model, "lattice"))?,
             table.computed("nu", &of(model, "lattice"))?,
         );
-        series.push(Series::new(
-            &format!("{model}, printed"),
-            Mark::Circles,
-            colour,
-            known,
-        ));
-        series.push(Series::new(
-            &format!("{model}, computed"),
-            Mark::Line,
-            colour,
-            computed,
-        ));
+        series.push(Series::circles(format!("{model}, printed"), colour, known));
+        series.push(Series::line(format!("{model}, computed"), colour, computed));
     }
     Ok(Plot {
         name: table.heading.name.clone(),

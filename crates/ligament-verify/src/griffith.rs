@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 
 use anyhow::{Context, ensure};
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels};
-use super::trial::{Memory, StoredMesh, Template, Trial};
-use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, LabelError, Labels, Table};
+use super::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
+use ligament::run::Solution;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -27,44 +28,17 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static ON_MESH: Template = Template {
-    path: "cases/central-crack/case.toml",
-    text: include_str!("../../../cases/central-crack/case.toml"),
-};
+static ON_MESH: Template = template!("central-crack/case.toml");
 
-static ON_LATTICE: Template = Template {
-    path: "cases/central-crack/lattice.toml",
-    text: include_str!("../../../cases/central-crack/lattice.toml"),
-};
+static ON_LATTICE: Template = template!("central-crack/lattice.toml");
 
-static MODE_ONE: Template = Template {
-    path: "cases/central-crack/mode-one.toml",
-    text: include_str!("../../../cases/central-crack/mode-one.toml"),
-};
+static MODE_ONE: Template = template!("central-crack/mode-one.toml");
 
 /// Meshes by their size along the crack, mm.
 static MESHES: [(f64, StoredMesh); 3] = [
-    (
-        2.0,
-        StoredMesh {
-            path: "../../meshes/central-crack-2mm.msh",
-            bytes: include_bytes!("../../../meshes/central-crack-2mm.msh"),
-        },
-    ),
-    (
-        1.4,
-        StoredMesh {
-            path: "../../meshes/central-crack-1.4mm.msh",
-            bytes: include_bytes!("../../../meshes/central-crack-1.4mm.msh"),
-        },
-    ),
-    (
-        1.0,
-        StoredMesh {
-            path: "../../meshes/central-crack-1mm.msh",
-            bytes: include_bytes!("../../../meshes/central-crack-1mm.msh"),
-        },
-    ),
+    (2.0, stored_mesh!("central-crack-2mm.msh")),
+    (1.4, stored_mesh!("central-crack-1.4mm.msh")),
+    (1.0, stored_mesh!("central-crack-1mm.msh")),
 ];
 
 /// Half of the plate's width, W, m.
@@ -73,7 +47,7 @@ const HALF_WIDTH: f64 = 0.05;
 /// Half of its height, m.
 const HALF_HEIGHT: f64 = 0.1;
 
-/// Its thickness t, m.
+/// Thickness t of the plate, m.
 const THICKNESS: f64 = 0.01;
 
 /// Half-length a of the central crack, m.
@@ -82,8 +56,8 @@ const HALF_LENGTH: f64 = 0.0152;
 /// Where the tip of the edge crack stands, m.
 const EDGE_TIP: f64 = -0.02;
 
-/// How far the part of the line whose crossings are counted stands aside, m: bonds of a lattice cross at its places, and
-/// its ends should lie between them.
+/// Distance by which the part of the line whose crossings are counted stands aside, m. Bonds of a lattice cross at the
+/// points of the lattice, and the ends of that part should lie between them.
 const ASIDE: f64 = 1.1e-4;
 
 /// E, Pa.
@@ -110,104 +84,83 @@ struct Separation {
 }
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let table = |name, text| Known::parse(name, text);
-    let strength = table("griffith", include_str!("published/griffith.csv"))?
-        .judge(extent, relative_strength)?;
-    let crossing = table(
-        "fracture-energy-crossing",
-        include_str!("published/fracture-energy-crossing.csv"),
-    )?
-    .judge(extent, crossing_energy)?;
+    let strength = published!("griffith").judge(extent, relative_strength)?;
+    let crossing = published!("fracture-energy-crossing").judge(extent, crossing_energy)?;
     let mut memory = Memory::default();
     let mut separated = |labels: Labels<'_>| -> anyhow::Result<Separation> {
         let trial = with_labels(MODE_ONE.trial(), labels)?;
         let mesh = mesh(labels)?;
-        memory.of(format!("{} {}", trial.command(), mesh.path), || {
-            Separation::of(&trial.solve_on(mesh)?)
+        memory.result(format!("{} {}", trial.command(), mesh.path), || {
+            Separation::from_solution(&trial.solve_on(mesh)?)
         })
     };
-    let work = table(
-        "fracture-energy-released",
-        include_str!("published/fracture-energy-released.csv"),
-    )?
-    .judge(extent, |labels| Ok(separated(labels)?.work))?;
-    let energy = table(
-        "fracture-energy-separation",
-        include_str!("published/fracture-energy-separation.csv"),
-    )?
-    .judge(extent, |labels| Ok(separated(labels)?.energy))?;
-    let deviation = table("mode-one", include_str!("published/mode-one.csv"))?
-        .judge(extent, |labels| Ok(separated(labels)?.deviation))?;
-    let curve = |label: &str, mark, colour, of: &[(&str, &str)]| {
-        let points = strength.computed("delta/a", of)?;
-        anyhow::Ok(Series::new(label, mark, colour, points))
-    };
-    let plot = Plot {
+    let work = published!("fracture-energy-released")
+        .judge(extent, |labels| Ok(separated(labels)?.work))?;
+    let energy = published!("fracture-energy-separation")
+        .judge(extent, |labels| Ok(separated(labels)?.energy))?;
+    let deviation =
+        published!("mode-one").judge(extent, |labels| Ok(separated(labels)?.deviation))?;
+    let plots = vec![plot(&strength)?];
+    let tables = vec![strength, crossing, work, energy, deviation];
+    Ok(Findings::new(tables, plots))
+}
+
+/// Curves of computed strengths, each with the labels of its entries.
+const CURVES: [(&str, Colour, &str); 6] = [
+    (
+        "lattice, bbpd",
+        Colour::Sky,
+        "body=lattice law=bbpd lambda=4",
+    ),
+    (
+        "lattice, nhpd",
+        Colour::Blue,
+        "body=lattice law=nhpd lambda=4 nu=0.2",
+    ),
+    ("mesh, bbpd", Colour::Orange, "body=mesh law=bbpd"),
+    (
+        "mesh, nhpd, energy",
+        Colour::Vermilion,
+        "body=mesh nu=0.2 criterion=bond-energy",
+    ),
+    (
+        "mesh, nhpd, stretch",
+        Colour::Purple,
+        "body=mesh nu=0.2 criterion=critical-stretch",
+    ),
+    (
+        "5/3 mm, m = 2 to 6",
+        Colour::Green,
+        "size=5/3 law=nhpd nu=1/3",
+    ),
+];
+
+/// Strength over the horizon; on one lattice by its own mark, because the horizon factor varies there.
+fn plot(strength: &Table) -> Result<Plot, LabelError> {
+    let mut series = vec![Series::dashes(
+        "LEFM",
+        Colour::Black,
+        vec![[0.1, 1.0], [0.7, 1.0]],
+    )];
+    for (label, colour, of) in CURVES {
+        let of: Vec<(&str, &str)> = (of.split(' '))
+            .filter_map(|it| it.split_once('='))
+            .collect();
+        let is_one_size = of.iter().any(|(key, _)| *key == "size");
+        let mark = if is_one_size {
+            Mark::Circles
+        } else {
+            Mark::Line
+        };
+        let points = strength.computed("delta/a", &of)?;
+        series.push(Series::new(label, mark, colour, points));
+    }
+    Ok(Plot {
         name: "griffith".to_owned(),
         title: "Failure stress of a plate with a central crack".to_owned(),
         x: "horizon / half-length of the crack".to_owned(),
         y: "failure stress over LEFM".to_owned(),
-        series: vec![
-            Series::new(
-                "LEFM",
-                Mark::Dashes,
-                Colour::Black,
-                vec![[0.1, 1.0], [0.7, 1.0]],
-            ),
-            curve(
-                "lattice, bbpd",
-                Mark::Line,
-                Colour::Sky,
-                &[("body", "lattice"), ("law", "bbpd"), ("lambda", "4")],
-            )?,
-            curve(
-                "lattice, nhpd",
-                Mark::Line,
-                Colour::Blue,
-                &[
-                    ("body", "lattice"),
-                    ("law", "nhpd"),
-                    ("lambda", "4"),
-                    ("nu", "0.2"),
-                ],
-            )?,
-            curve(
-                "mesh, bbpd",
-                Mark::Line,
-                Colour::Orange,
-                &[("body", "mesh"), ("law", "bbpd")],
-            )?,
-            curve(
-                "mesh, nhpd, energy",
-                Mark::Line,
-                Colour::Vermilion,
-                &[
-                    ("body", "mesh"),
-                    ("nu", "0.2"),
-                    ("criterion", "bond-energy"),
-                ],
-            )?,
-            curve(
-                "mesh, nhpd, stretch",
-                Mark::Line,
-                Colour::Purple,
-                &[
-                    ("body", "mesh"),
-                    ("nu", "0.2"),
-                    ("criterion", "critical-stretch"),
-                ],
-            )?,
-            curve(
-                "5/3 mm, m = 2 to 6",
-                Mark::Circles,
-                Colour::Green,
-                &[("size", "5/3"), ("law", "nhpd"), ("nu", "1/3")],
-            )?,
-        ],
-    };
-    Ok(Findings {
-        tables: vec![strength, crossing, work, energy, deviation],
-        plots: vec![plot],
+        series,
     })
 }
 
@@ -215,7 +168,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 ///
 /// sigma = sqrt(E G_c/(pi a))/F, F = (1 - 0.025 (a/W)^2 + 0.06 (a/W)^4) sqrt(sec(pi a/(2W)))
 ///
-/// (Tada, Paris and Irwin 2000, The Stress Analysis of Cracks Handbook, section 2.1: 0.1 % off for a long plate).
+/// (Tada 2000, section 2.1: 0.1 % off for a long plate).
 fn failure_stress() -> f64 {
     let ratio = HALF_LENGTH / HALF_WIDTH;
     let width = 1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4);
@@ -309,7 +262,7 @@ fn energy_at_limits(solution: &Solution, bonds: impl Iterator<Item = usize>) -> 
     let model = &solution.model;
     let limits = &model.criteria.list[0].limit;
     bonds
-        .map(|bond| 0.5 * model.system.axial_rigidity[bond] * limits[bond].powi(2))
+        .map(|bond| 0.5 * model.system.rigidities.axial[bond] * limits[bond].powi(2))
         .sum()
 }
 
@@ -324,7 +277,7 @@ fn ends(solution: &Solution, bond: usize) -> [[f64; 2]; 2] {
 }
 
 impl Separation {
-    fn of(solution: &Solution) -> anyhow::Result<Self> {
+    fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
         let intact = &solution.outcome.state.intact;
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
         let reached = broken.iter().map(|&bond| {

@@ -1,10 +1,11 @@
 //! Natural frequencies of an orthotropic lamina with a hole, and their convergence (OMPPD Tables 3 to 5, Fig. 18).
 
+use super::experiment::{Experiment, Findings};
 use super::named_modes::Frequencies;
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, LabelError, Row, Table};
-use super::trial::{Memory, Template};
-use super::{Experiment, Findings};
+use super::published::{Published, published};
+use super::table::{Extent, LabelError, Row, Table};
+use super::trial::{Memory, Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -21,37 +22,19 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = Template {
-    path: "cases/verification/lamina-modes.toml",
-    text: include_str!("../../../cases/verification/lamina-modes.toml"),
-};
+static CASE: Template = template!("verification/lamina-modes.toml");
 
 /// The lamina sticks out along x.
 const ALONG: usize = 0;
 
 /// A table and the mode it is of.
-type OfMode = (&'static str, &'static str, fn(Frequencies) -> f64);
+type OfMode = (Published, fn(Frequencies) -> f64);
 
 const TABLES: [OfMode; 3] = [
-    (
-        "omppd-table-3",
-        include_str!("published/omppd-table-3.csv"),
-        |it| it.flexural,
-    ),
-    (
-        "omppd-table-4",
-        include_str!("published/omppd-table-4.csv"),
-        |it| it.axial,
-    ),
-    (
-        "omppd-table-5",
-        include_str!("published/omppd-table-5.csv"),
-        |it| it.second_flexural,
-    ),
+    (published!("omppd-table-3"), |it| it.flexural),
+    (published!("omppd-table-4"), |it| it.axial),
+    (published!("omppd-table-5"), |it| it.second_flexural),
 ];
-
-const DEVIATION: &str = include_str!("published/omppd-deviation.csv");
-const CONVERGENCE: &str = include_str!("published/omppd-convergence.csv");
 
 /// Cells along x: half of them along y.
 const COARSE: u32 = 40;
@@ -83,15 +66,15 @@ fn tables(
     memory: &mut Memory<Frequencies>,
     cells: u32,
 ) -> anyhow::Result<Vec<Table>> {
-    let table = |(name, text, frequency): OfMode| {
-        Known::parse(name, text)?.judge(extent, |labels| {
+    let table = |(table, frequency): OfMode| {
+        table.judge(extent, |labels| {
             let trial = CASE.trial();
             let trial = trial.set("material.angle", labels.number("angle")?.to_radians());
             let trial = trial.set("lattice.cells", [cells, cells / 2]);
             let trial = trial.set("lattice.spacing", 0.4 / f64::from(cells));
             let trial = trial.set("lattice.set.end.left", cells / COARSE);
             memory
-                .of(trial.command(), || Frequencies::of(&trial, ALONG))
+                .result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
                 .map(frequency)
         })
     };
@@ -104,7 +87,7 @@ fn deviation(middle: &[Table]) -> anyhow::Result<Table> {
         let rows = rows_of(table, "lattice");
         rows.map(|row| (row.computed, row.entry.known.value()))
     }));
-    Known::parse("omppd-deviation", DEVIATION)?.judge(Extent::Full, |labels| {
+    published!("omppd-deviation").judge(Extent::Full, |labels| {
         Ok(match labels.text("statistic")? {
             "median" => printed[printed.len() / 2],
             _ => printed[printed.len() - 1],
@@ -122,7 +105,7 @@ fn convergence(coarse: &[Table], middle: &[Table], fine: &[Table]) -> anyhow::Re
         let rows = rows_of(table, "finite elements");
         rows.map(|row| (row.computed, row.entry.known.value()))
     }));
-    Known::parse("omppd-convergence", CONVERGENCE)?.judge(Extent::Full, |labels| {
+    published!("omppd-convergence").judge(Extent::Full, |labels| {
         let all = match labels.text("points")? {
             "748" => &changes,
             _ => &errors,
@@ -158,19 +141,9 @@ fn of_angle(table: &Table) -> Result<Plot, LabelError> {
         x: "angle of axis 1, degrees".to_owned(),
         y: "frequency, Hz".to_owned(),
         series: vec![
-            Series::new(
-                "finite elements, printed",
-                Mark::Dashes,
-                Colour::Black,
-                elements,
-            ),
-            Series::new(
-                "lattice, printed",
-                Mark::Circles,
-                Colour::Vermilion,
-                printed,
-            ),
-            Series::new("lattice, computed", Mark::Line, Colour::Vermilion, computed),
+            Series::dashes("finite elements, printed", Colour::Black, elements),
+            Series::circles("lattice, printed", Colour::Vermilion, printed),
+            Series::line("lattice, computed", Colour::Vermilion, computed),
         ],
     })
 }
@@ -195,12 +168,7 @@ fn of_horizon(tables: [&Table; 3]) -> Result<Plot, LabelError> {
                 pairs.map(|(known, computed)| [horizon, 100.0 * (computed[1] / known[1] - 1.0)]),
             );
         }
-        series.push(Series::new(
-            &format!("{angle} degrees"),
-            Mark::Line,
-            colour,
-            points,
-        ));
+        series.push(Series::line(format!("{angle} degrees"), colour, points));
     }
     Ok(Plot {
         name: "omppd-convergence".to_owned(),

@@ -6,12 +6,11 @@
 //! | [`table`], [`entry`], [`printed`] | a table, the verdict on an entry, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, a file each |
-//! | [`report`], [`plots`], [`tally`] | console, Markdown, CSV and SVG |
+//! | [`report`], [`tally`] | console, Markdown, CSV and SVG |
 
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::Context;
 use ligament_output::folder::ResultFolder;
 
 use ligament::suggestion::hint;
@@ -21,6 +20,7 @@ mod cracks;
 mod cylinder;
 mod disk;
 pub mod entry;
+pub mod experiment;
 mod frequencies;
 mod griffith;
 mod lamina;
@@ -39,12 +39,11 @@ mod tension;
 mod trial;
 mod yielding;
 
-pub use ligament_plot::plots;
+pub use experiment::{Experiment, Findings};
 
 use entry::Verdict;
-use plots::Plot;
 use report::{console, files, markdown};
-use table::{Extent, Table};
+use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
@@ -65,47 +64,7 @@ pub static EXPERIMENTS: [Experiment; 14] = [
     cracks::EXPERIMENT,
 ];
 
-/// A published case, or several that belong together.
-#[derive(Debug, Clone, Copy)]
-pub struct Experiment {
-    /// Name on the command line.
-    pub name: &'static str,
-    /// Title.
-    pub title: &'static str,
-    /// Paper, tables and figures, or closed form.
-    pub source: &'static str,
-    /// What is computed, and how.
-    pub setup: &'static str,
-    /// The cases that are run, with settings of each entry.
-    pub cases: &'static [&'static str],
-    /// Computes the tables, or their fast subset.
-    pub compute: fn(Extent) -> anyhow::Result<Findings>,
-}
-
-impl Experiment {
-    /// Runs the experiment; a table without entries in the subset is left out.
-    ///
-    /// # Errors
-    ///
-    /// If a case of it cannot be run.
-    pub fn run(&self, extent: Extent) -> anyhow::Result<Findings> {
-        let mut findings = (self.compute)(extent)
-            .with_context(|| format!("experiment {} cannot be run", self.name))?;
-        findings.tables.retain(|table| !table.rows.is_empty());
-        Ok(findings)
-    }
-}
-
-/// What an experiment comes to.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Findings {
-    /// Known and computed values.
-    pub tables: Vec<Table>,
-    /// Curves of them.
-    pub plots: Vec<Plot>,
-}
-
-/// What to verify, and where to write it.
+/// A request to `ligament verify`: the experiments, and where to write.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Names of experiments; none for all.
@@ -155,11 +114,14 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
         let findings = experiment.run(request.extent)?;
         console::tell(screen, &findings)?;
         files::write(&folder, &findings)?;
-        summary.append(experiment, &Tally::of(&findings))?;
+        summary.append(experiment, &Tally::from_findings(&findings))?;
         done.push((experiment, findings));
     }
     folder.write_text("README.md", &markdown::text(&done, request.extent))?;
-    let all: Tally = done.iter().map(|(_, findings)| Tally::of(findings)).sum();
+    let all: Tally = done
+        .iter()
+        .map(|(_, findings)| Tally::from_findings(findings))
+        .sum();
     writeln!(screen, "{all}")?;
     writeln!(
         screen,

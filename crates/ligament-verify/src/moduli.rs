@@ -4,10 +4,11 @@ use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 
 use anyhow::Context;
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, LabelError, Labels, Table};
-use super::trial::{Memory, Template};
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::{Published, published};
+use super::table::{Extent, LabelError, Labels, Table};
+use super::trial::{Memory, Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -24,18 +25,15 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = Template {
-    path: "cases/verification/lattice.toml",
-    text: include_str!("../../../cases/verification/lattice.toml"),
-};
+static CASE: Template = template!("verification/lattice.toml");
 
 /// Young's modulus of the case, Pa.
 const YOUNG: f64 = 70e9;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
-    let mut judge = |name, text| {
-        Known::parse(name, text)?.judge(extent, |labels| {
+    let mut judge = |table: Published| {
+        table.judge(extent, |labels| {
             let nu = labels.number("nu")?;
             let constants = constants(labels, nu, &mut memory)?;
             Ok(match labels.text("constant")? {
@@ -46,11 +44,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         })
     };
     let tables = vec![
-        judge("moduli", include_str!("published/moduli.csv"))?,
-        judge(
-            "moduli-horizons",
-            include_str!("published/moduli-horizons.csv"),
-        )?,
+        judge(published!("moduli"))?,
+        judge(published!("moduli-horizons"))?,
     ];
     let plots = vec![
         plot(&tables[1], "E", "E over its input")?,
@@ -80,7 +75,7 @@ fn constants(
             .set("model.calibration", "integral"),
         None => trial.set("model.law", law),
     };
-    memory.of(trial.command(), || {
+    memory.result(trial.command(), || {
         let system = trial.model()?.system;
         let middle = system.cloud.nearest_point([0.0, 0.0]);
         EngineeringConstants::from_stiffness(family_stiffness(&system, middle))
@@ -99,12 +94,7 @@ fn plot(table: &Table, constant: &str, axis: &str) -> Result<Plot, LabelError> {
     let mut series = Vec::new();
     for (law, nu, colour) in laws {
         let of = [("law", law), ("nu", nu), ("constant", constant)];
-        series.push(Series::new(
-            law,
-            Mark::Line,
-            colour,
-            table.computed("m", &of)?,
-        ));
+        series.push(Series::line(law, colour, table.computed("m", &of)?));
     }
     Ok(Plot {
         name: format!("moduli-{constant}"),

@@ -17,11 +17,11 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
-    /// Those of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
+    /// The named frequencies of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
-    /// The axial mode is that with the largest effective mass along the cantilever, wherever it stands among the three:
+    /// The axial mode has the largest effective mass along the cantilever, wherever it stands among the three:
     /// with PDS it is below the first flexural one for nu < 0, and equal to it for nu = 0.
-    pub(super) fn of(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
+    pub(super) fn from_trial(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
         let modes = trial.modes()?;
         ensure!(modes.len() == 3, "{} modes, expected 3", modes.len());
         let along = |mode: &Mode| mode.participation[axis].powi(2);

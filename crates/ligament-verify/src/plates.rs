@@ -2,12 +2,12 @@
 
 use anyhow::{Context, bail};
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::published::numbers;
-use super::table::{Extent, Known, Labels, Table};
-use super::trial::{Memory, Template, Trial, displacement_at, probe};
-use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use super::experiment::{Experiment, Findings};
+use super::published::{numbers, published};
+use super::table::{Extent, Labels, Table};
+use super::trial::{Memory, Template, Trial, displacement_at, probe, template};
+use ligament::run::Solution;
+use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -28,30 +28,15 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static TENSION_Y: Template = Template {
-    path: "cases/mbb-plate/tension.toml",
-    text: include_str!("../../../cases/mbb-plate/tension.toml"),
-};
+static TENSION_Y: Template = template!("mbb-plate/tension.toml");
 
-static TENSION_X: Template = Template {
-    path: "cases/mbb-plate/tension-x.toml",
-    text: include_str!("../../../cases/mbb-plate/tension-x.toml"),
-};
+static TENSION_X: Template = template!("mbb-plate/tension-x.toml");
 
-static SHEAR: Template = Template {
-    path: "cases/mbb-plate/shear.toml",
-    text: include_str!("../../../cases/mbb-plate/shear.toml"),
-};
+static SHEAR: Template = template!("mbb-plate/shear.toml");
 
-static THERMAL: Template = Template {
-    path: "cases/thermal-plates/case.toml",
-    text: include_str!("../../../cases/thermal-plates/case.toml"),
-};
+static THERMAL: Template = template!("thermal-plates/case.toml");
 
-static THERMAL_LEFT: Template = Template {
-    path: "cases/thermal-plates/three-edges.toml",
-    text: include_str!("../../../cases/thermal-plates/three-edges.toml"),
-};
+static THERMAL_LEFT: Template = template!("thermal-plates/three-edges.toml");
 
 /// Problem, d, x, y (mm), u_x, u_y (um) by finite elements.
 const ELEMENTS: &str = include_str!("../../../tests/reference/mbb-pd-elements.csv");
@@ -62,21 +47,18 @@ const SIDE: f64 = 0.1;
 const MICROMETRES: f64 = 1e6;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let known = |name, text| Known::parse(name, text);
     let mut narrowing = Memory::default();
     let mut across = |labels: Labels<'_>| -> anyhow::Result<f64> {
         let (case, nu) = (tension(labels)?, labels.number("nu")?);
         let trial = on_lattice(case.trial(), spacing(labels)?).set("material.poisson", nu);
-        let half = narrowing.of(trial.command(), || {
+        let half = narrowing.result(trial.command(), || {
             Ok(0.5 * probe(&trial.solve()?, "narrowing")?)
         })?;
         Ok(MICROMETRES * half)
     };
-    let closed_form = known("mbb-tension", include_str!("published/mbb-tension.csv"))?;
-    let lattice = include_str!("published/mbb-tension-lattice.csv");
     let mut tables = vec![
-        closed_form.judge(extent, &mut across)?,
-        known("mbb-tension-lattice", lattice)?.judge(extent, |labels| {
+        published!("mbb-tension").judge(extent, &mut across)?,
+        published!("mbb-tension-lattice").judge(extent, |labels| {
             Ok(across(labels)? - MICROMETRES * narrowing_by_hooke(labels)?)
         })?,
     ];
@@ -85,25 +67,21 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut plate = |labels: Labels<'_>| -> anyhow::Result<Compared> {
         let trial = on_lattice(problem(labels)?, spacing(labels)?);
         let wanted = (labels.text("problem")?, labels.number("d")?);
-        states.of(trial.command(), || {
-            Compared::of(&trial.solve()?, spacing(labels)?, &elements, wanted)
+        states.result(trial.command(), || {
+            Compared::with_elements(&trial.solve()?, spacing(labels)?, &elements, wanted)
         })
     };
-    let plates = include_str!("published/mbb-plates.csv");
-    tables.push(known("mbb-plates", plates)?.judge(extent, |labels| {
+    tables.push(published!("mbb-plates").judge(extent, |labels| {
         let component = usize::from(labels.text("component")? == "u_y");
         Ok(100.0 * plate(labels)?.difference[component])
     })?);
-    let values = include_str!("published/mbb-plates-elements.csv");
-    tables.push(
-        known("mbb-plates-elements", values)?.judge(extent, |labels| {
-            let compared = plate(labels)?;
-            Ok(match labels.text("of")? {
-                "force" => compared.force,
-                _ => MICROMETRES * compared.middle,
-            })
-        })?,
-    );
+    tables.push(published!("mbb-plates-elements").judge(extent, |labels| {
+        let compared = plate(labels)?;
+        Ok(match labels.text("of")? {
+            "force" => compared.force,
+            _ => MICROMETRES * compared.middle,
+        })
+    })?);
     let plots = vec![plot(&tables[0])?];
     Ok(Findings { tables, plots })
 }
@@ -186,7 +164,7 @@ struct Compared {
 }
 
 impl Compared {
-    fn of(
+    fn with_elements(
         solution: &Solution,
         spacing: f64,
         elements: &[Elements],

@@ -1,10 +1,11 @@
 //! Poisson's ratio from uniaxial tension: what a test would read off the model.
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, LabelError, Labels, Table};
-use super::trial::{StoredMesh, Template, probe};
-use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, LabelError, Labels, Table};
+use super::trial::{StoredMesh, Template, probe, stored_mesh, template};
+use ligament::run::Solution;
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -22,33 +23,19 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static LATTICE: Template = Template {
-    path: "cases/verification/lattice-tension.toml",
-    text: include_str!("../../../cases/verification/lattice-tension.toml"),
-};
+static LATTICE: Template = template!("verification/lattice-tension.toml");
 
-static PLATE: Template = Template {
-    path: "cases/plate-tension/case.toml",
-    text: include_str!("../../../cases/plate-tension/case.toml"),
-};
+static PLATE: Template = template!("plate-tension/case.toml");
 
-static MESH: StoredMesh = StoredMesh {
-    path: "../../meshes/plate.msh",
-    bytes: include_bytes!("../../../meshes/plate.msh"),
-};
+static MESH: StoredMesh = stored_mesh!("plate.msh");
 
 /// Lengths of the gauges along and across, m.
 const ON_LATTICE: [f64; 2] = [2.0 * 0.048_75, 2.0 * 0.023_75];
 const ON_MESH: [f64; 2] = [0.1, 0.079_215 - 0.023_790];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let lattice = Known::parse(
-        "poisson-lattice",
-        include_str!("published/poisson-lattice.csv"),
-    )?;
-    let lattice = lattice.judge(extent, on_lattice)?;
-    let mesh = Known::parse("poisson-mesh", include_str!("published/poisson-mesh.csv"))?;
-    let mesh = mesh.judge(extent, on_mesh)?;
+    let lattice = published!("poisson-lattice").judge(extent, on_lattice)?;
+    let mesh = published!("poisson-mesh").judge(extent, on_mesh)?;
     let by_law = [("PDS", Colour::Blue), ("MPPD", Colour::Vermilion)];
     let by_lambda = [
         ("2", Colour::Orange),
@@ -88,9 +75,8 @@ fn ratio(solution: &Solution, [along, across]: [f64; 2]) -> anyhow::Result<f64> 
 
 /// What the input is missed by, for each label of a key.
 fn plot(table: &Table, key: &str, curves: &[(&str, Colour)]) -> Result<Plot, LabelError> {
-    let mut series = vec![Series::new(
+    let mut series = vec![Series::dashes(
         "closed form",
-        Mark::Dashes,
         Colour::Black,
         vec![[-0.5, 0.0], [0.38, 0.0]],
     )];
@@ -100,12 +86,7 @@ fn plot(table: &Table, key: &str, curves: &[(&str, Colour)]) -> Result<Plot, Lab
             .into_iter()
             .map(|[input, found]| [input, found - input])
             .collect();
-        series.push(Series::new(
-            &format!("{key} {label}"),
-            Mark::Line,
-            *colour,
-            missed,
-        ));
+        series.push(Series::line(format!("{key} {label}"), *colour, missed));
     }
     Ok(Plot {
         name: table.heading.name.clone(),

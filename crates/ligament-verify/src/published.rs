@@ -17,12 +17,48 @@
 
 use super::entry::{Entry, Standing};
 use super::printed::{Allowed, Printed};
-use super::table::{Heading, Known};
+use super::table::{Extent, Heading, Known, Labels, Table};
 
 /// Columns that every table has, after those of its labels.
 const COLUMNS: [&str; 6] = [
     "known", "allowed", "subset", "standing", "instead", "reason",
 ];
+
+/// A file of `published/`, as it was when the program was built.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Published {
+    /// Its name, without `.csv`.
+    pub(super) name: &'static str,
+    /// Its text.
+    pub(super) text: &'static str,
+}
+
+/// A file of `published/` by its name, without `.csv`.
+macro_rules! published {
+    ($name:literal) => {
+        $crate::published::Published {
+            name: $name,
+            text: include_str!(concat!("published/", $name, ".csv")),
+        }
+    };
+}
+
+pub(super) use published;
+
+impl Published {
+    /// The table, or its fast subset, with what `compute` gives for the labels of each entry.
+    ///
+    /// # Errors
+    ///
+    /// If the file is no table of known values, and those of `compute`, with the labels of the entry.
+    pub(super) fn judge(
+        self,
+        extent: Extent,
+        compute: impl FnMut(Labels<'_>) -> anyhow::Result<f64>,
+    ) -> anyhow::Result<Table> {
+        Known::parse(self.name, self.text)?.judge(extent, compute)
+    }
+}
 
 /// What is wrong with a table, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -42,7 +78,7 @@ pub enum TableFault {
     /// A line of the heading is not there.
     #[error("no line `# {key}: ...` stands above the columns")]
     NoHeading {
-        /// What it should tell.
+        /// Key of the missing line.
         key: &'static str,
     },
     /// The columns are not those of a table of known values.
@@ -254,7 +290,7 @@ pub fn cells(line: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::super::entry::Verdict;
-    use super::super::table::{Extent, LabelError};
+    use super::super::table::LabelError;
     use super::*;
 
     const HEAD: &str = "\
@@ -279,7 +315,7 @@ nu,law,known,allowed,subset,standing,instead,reason
         assert_eq!(known.heading.keys, ["nu", "law"]);
         assert_eq!(known.entries[1].allowed, Allowed::Relative(0.03));
         assert_eq!(known.entries[1].standing.reason(), Some("not \"f\", g"));
-        let compute = |labels: super::super::table::Labels<'_>| Ok(1000.0 * labels.number("nu")?);
+        let compute = |labels: Labels<'_>| Ok(1000.0 * labels.number("nu")?);
         let table = known.judge(Extent::Full, compute).unwrap();
         assert_eq!(table.rows[0].computed, 1000.0 / 3.0);
         assert_eq!(table.rows[1].verdict, Verdict::Failed);

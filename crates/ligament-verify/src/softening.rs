@@ -3,10 +3,11 @@
 use anyhow::{Context, bail};
 use ligament_analysis::driver::LoadPoint;
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels};
-use super::trial::{Template, Trial};
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, Labels};
+use super::trial::{Template, Trial, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -21,21 +22,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static BAR: Template = Template {
-    path: "cases/softening-bar/case.toml",
-    text: include_str!("../../../cases/softening-bar/case.toml"),
-};
+static BAR: Template = template!("softening-bar/case.toml");
 
 /// Section between the notches, m^2, and fracture energy, J/m^2.
 const SECTION: f64 = 0.006;
 const FRACTURE_ENERGY: f64 = 100.0;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let known = Known::parse(
-        "softening-area",
-        include_str!("published/softening-area.csv"),
-    )?;
-    let table = known.judge(extent, |labels| {
+    let table = published!("softening-area").judge(extent, |labels| {
         let solution = bar(&labels)?.solve()?;
         Ok(area(&solution.outcome.envelope()) / (SECTION * FRACTURE_ENERGY))
     })?;
@@ -108,7 +102,7 @@ fn curves(wanted: &str, title: &str) -> anyhow::Result<Plot> {
         let points = solution.outcome.envelope().into_iter();
         let points = points.map(|it| [it.displacement * 1e6, it.reaction / SECTION / 1e6]);
         let name = format!("{count} rows");
-        series.push(Series::new(&name, Mark::Line, colour, points.collect()));
+        series.push(Series::line(name, colour, points.collect()));
     }
     Ok(Plot {
         name: format!("softening-{wanted}"),

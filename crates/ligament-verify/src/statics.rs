@@ -1,10 +1,11 @@
 //! Static tables of the micropolar model: a square plate in traction, shear and bending (MPPD Tables 1 to 3).
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels, Table};
-use super::trial::{Memory, Template, displacement_at, largest_displacements};
-use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use super::experiment::{Experiment, Findings};
+use super::published::{Published, published};
+use super::table::{Extent, Labels, Table};
+use super::trial::{Memory, Template, displacement_at, largest_displacements, template};
+use ligament::run::Solution;
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -25,20 +26,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static TRACTION: Template = Template {
-    path: "cases/verification/square-traction.toml",
-    text: include_str!("../../../cases/verification/square-traction.toml"),
-};
+static TRACTION: Template = template!("verification/square-traction.toml");
 
-static SHEAR: Template = Template {
-    path: "cases/verification/square-shear.toml",
-    text: include_str!("../../../cases/verification/square-shear.toml"),
-};
+static SHEAR: Template = template!("verification/square-shear.toml");
 
-static BENDING: Template = Template {
-    path: "cases/verification/square-bending.toml",
-    text: include_str!("../../../cases/verification/square-bending.toml"),
-};
+static BENDING: Template = template!("verification/square-bending.toml");
 
 /// Half-width of the plate between its outermost points, m.
 const HALF_WIDTH: f64 = 0.3;
@@ -49,36 +41,39 @@ const INSIDE: f64 = 0.27;
 const MILLIMETRES: f64 = 1e3;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let known = |name, text| Known::parse(name, text);
-    let traction = known("mppd-table-1", include_str!("published/mppd-table-1.csv"))?;
-    let shear = known("mppd-table-2", include_str!("published/mppd-table-2.csv"))?;
-    let bending = known("mppd-table-3", include_str!("published/mppd-table-3.csv"))?;
-    let poisson = include_str!("published/mppd-table-1-poisson.csv");
-    let closed_form = include_str!("published/bending-closed-form.csv");
-    let inside = include_str!("published/bending-inside.csv");
     let mut bent = Memory::default();
     let tables = vec![
         judge(
-            &traction,
+            published!("mppd-table-1"),
             extent,
             &mut Memory::default(),
             &TRACTION,
             largest_displacements,
         )?,
-        known("mppd-table-1-poisson", poisson)?.judge(extent, poisson_inside)?,
-        judge(&shear, extent, &mut Memory::default(), &SHEAR, |it| {
-            Ok([shear_displacement(it)?; 2])
-        })?,
-        judge(&bending, extent, &mut bent, &BENDING, largest_displacements)?,
+        published!("mppd-table-1-poisson").judge(extent, poisson_inside)?,
         judge(
-            &known("bending-closed-form", closed_form)?,
+            published!("mppd-table-2"),
+            extent,
+            &mut Memory::default(),
+            &SHEAR,
+            |it| Ok([shear_displacement(it)?; 2]),
+        )?,
+        judge(
+            published!("mppd-table-3"),
             extent,
             &mut bent,
             &BENDING,
             largest_displacements,
         )?,
         judge(
-            &known("bending-inside", inside)?,
+            published!("bending-closed-form"),
+            extent,
+            &mut bent,
+            &BENDING,
+            largest_displacements,
+        )?,
+        judge(
+            published!("bending-inside"),
             extent,
             &mut Memory::default(),
             &BENDING,
@@ -102,19 +97,19 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 
 /// Judges a table of displacements [u_x, u_y] in mm; runs that several entries share are done once.
 fn judge(
-    known: &Known,
+    table: Published,
     extent: Extent,
     memory: &mut Memory<[f64; 2]>,
     case: &'static Template,
     read: impl Fn(&Solution) -> anyhow::Result<[f64; 2]>,
 ) -> anyhow::Result<Table> {
-    known.judge(extent, |labels| {
+    table.judge(extent, |labels| {
         let (nu, law) = (labels.number("nu")?, labels.text("model")?.to_lowercase());
         let trial = case
             .trial()
             .set("material.poisson", nu)
             .set("model.law", law);
-        let [x, y] = memory.of(trial.command(), || read(&trial.solve()?))?;
+        let [x, y] = memory.result(trial.command(), || read(&trial.solve()?))?;
         Ok(MILLIMETRES
             * if labels.text("component")? == "u_x" {
                 x
@@ -148,19 +143,9 @@ fn plot(table: &Table, title: &str, component: &str) -> anyhow::Result<Plot> {
     for (model, colour) in [("PDS", Colour::Blue), ("MPPD", Colour::Vermilion)] {
         let of = [("model", model), ("component", component)];
         let label = format!("{model}, {}", table.heading.known);
-        series.push(Series::new(
-            &label,
-            Mark::Circles,
-            colour,
-            table.known("nu", &of)?,
-        ));
+        series.push(Series::circles(label, colour, table.known("nu", &of)?));
         let label = format!("{model}, computed");
-        series.push(Series::new(
-            &label,
-            Mark::Line,
-            colour,
-            table.computed("nu", &of)?,
-        ));
+        series.push(Series::line(label, colour, table.computed("nu", &of)?));
     }
     Ok(Plot {
         name: table.heading.name.clone(),

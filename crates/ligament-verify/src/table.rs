@@ -21,14 +21,14 @@ pub enum Extent {
 pub struct Known {
     /// What the table is.
     pub heading: Heading,
-    /// Its values, in their order.
+    /// Values of the table, in their order.
     pub entries: Vec<Entry>,
 }
 
-/// What stands above a table.
+/// The heading of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
-    /// Name of its file.
+    /// Name of the table's file.
     pub name: String,
     /// Title.
     pub title: String,
@@ -38,7 +38,7 @@ pub struct Heading {
     pub quantity: String,
     /// What the known values are called: `printed`, `eq. 22`, `closed form`.
     pub known: String,
-    /// Why the tolerances are what they are.
+    /// Reason for the tolerances.
     pub tolerance: String,
     /// What the labels of an entry are called.
     pub keys: Vec<String>,
@@ -47,9 +47,9 @@ pub struct Heading {
 /// A table with its computed values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// What stands above it.
+    /// Heading of the table.
     pub heading: Heading,
-    /// Its rows.
+    /// Rows of the table.
     pub rows: Vec<Row>,
 }
 

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::iter::Sum;
 
-use super::Findings;
 use super::entry::Verdict;
+use super::experiment::Findings;
 
 /// How many entries got each verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -12,7 +12,7 @@ pub struct Tally([usize; Verdict::ALL.len()]);
 
 impl Tally {
     /// The verdicts of an experiment.
-    pub fn of(findings: &Findings) -> Self {
+    pub fn from_findings(findings: &Findings) -> Self {
         let count = |verdict: Verdict| {
             findings
                 .tables

@@ -1,11 +1,11 @@
 //! An orthotropic lamina with a hole in tension against finite elements (OMPPD Figs 16, 17).
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::published::numbers;
-use super::table::{Extent, Known};
-use super::trial::{Memory, Template, displacement_at};
-use super::{Experiment, Findings};
-use ligament_case::solve::Solution;
+use super::experiment::{Experiment, Findings};
+use super::published::{numbers, published};
+use super::table::Extent;
+use super::trial::{Memory, Template, displacement_at, template};
+use ligament::run::Solution;
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -19,12 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = Template {
-    path: "cases/verification/lamina-tension.toml",
-    text: include_str!("../../../cases/verification/lamina-tension.toml"),
-};
-
-const TABLE: &str = include_str!("published/omppd-tension.csv");
+static CASE: Template = template!("verification/lamina-tension.toml");
 
 /// Angle (degrees), x, y (m), u_x, u_y (m) by finite elements along the upper edge.
 const ELEMENTS: &str = include_str!("../../../tests/reference/fem-hole-edge.csv");
@@ -47,24 +42,24 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let elements = numbers::<5>("fem-hole-edge", ELEMENTS)?;
     let mut memory = Memory::default();
     let mut edges: Vec<Edge> = Vec::new();
-    let table = Known::parse("omppd-tension", TABLE)?.judge(extent, |labels| {
+    let table = published!("omppd-tension").judge(extent, |labels| {
         let angle = labels.number("angle")?;
         let trial = CASE.trial().set("material.angle", angle.to_radians());
-        let edge = memory.of(trial.command(), || {
-            let edge = Edge::of(&trial.solve()?, &elements, angle);
+        let edge = memory.result(trial.command(), || {
+            let edge = Edge::from_solution(&trial.solve()?, &elements, angle);
             edges.push(edge.clone());
             Ok(edge)
         })?;
         Ok(edge.difference(usize::from(labels.text("component")? == "u_y")))
     })?;
-    Ok(Findings {
-        tables: vec![table],
-        plots: vec![plot(&edges, 0), plot(&edges, 1)],
-    })
+    Ok(Findings::new(
+        vec![table],
+        vec![plot(&edges, 0), plot(&edges, 1)],
+    ))
 }
 
 impl Edge {
-    fn of(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
+    fn from_solution(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
         let all = solution.outcome.state.displacement.chunks_exact(3);
         let mean =
             all.map(|motion| motion[1]).sum::<f64>() / solution.model.system.cloud.len() as f64;
@@ -111,14 +106,14 @@ fn plot(edges: &[Edge], component: usize) -> Plot {
     for (edge, colour) in edges.iter().zip(colours) {
         let label = format!("{} degrees", edge.angle);
         let lattice = edge.curve(&edge.lattice, component);
-        series.push(Series::new(&label, Mark::Curve, colour, lattice));
+        series.push(Series::curve(label, colour, lattice));
         let label = if series.len() == 1 {
             "finite elements"
         } else {
             ""
         };
         let elements = edge.curve(&edge.elements, component);
-        series.push(Series::new(label, Mark::Dashes, Colour::Black, elements));
+        series.push(Series::dashes(label, Colour::Black, elements));
     }
     let name = ["u_x", "u_y"][component];
     Plot {

@@ -2,32 +2,53 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::Context;
+use ligament::body::MeshBody;
+use ligament::run::{Solution, Unobserved};
+use ligament::{Model, Setup};
 use ligament_analysis::modal::Mode;
 use ligament_analysis::{COMPONENTS, Termination};
 use ligament_mesh::gmsh;
 
-use ligament_case::body::{self, Body};
 use ligament_case::case::{Case, CaseError, CaseFile};
-use ligament_case::model::{Model, build_model, model_of};
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::solve::{Solution, modes, solve};
-use ligament_case::stages::Stages;
 
 /// A case file of the repository, as it was when the program was built.
 pub(super) struct Template {
-    /// Its path in the repository.
+    /// Path of the case in the repository.
     pub(super) path: &'static str,
-    /// Its text.
+    /// Text of the case.
     pub(super) text: &'static str,
 }
 
+/// A case file of `cases/` by its path there.
+macro_rules! template {
+    ($path:literal) => {
+        $crate::trial::Template {
+            path: concat!("cases/", $path),
+            text: include_str!(concat!("../../../cases/", $path)),
+        }
+    };
+}
+
+/// A mesh of `meshes/` by its name.
+macro_rules! stored_mesh {
+    ($name:literal) => {
+        $crate::trial::StoredMesh {
+            path: concat!("../../meshes/", $name),
+            bytes: include_bytes!(concat!("../../../meshes/", $name)),
+        }
+    };
+}
+
+pub(super) use {stored_mesh, template};
+
 /// A mesh of the repository, as it was when the program was built.
 pub(super) struct StoredMesh {
-    /// Its path from the folder of a case.
+    /// Path of the mesh from the folder of a case.
     pub(super) path: &'static str,
-    /// Its bytes.
+    /// Bytes of the mesh.
     pub(super) bytes: &'static [u8],
 }
 
@@ -56,14 +77,21 @@ impl Trial {
 
     /// Runs the case, as `ligament run` does.
     pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        self.run(None).with_context(|| self.command())
+        let solve = || {
+            let case = self.case()?;
+            run(&case, case.setup(&mut ())?)
+        };
+        solve().with_context(|| self.command())
     }
 
     /// Runs the case on a stored mesh, as `ligament run` does where the file is.
     pub(super) fn solve_on(self, mesh: &StoredMesh) -> anyhow::Result<Solution> {
         let trial = self.set("mesh.file", mesh.path);
-        let body = body::of_mesh(gmsh::parse(mesh.bytes)?);
-        trial.run(Some(body)).with_context(|| trial.command())
+        let solve = || {
+            let case = trial.case()?;
+            run(&case, case.setup_on(mesh.body()?)?)
+        };
+        solve().with_context(|| trial.command())
     }
 
     /// The discrete model of the case, as `ligament run` builds it.
@@ -73,30 +101,30 @@ impl Trial {
 
     /// The discrete model of the case after a change that no setting makes.
     pub(super) fn model_with(&self, change: impl FnOnce(&mut Case)) -> anyhow::Result<Model> {
-        let build = || {
+        let model = || {
             let mut case = self.case()?;
             change(&mut case.case);
-            let progress = Progress::new(ProgressMode::Quiet);
-            build_model(&case, &mut Stages::default(), &progress)
+            build(&case, case.setup(&mut ())?)
         };
-        build().with_context(|| self.command())
+        model().with_context(|| self.command())
     }
 
     /// The discrete model of the case on a stored mesh.
     pub(super) fn model_on(self, mesh: &StoredMesh) -> anyhow::Result<Model> {
         let trial = self.set("mesh.file", mesh.path);
-        let build = || {
-            let body = body::of_mesh(gmsh::parse(mesh.bytes)?);
-            let progress = Progress::new(ProgressMode::Quiet);
-            model_of(&trial.case()?, body, &mut Stages::default(), &progress)
+        let model = || {
+            let case = trial.case()?;
+            build(&case, case.setup_on(mesh.body()?)?)
         };
-        build().with_context(|| trial.command())
+        model().with_context(|| trial.command())
     }
 
     /// The natural modes of the case, as `ligament run` finds them.
     pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
         let case = self.case()?;
-        let found = modes(&case).with_context(|| self.command())?;
+        let found = case.setup(&mut ())?.modes();
+        let found = found.map_err(|it| case.explained(it));
+        let found = found.with_context(|| self.command())?;
         match found.notices.first() {
             Some(notice) => Err(anyhow::anyhow!("{notice}")).with_context(|| self.command()),
             None => Ok(found.modes),
@@ -108,16 +136,6 @@ impl Trial {
         CaseFile::parse(Path::new(self.template.path), text, &self.settings)
     }
 
-    fn run(&self, body: Option<Box<dyn Body>>) -> anyhow::Result<Solution> {
-        let solution = solve(&self.case()?, body)?;
-        match &solution.outcome.termination {
-            Termination::NoEquilibrium { .. } | Termination::NotAtRest { .. } => {
-                Err(anyhow::anyhow!("{}", solution.outcome.termination))
-            }
-            _ => Ok(solution),
-        }
-    }
-
     /// The command that runs the same case.
     pub(super) fn command(&self) -> String {
         let settings = self.settings.iter();
@@ -125,6 +143,29 @@ impl Trial {
             .map(|setting| format!(" --set {setting}"))
             .collect();
         format!("ligament run {}{}", self.template.path, words.concat())
+    }
+}
+
+impl StoredMesh {
+    fn body(&self) -> anyhow::Result<Arc<MeshBody>> {
+        Ok(Arc::new(gmsh::parse(self.bytes)?.into()))
+    }
+}
+
+/// The discrete model of a case.
+fn build(case: &CaseFile, setup: Setup) -> anyhow::Result<Model> {
+    Ok(Model::build(setup, &mut ()).map_err(|error| case.located(error))?)
+}
+
+/// What a case comes to, if it gets anywhere.
+fn run(case: &CaseFile, setup: Setup) -> anyhow::Result<Solution> {
+    let solution = setup.solve(&mut Unobserved);
+    let solution = solution.map_err(|error| case.explained(error))?;
+    match &solution.outcome.termination {
+        Termination::NoEquilibrium { .. } | Termination::NotAtRest { .. } => {
+            Err(anyhow::anyhow!("{}", solution.outcome.termination))
+        }
+        _ => Ok(solution),
     }
 }
 
@@ -153,13 +194,13 @@ pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64;
     }))
 }
 
-/// What runs that several entries share came to, by their commands.
+/// Results of runs that several entries share, by the commands of the runs.
 #[derive(Debug)]
 pub(super) struct Memory<T>(BTreeMap<String, T>);
 
 impl<T: Clone> Memory<T> {
-    /// What the run came to; it is done if it was not yet.
-    pub(super) fn of(
+    /// The result of a run, which is done if it was not yet.
+    pub(super) fn result(
         &mut self,
         command: String,
         run: impl FnOnce() -> anyhow::Result<T>,

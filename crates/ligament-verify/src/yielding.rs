@@ -4,10 +4,11 @@ use anyhow::Context;
 use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch};
 use ligament_model::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
-use super::plots::{Colour, Mark, Plot, Series};
-use super::table::{Extent, Known, Labels, Table};
-use super::trial::Template;
-use super::{Experiment, Findings};
+use super::experiment::{Experiment, Findings};
+use super::published::{Published, published};
+use super::table::{Extent, Labels, Table};
+use super::trial::{Template, template};
+use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
 /// The experiment.
@@ -24,12 +25,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = Template {
-    path: "cases/verification/lattice.toml",
-    text: include_str!("../../../cases/verification/lattice.toml"),
-};
+static CASE: Template = template!("verification/lattice.toml");
 
-/// As in the paper's tables.
+/// Strengths as in the paper's tables.
 const STRENGTHS: Strengths = Strengths {
     poisson: 0.0,
     ratio: 3.0,
@@ -49,45 +47,28 @@ const RATIOS: [(f64, Colour); 5] = [
 ];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let printed = |name, text, criterion: &str| -> anyhow::Result<Table> {
+    let printed = |table: Published, criterion: &str| -> anyhow::Result<Table> {
         let combination = named(criterion)?;
-        Known::parse(name, text)?.judge(extent, |labels| {
+        table.judge(extent, |labels| {
             let directions = lattice::directions(labels.number("m")?);
             let worst = combination.printed_measure(&STRENGTHS, &directions, path(labels)?)?;
             Ok(100.0 * worst.context("nothing yields")?.error)
         })
     };
     let frictional = named("frictional")?;
-    let first_yield = Known::parse(
-        "first-yield-frictional",
-        include_str!("published/first-yield-frictional.csv"),
-    )?;
-    let first_yield = first_yield.judge(extent, |labels| {
+    let first_yield = published!("first-yield-frictional").judge(extent, |labels| {
         let directions = lattice::directions(labels.number("m")?);
         let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
         let family = Family::of_directions(&directions, &criteria);
         let worst = family.worst_of(path(labels)?, printed_orientations());
         Ok(100.0 * worst.context("nothing yields")?.error)
     })?;
-    let bar = Known::parse("bar-yield", include_str!("published/bar-yield.csv"))?;
     let tables = vec![
-        printed(
-            "mppd-table-7",
-            include_str!("published/mppd-table-7.csv"),
-            "stretch",
-        )?,
-        printed(
-            "mppd-table-8",
-            include_str!("published/mppd-table-8.csv"),
-            "sliding",
-        )?,
-        printed(
-            "mppd-table-9",
-            include_str!("published/mppd-table-9.csv"),
-            "frictional",
-        )?,
+        printed(published!("mppd-table-7"), "stretch")?,
+        printed(published!("mppd-table-8"), "sliding")?,
+        printed(published!("mppd-table-9"), "frictional")?,
         first_yield,
-        bar.judge(extent, bar_yield)?,
+        published!("bar-yield").judge(extent, bar_yield)?,
     ];
     let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
     Ok(Findings {
@@ -156,7 +137,7 @@ fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
         };
         let points = printed_orientations().filter_map(point).collect();
         let name = format!("m = {ratio}");
-        series.push(Series::new(&name, Mark::Curve, colour, points));
+        series.push(Series::curve(name, colour, points));
     }
     Ok(Plot {
         name: format!("first-yield-{criterion}"),

@@ -4,7 +4,8 @@
 //! towards each other, the smaller one first: they meet after a few points, and where they do not, the one that comes to
 //! an end has found the part that came loose, at the cost of that part.
 
-use ligament_model::{BondSet, BondSystem};
+use ligament_model::Bonds;
+use ligament_model::interface::Topology;
 
 use super::{Fragments, Hold};
 
@@ -33,13 +34,13 @@ const NEITHER: u8 = 2;
 
 impl Connectivity {
     /// The body with all its bonds.
-    pub fn new(system: &BondSystem) -> Self {
-        let fragments = Fragments::find(system, &vec![true; system.bonds.len()]);
+    pub fn new(system: &dyn Bonds) -> Self {
+        let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
         Self {
             changed: fragments.points.iter().map(|points| points[0]).collect(),
             fragments,
             search: Search {
-                reached_by: vec![NEITHER; system.cloud.len()],
+                reached_by: vec![NEITHER; system.n_points()],
                 reached: [Vec::new(), Vec::new()],
                 effort: 0,
             },
@@ -56,17 +57,21 @@ impl Connectivity {
         self.search.effort
     }
 
-    /// Splits the fragments that some bonds held together, which are `intact` (n_bonds) no longer.
+    /// Takes bonds out of those that are `intact` (n_bonds), and splits the fragments that they held together.
     ///
-    /// Each bond may split off a part of a fragment: where two of them leave three parts, the second finds the third.
-    pub fn bonds_broke(&mut self, system: &BondSystem, intact: &[bool], bonds: &[u32]) {
+    /// The bonds go one by one, and the later ones hold until their turn comes: where two of them split a fragment in three, each
+    /// split is seen.
+    pub fn bonds_broke(&mut self, system: &dyn Bonds, intact: &mut [bool], bonds: &[u32]) {
         for &bond in bonds {
-            let ends = system.bonds.ends[bond as usize];
-            let [first, second] = ends.map(|end| self.fragments.of_point[end as usize]);
-            if first != second {
+            intact[bond as usize] = true;
+        }
+        let topology = system.topology();
+        for &bond in bonds {
+            if !std::mem::replace(&mut intact[bond as usize], false) {
                 continue;
             }
-            if let Some(part) = self.search.part_apart(&system.bonds, intact, ends) {
+            let ends = topology.ends[bond as usize];
+            if let Some(part) = self.search.part_apart(topology, intact, ends) {
                 self.fragments.split_off(part);
                 self.changed.extend(ends);
             }
@@ -80,7 +85,7 @@ impl Connectivity {
     /// can be: their rigid motions depend on their points alone, and what is fixed stays fixed.
     pub fn missing_holds(
         &mut self,
-        system: &BondSystem,
+        system: &dyn Bonds,
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
     ) -> Vec<Hold> {
@@ -96,9 +101,14 @@ impl Connectivity {
 
 impl Search {
     /// The points that hang together with one of two points, if those no longer hang together with the other.
-    fn part_apart(&mut self, bonds: &BondSet, intact: &[bool], ends: [u32; 2]) -> Option<Vec<u32>> {
+    fn part_apart(
+        &mut self,
+        topology: Topology<'_>,
+        intact: &[bool],
+        ends: [u32; 2],
+    ) -> Option<Vec<u32>> {
         let part = self
-            .ended(bonds, intact, ends)
+            .ended(topology, intact, ends)
             .map(|side| self.reached[side].clone());
         for reached in &mut self.reached {
             self.effort += reached.len();
@@ -110,7 +120,7 @@ impl Search {
     }
 
     /// Which search came to an end; none if they met.
-    fn ended(&mut self, bonds: &BondSet, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
+    fn ended(&mut self, topology: Topology<'_>, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
         for (side, end) in ends.into_iter().enumerate() {
             self.reach(side, end);
         }
@@ -121,11 +131,11 @@ impl Search {
                 return Some(side);
             };
             next[side] += 1;
-            for &bond in bonds.incidence.at(point) {
+            for &bond in topology.incidence.at(point) {
                 if !intact[bond as usize] {
                     continue;
                 }
-                let neighbour = bonds.neighbour(bond, point);
+                let neighbour = topology.neighbour(bond, point);
                 match self.reached_by[neighbour as usize] {
                     NEITHER => self.reach(side, neighbour),
                     by if usize::from(by) != side => return None,

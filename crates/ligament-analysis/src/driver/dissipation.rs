@@ -1,16 +1,17 @@
 //! What the laws of the bonds take for good.
 
-use super::Problem;
+use ligament_model::element::Remaining;
+
 use crate::history::BreakRecord;
-use crate::softening::energy_at_limit;
+use crate::problem::Problem;
 use crate::state::State;
 
 /// Brings the bonds that soften up to date with their extremes.
-pub(super) fn soften(problem: &Problem<'_>, state: &mut State) {
+pub(super) fn soften(problem: &Problem, state: &mut State) {
     if state.softening.remaining.is_empty() {
         return;
     }
-    for bond in 0..problem.system.bonds.len() {
+    for bond in 0..problem.system.ends().len() {
         if state.intact[bond] {
             state.dissipated[bond] = by_softening(problem, state, bond, None);
         }
@@ -21,12 +22,15 @@ pub(super) fn soften(problem: &Problem<'_>, state: &mut State) {
 ///
 /// A brittle bond takes what it stored when it reached its limit: its energy now over the square of its utilisation. One that
 /// softened takes the whole area under its law.
-pub(super) fn break_bond(problem: &Problem<'_>, state: &mut State, record: &BreakRecord) {
+pub(super) fn break_bond(problem: &Problem, state: &mut State, record: &BreakRecord) {
     let (bond, criterion) = (record.bond as usize, record.criterion);
     let after = &problem.criteria.list[criterion].after;
     state.dissipated[bond] = if after.is_brittle() {
-        let stored = state.bonds().element(problem.system, bond);
-        let stored = stored.map_or(0.0, |element| element.energy(&record.deformation));
+        let left = state.softening.remaining.get(bond);
+        let remaining = left.copied().unwrap_or(Remaining::WHOLE);
+        let both = [&record.deformation; 2];
+        let system = &problem.system;
+        let stored = system.mutual_energy(&state.intact, bond, &remaining, both);
         by_softening(problem, state, bond, None) + stored / record.ratio.powi(2)
     } else {
         by_softening(problem, state, bond, Some(criterion))
@@ -35,20 +39,20 @@ pub(super) fn break_bond(problem: &Problem<'_>, state: &mut State, record: &Brea
 }
 
 /// What the criteria that soften took from a bond; all of it from the one that is at its `end`.
-fn by_softening(problem: &Problem<'_>, state: &State, bond: usize, end: Option<usize>) -> f64 {
+fn by_softening(problem: &Problem, state: &State, bond: usize, end: Option<usize>) -> f64 {
     let of = |criterion: usize| {
         let law = &problem.criteria.list[criterion];
         let taken = if end == Some(criterion) {
             law.after.total_dissipated(bond)
         } else {
-            let softened = state.softening.of(problem.criteria, criterion, bond);
+            let softened = state.softening.of(&problem.criteria, criterion, bond);
             softened.dissipated
         };
         // A bond that never fails takes nothing, however far its limit is.
         if taken == 0.0 {
             0.0
         } else {
-            taken * energy_at_limit(problem.system, law, bond)
+            taken * problem.system.energy_at_limit(law, bond)
         }
     };
     (0..state.softening.largest.len()).map(of).sum()

@@ -1,81 +1,40 @@
 //! Linear elastic answer: one solve at load factor one.
 
-use super::Problem;
 use super::outcome::{Outcome, Rows};
-use super::recorder::{Energies, StepCounters, step_record};
-use super::start::begin;
+use super::path::{Path, StopRules};
+use super::recorder::StepCounters;
+use crate::balanced::Attempt;
 use crate::breakage::Breakage;
-use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
-use crate::history::{Observer, Termination, View};
+use crate::error::SetupError;
+use crate::history::{Observer, Termination};
+use crate::problem::Problem;
 
 /// Solves the problem at load factor one; no bond breaks. The history has the unloaded body as step 0.
 pub fn run(
-    problem: &Problem<'_>,
+    problem: &Problem,
     energy_tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let mut equilibrium = Equilibrium::of(problem, energy_tolerance)?;
-    let start = begin(problem, &mut equilibrium, observer)?;
-    let mut state = start.unloaded;
-    let mut history = Vec::new();
-    let mut energies = Energies::unloaded(problem.boundary);
+    let (mut path, _) = Path::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
+    let nothing = Breakage::default();
     let mut termination = Termination::StepsDone;
     for (step, load_factor) in [0.0, 1.0].into_iter().enumerate() {
-        state.load_factor = load_factor;
-        let solves_before = equilibrium.costs().solves;
-        observer.round(step, 0, load_factor, 0)?;
-        let balanced = match equilibrium.balance(&mut state, &Breakage::default(), observer)? {
-            Ok(Balanced {
-                negative_energy: Some(energy),
-                ..
-            }) => {
-                let reason = Unbalanced::NegativeEnergy { energy };
-                termination = Termination::NoEquilibrium { step, reason };
-                break;
-            }
-            Ok(balanced) => balanced,
-            Err(reason) => {
+        path.state.load_factor = load_factor;
+        path.enter(step, 0)?;
+        let balanced = match path.balance(step, &nothing)? {
+            Attempt::Balanced(balanced) => balanced,
+            Attempt::Unbalanced(reason) => {
                 termination = Termination::NoEquilibrium { step, reason };
                 break;
             }
         };
-        energies.add_work(problem, &state, &balanced);
+        path.account(step, &nothing, &balanced)?;
         let counters = StepCounters {
             step,
-            solves: equilibrium.costs().solves - solves_before,
             at_rest: true,
-            negative_eigenvalues: equilibrium.negative_eigenvalues(),
             ..Default::default()
         };
-        history.push(step_record(
-            problem,
-            &state,
-            &balanced,
-            &energies,
-            equilibrium.fragments(),
-            counters,
-        ));
-        let view = View {
-            system: problem.system,
-            state: &state,
-            balanced: &balanced,
-            boundary: problem.boundary,
-            criteria: problem.criteria,
-            fragments: equilibrium.fragments(),
-            costs: equilibrium.costs(),
-            is_last: load_factor == 1.0,
-        };
-        observer.step(&history[step], &view)?;
+        path.record(&balanced, counters, load_factor == 1.0)?;
     }
-    Ok(Outcome {
-        history,
-        rows: Rows::LoadSteps,
-        state,
-        termination,
-        elastic_stiffness: start.elastic.stiffness,
-        first_break: None,
-        stability: start.elastic.stability,
-        costs: *equilibrium.costs(),
-        solver: *equilibrium.choice(),
-    })
+    Ok(path.into_outcome(termination, Rows::LoadSteps))
 }

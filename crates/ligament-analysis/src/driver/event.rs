@@ -9,17 +9,18 @@
 
 use std::time::Instant;
 
-use super::Problem;
 use super::outcome::{Outcome, Rows};
 use super::path::{NO_LOAD, Path, StopRules};
 use super::recorder::{StepCounters, largest_ratio};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_to_break};
-use crate::equilibrium::{Balanced, SetupError};
+use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::problem::Problem;
 use crate::unknowns::COMPONENTS;
 
-/// How to follow the path and when to stop; it ends at load factor one anyway.
+/// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventSettings {
     /// Bonds whose s/s_0 is within this relative distance of the largest break together with it.
@@ -35,7 +36,7 @@ pub struct EventSettings {
 /// The history has the unloaded body, then a record an event: the state in which its bonds break, just before they do. The
 /// last record breaks none: it is where the run ended.
 pub fn run(
-    problem: &Problem<'_>,
+    problem: &Problem,
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
@@ -45,8 +46,8 @@ pub fn run(
     let (mut path, at_one) =
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     let unloaded = match path.balance(0, &Breakage::default())? {
-        Ok(balanced) => balanced,
-        Err(reason) => {
+        Attempt::Balanced(balanced) => balanced,
+        Attempt::Unbalanced(reason) => {
             let end = Termination::NoEquilibrium { step: 0, reason };
             return Ok(path.into_outcome(end, Rows::Events));
         }
@@ -62,7 +63,7 @@ pub fn run(
         None => path.state.load_factor = 1.0,
     }
     let mut following = Following {
-        loaded: problem.boundary.loaded_degrees_of_freedom(),
+        loaded: problem.loads.loaded_degrees_of_freedom(),
         path,
         settings,
     };
@@ -75,7 +76,7 @@ struct Following<'a> {
     path: Path<'a>,
     settings: &'a EventSettings,
     /// Degrees of freedom that something moves or loads.
-    loaded: Vec<usize>,
+    loaded: Vec<u32>,
 }
 
 /// Where the line of the present bonds is followed to.
@@ -83,9 +84,9 @@ struct Goal {
     load_factor: f64,
     /// s/s_0 of the first bonds to break, there.
     ratio: f64,
-    /// They, if it is their critical load.
+    /// The first bonds to break, if the load factor is their critical one.
     bonds: Vec<u32>,
-    /// Why the run ends there, if it does.
+    /// The reason why the run ends there, if it does.
     end: Option<Termination>,
 }
 
@@ -95,8 +96,8 @@ impl Following<'_> {
         let mut step = 1;
         self.path.enter(step, 0)?;
         let mut line = match self.path.balance(step, &Breakage::default())? {
-            Ok(balanced) => balanced,
-            Err(reason) => return Ok(Termination::NoEquilibrium { step, reason }),
+            Attempt::Balanced(balanced) => balanced,
+            Attempt::Unbalanced(reason) => return Ok(Termination::NoEquilibrium { step, reason }),
         };
         loop {
             let Goal {
@@ -130,8 +131,8 @@ impl Following<'_> {
             }
             self.path.enter(step, 1)?;
             line = match self.path.balance(step, &breakage)? {
-                Ok(balanced) => balanced,
-                Err(reason) => {
+                Attempt::Balanced(balanced) => balanced,
+                Attempt::Unbalanced(reason) => {
                     let end = Termination::NoEquilibrium { step, reason };
                     return self.end(step + 1, &critical, end);
                 }
@@ -144,13 +145,13 @@ impl Following<'_> {
         }
     }
 
-    /// How far to go along the line of an equilibrium: to the critical load, or to what ends the run before it.
+    /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
     fn goal(&mut self, line: &Balanced) -> Goal {
         let start = Instant::now();
         let FirstToBreak { ratio, bonds } = first_to_break(
             self.settings.tie_tolerance,
             &line.deformations,
-            self.path.problem.criteria,
+            &self.path.problem.criteria,
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);
@@ -171,8 +172,8 @@ impl Following<'_> {
             };
             (goal.load_factor, goal.end) = (1.0, Some(end));
         }
-        let control = &self.path.problem.boundary.control;
-        let displacement = control.displacement(now, &self.path.state.displacement);
+        let loads = &self.path.problem.loads;
+        let displacement = loads.control_displacement(now, &self.path.state.displacement);
         if let Some(wanted) = self.settings.stop.displacement
             && displacement > 0.0
         {
@@ -203,10 +204,15 @@ impl Following<'_> {
         state.load_factor = load_factor;
         let fragments = self.path.equilibrium.fragments();
         // A temperature strains all parts.
-        let is_heated = !self.path.problem.boundary.thermal_strain.is_empty();
+        let is_heated = !self
+            .path
+            .problem
+            .loads
+            .thermal_strain(load_factor)
+            .is_none();
         let mut is_loaded = vec![is_heated; fragments.points.len()];
-        for dof in &self.loaded {
-            is_loaded[fragments.of_point[dof / COMPONENTS] as usize] = true;
+        for &dof in &self.loaded {
+            is_loaded[fragments.of_point[dof as usize / COMPONENTS] as usize] = true;
         }
         let of_points = state.displacement.chunks_mut(COMPONENTS);
         for (motion, &fragment) in of_points.zip(&fragments.of_point) {
@@ -229,7 +235,7 @@ impl Following<'_> {
         let counters = StepCounters {
             step,
             at_rest: end == Termination::FellApart,
-            largest_ratio: largest_ratio(&self.path.state, last, self.path.problem.criteria),
+            largest_ratio: largest_ratio(&self.path.state, last, &self.path.problem.criteria),
             ..Default::default()
         };
         self.path.record(last, counters, true)?;

@@ -9,20 +9,6 @@ mod recorder;
 mod start;
 pub mod stepped;
 
+pub use crate::problem::Problem;
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use path::StopRules;
-
-/// A problem: bonds, supports and loads, and what to read off.
-#[derive(Clone, Copy)]
-pub struct Problem<'a> {
-    /// The bond system.
-    pub system: &'a ligament_model::BondSystem,
-    /// Failure criteria; an elastic analysis has none.
-    pub criteria: &'a ligament_model::failure::Criteria,
-    /// Supports and loads.
-    pub boundary: &'a crate::boundary::Boundary,
-    /// How the equations are solved.
-    pub solver: crate::stiffness::SolverSettings,
-    /// Probes.
-    pub probes: &'a [crate::probe::Probe],
-}

@@ -5,16 +5,18 @@
 
 use std::time::Instant;
 
-use super::Problem;
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
-use crate::boundary::ControlKind;
+use crate::balanced::{Attempt, Balanced, Unbalanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
-use crate::equilibrium::{Balanced, Equilibrium, SetupError, Unbalanced};
+use crate::equilibrium::Equilibrium;
+use crate::error::SetupError;
 use crate::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, Termination, View};
+use crate::load_program::ControlKind;
+use crate::problem::Problem;
 use crate::softening::Softening;
 use crate::state::State;
 
@@ -49,9 +51,9 @@ pub(super) const NO_LOAD: f64 = 1e-9;
 
 /// A run on its way.
 pub(super) struct Path<'a> {
-    pub(super) problem: &'a Problem<'a>,
+    pub(super) problem: &'a Problem,
     pub(super) observer: &'a mut dyn Observer,
-    pub(super) equilibrium: Equilibrium<'a>,
+    pub(super) equilibrium: Equilibrium,
     pub(super) state: State,
     pub(super) elastic: ElasticAnswer,
     pub(super) broken: usize,
@@ -71,19 +73,19 @@ pub(super) struct Path<'a> {
 impl<'a> Path<'a> {
     /// Begins with the unloaded body; also gives the equilibrium at load factor one, if there is one.
     pub(super) fn begin(
-        problem: &'a Problem<'a>,
+        problem: &'a Problem,
         energy_tolerance: f64,
         stop: StopRules,
         observer: &'a mut dyn Observer,
     ) -> Result<(Self, Option<State>), SetupError> {
-        let mut equilibrium = Equilibrium::of(problem, energy_tolerance)?;
+        let mut equilibrium = Equilibrium::new(problem, energy_tolerance)?;
         let Start {
             unloaded,
             elastic,
             at_one,
         } = begin(problem, &mut equilibrium, observer)?;
         let solves = [equilibrium.costs().solves; 2];
-        let mut path = Self {
+        let path = Self {
             problem,
             observer,
             equilibrium,
@@ -92,7 +94,7 @@ impl<'a> Path<'a> {
             broken: 0,
             collapsed: false,
             stop,
-            energies: Energies::unloaded(problem.boundary),
+            energies: Energies::unloaded(problem),
             history: Vec::new(),
             peak: 0.0,
             energy_was_negative: false,
@@ -100,9 +102,14 @@ impl<'a> Path<'a> {
             negative_eigenvalues: 0,
             started: Instant::now(),
         };
-        path.state.softening =
-            Softening::of_sound_bonds(problem.criteria, problem.system.bonds.len());
         Ok((path, at_one))
+    }
+
+    /// Lets the bonds soften from here on, if those of the criteria do.
+    pub(super) fn soften(&mut self) {
+        let n_bonds = self.problem.system.ends().len();
+        self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
+        self.equilibrium.soften();
     }
 
     /// Tells the observer what comes next.
@@ -117,31 +124,32 @@ impl<'a> Path<'a> {
         &mut self,
         step: usize,
         breakage: &Breakage,
-    ) -> Result<Result<Balanced, Unbalanced>, SetupError> {
+    ) -> Result<Attempt, SetupError> {
         let displacement = self.state.displacement.clone();
         let softening = self.state.softening.clone();
-        let balanced = self
-            .equilibrium
-            .balance(&mut self.state, breakage, self.observer)?;
-        let balanced = match balanced {
-            Ok(Balanced {
-                negative_energy: Some(energy),
-                ..
-            }) if self.stop.negative_energy => Err(Unbalanced::NegativeEnergy { energy }),
-            other => other,
-        };
-        let Ok(balanced) = balanced else {
+        let mut attempt = (self.equilibrium).balance(&mut self.state, breakage, self.observer)?;
+        let mut is_negative = false;
+        if let Attempt::Balanced(Balanced {
+            negative_energy: Some(energy),
+            ..
+        }) = attempt
+        {
+            is_negative = true;
+            if self.stop.negative_energy {
+                attempt = Attempt::Unbalanced(Unbalanced::NegativeEnergy { energy });
+            }
+        }
+        if let Attempt::Unbalanced(_) = attempt {
             self.state.displacement = displacement;
             self.state.softening = softening;
-            return Ok(balanced);
-        };
-        let is_negative = balanced.negative_energy.is_some();
+            return Ok(attempt);
+        }
         if is_negative && !std::mem::replace(&mut self.energy_was_negative, true) {
             self.observer.notice(&Notice::NegativeEnergy { step })?;
         }
         self.solves[0] = self.equilibrium.costs().solves;
         self.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
-        Ok(Ok(balanced))
+        Ok(attempt)
     }
 
     /// Adds up work and released energy, and reports mechanisms.
@@ -169,7 +177,7 @@ impl<'a> Path<'a> {
     ) -> Result<Breakage, SetupError> {
         let load_factor = self.state.load_factor;
         let [displacement, reaction] = self.control(balanced);
-        let criteria = self.problem.criteria;
+        let criteria = &self.problem.criteria;
         let of_bond = |(place, &bond): (usize, &u32)| {
             let deformation = balanced.deformations[bond as usize];
             let verdict = criteria.breaking(bond as usize, &deformation)?;
@@ -200,7 +208,7 @@ impl<'a> Path<'a> {
     }
 
     fn load_came_loose(&self, holds: &[Hold]) -> bool {
-        let control = &self.problem.boundary.control;
+        let control = self.problem.loads.control();
         let of_point = &self.equilibrium.fragments().of_point;
         control.kind == ControlKind::Force
             && control.points.iter().any(|&point| {
@@ -212,11 +220,10 @@ impl<'a> Path<'a> {
 
     /// Displacement and force of the control load in an equilibrium, m and N.
     fn control(&self, balanced: &Balanced) -> [f64; 2] {
-        let (boundary, load_factor) = (self.problem.boundary, self.state.load_factor);
-        let displacement = &self.state.displacement;
+        let (loads, load_factor) = (&self.problem.loads, self.state.load_factor);
         [
-            boundary.control.displacement(load_factor, displacement),
-            boundary.control_force(load_factor, &balanced.internal),
+            loads.control_displacement(load_factor, &self.state.displacement),
+            loads.control_force(load_factor, &balanced.internal),
         ]
     }
 
@@ -284,11 +291,11 @@ impl<'a> Path<'a> {
         );
         self.peak = self.peak.max(record.reaction);
         let view = View {
-            system: self.problem.system,
+            system: &*self.problem.system,
             state: &self.state,
             balanced,
-            boundary: self.problem.boundary,
-            criteria: self.problem.criteria,
+            loads: &*self.problem.loads,
+            criteria: &self.problem.criteria,
             fragments: self.equilibrium.fragments(),
             costs: self.equilibrium.costs(),
             is_last,

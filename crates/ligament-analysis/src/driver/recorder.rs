@@ -1,15 +1,14 @@
 //! Bookkeeping that every driver shares: energies and records.
 
-use ligament_model::element::{BondDeformation, BondElement, Remaining};
+use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
-use super::Problem;
-use crate::boundary::Boundary;
+use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::connectivity::Fragments;
-use crate::equilibrium::Balanced;
 use crate::history::StepRecord;
+use crate::problem::Problem;
 use crate::state::State;
 use crate::unknowns::COMPONENTS;
 
@@ -23,52 +22,51 @@ use crate::unknowns::COMPONENTS;
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
-    loaded: Vec<Loaded>,
+    /// Degrees of freedom that something moves or loads.
+    loaded: Vec<u32>,
+    /// Their forces and displacements in the last state.
+    last_loaded: Vec<Loaded>,
     /// Load factor and [`InternalForces::thermal`] in the last state.
     thermal: [f64; 2],
     /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
     last: Vec<(BondDeformation, Remaining)>,
 }
 
-/// A degree of freedom that something moves or loads, with its force and displacement in the last state.
-#[derive(Debug, Clone)]
+/// Force and displacement of a degree of freedom in the last state.
+#[derive(Debug, Clone, Default)]
 struct Loaded {
-    degree_of_freedom: usize,
     force: f64,
     displacement: f64,
 }
 
 impl Energies {
     /// Those of the unloaded body.
-    pub(super) fn unloaded(boundary: &Boundary) -> Self {
-        let loaded = boundary.loaded_degrees_of_freedom();
+    pub(super) fn unloaded(problem: &Problem) -> Self {
+        let loaded = problem.loads.loaded_degrees_of_freedom();
         Self {
             external_work: 0.0,
             released: 0.0,
             thermal: [0.0; 2],
             last: Vec::new(),
-            loaded: (loaded.into_iter())
-                .map(|degree_of_freedom| Loaded {
-                    degree_of_freedom,
-                    force: 0.0,
-                    displacement: 0.0,
-                })
-                .collect(),
+            last_loaded: vec![Loaded::default(); loaded.len()],
+            loaded,
         }
     }
 
     /// Adds the work from the last state to this one.
-    pub(super) fn add_work(&mut self, problem: &Problem<'_>, state: &State, balanced: &Balanced) {
+    pub(super) fn add_work(&mut self, problem: &Problem, state: &State, balanced: &Balanced) {
         let mut work = 0.0;
-        for loaded in &mut self.loaded {
-            let dof = loaded.degree_of_freedom;
-            let force = match problem.boundary.prescribed[dof] {
-                Some(_) => balanced.internal.values[dof],
-                None => problem.boundary.force[dof] * state.load_factor,
+        let given = problem.loads.forces(state.load_factor, &self.loaded);
+        for ((&dof, given), last) in self.loaded.iter().zip(given).zip(&mut self.last_loaded) {
+            let dof = dof as usize;
+            let force = if problem.loads.is_prescribed(dof) {
+                balanced.internal.values[dof]
+            } else {
+                given
             };
-            let mean_force = 0.5 * (force + loaded.force);
-            work += mean_force * (state.displacement[dof] - loaded.displacement);
-            (loaded.force, loaded.displacement) = (force, state.displacement[dof]);
+            let mean_force = 0.5 * (force + last.force);
+            work += mean_force * (state.displacement[dof] - last.displacement);
+            (last.force, last.displacement) = (force, state.displacement[dof]);
         }
         let [load_factor, force] = self.thermal;
         self.thermal = [state.load_factor, balanced.internal.thermal];
@@ -79,19 +77,19 @@ impl Energies {
     /// Adds what a breakage released, and what softening did since the last state.
     pub(super) fn add_released(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &Problem,
         state: &State,
         breakage: &Breakage,
         balanced: &Balanced,
     ) {
-        let expansion = problem.boundary.thermal_strain_at(state.load_factor);
+        let expansion = problem.loads.thermal_strain(state.load_factor);
         let remaining = &state.softening.remaining;
         self.released += breakage.released(&state.displacement, expansion);
         for (bond, (before, left_before)) in self.last.iter().enumerate() {
             let lost = left_before.lost(&remaining[bond]);
             if state.intact[bond] && lost != Remaining::NOTHING {
-                let element = BondElement::of(problem.system, &state.intact, bond).weakened(&lost);
-                self.released += element.mutual_energy(before, &balanced.deformations[bond]);
+                let both = [before, &balanced.deformations[bond]];
+                self.released += (problem.system).mutual_energy(&state.intact, bond, &lost, both);
             }
         }
         let now = balanced.deformations.iter().zip(remaining);
@@ -116,24 +114,20 @@ pub(super) struct StepCounters {
 
 /// The record of a state of equilibrium.
 pub(super) fn step_record(
-    problem: &Problem<'_>,
+    problem: &Problem,
     state: &State,
     balanced: &Balanced,
     energies: &Energies,
     fragments: &Fragments,
     counters: StepCounters,
 ) -> StepRecord {
-    let control = &problem.boundary.control;
-    let reactions = problem
-        .boundary
-        .reactions(state.load_factor, &balanced.internal.values);
+    let loads = &problem.loads;
+    let reactions = loads.reactions(state.load_factor, &balanced.internal.values);
     StepRecord {
         step: counters.step,
         load_factor: state.load_factor,
-        displacement: control.displacement(state.load_factor, &state.displacement),
-        reaction: problem
-            .boundary
-            .control_force(state.load_factor, &balanced.internal),
+        displacement: loads.control_displacement(state.load_factor, &state.displacement),
+        reaction: loads.control_force(state.load_factor, &balanced.internal),
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
@@ -150,21 +144,19 @@ pub(super) fn step_record(
         probes: problem
             .probes
             .iter()
-            .map(|probe| probe.reading.value(problem, state, balanced))
+            .map(|probe| {
+                (probe.reading).value(&*problem.system, &problem.criteria, state, balanced)
+            })
             .collect(),
     }
 }
 
 /// What each group exerts on the body: the reactions at its points and its own given forces.
-fn group_forces(
-    problem: &Problem<'_>,
-    load_factor: f64,
-    reactions: &[f64],
-) -> Vec<[f64; COMPONENTS]> {
-    let groups = problem.boundary.groups.iter();
+fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<[f64; COMPONENTS]> {
+    let groups = problem.loads.groups().iter();
     groups
         .map(|group| {
-            let given = group.force.map(|force| load_factor * force);
+            let given = problem.loads.given_resultant(group, load_factor);
             group.points.iter().fold(given, |sum, &point| {
                 let reaction = &reactions[COMPONENTS * point as usize..];
                 [0, 1, 2].map(|component| sum[component] + reaction[component])

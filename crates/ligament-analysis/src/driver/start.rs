@@ -1,12 +1,14 @@
 //! What every driver does first: hold what nothing holds, and look at the elastic answer.
 
-use super::Problem;
 use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
+use crate::balanced::{Attempt, Balanced, Stability};
 use crate::connectivity::{Fragments, Hold};
-use crate::equilibrium::{Balanced, Equilibrium, SetupError, Stability};
+use crate::equilibrium::Equilibrium;
+use crate::error::SetupError;
 use crate::gauges;
 use crate::history::{Notice, Observer, ObserverError, StepRecord, View};
+use crate::problem::Problem;
 use crate::state::State;
 
 /// What is known before the first load step.
@@ -28,15 +30,15 @@ pub(super) struct ElasticAnswer {
 
 /// Holds what nothing holds, and solves once at load factor one for the stiffness, the first breakage and the inertia.
 pub(super) fn begin(
-    problem: &Problem<'_>,
-    equilibrium: &mut Equilibrium<'_>,
+    problem: &Problem,
+    equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
-    let mut unloaded = State::fresh(problem.system);
+    let mut unloaded = State::fresh(&*problem.system);
     let breakage = equilibrium.break_bonds(&mut unloaded, &[]);
     let free = gauges::free_bodies(
-        problem.system,
-        problem.boundary,
+        &*problem.system,
+        &*problem.loads,
         equilibrium.fragments(),
         &breakage.holds,
     );
@@ -57,7 +59,9 @@ pub(super) fn begin(
         at_one: None,
     };
     // Without an equilibrium the first load step fails as well, and says why.
-    if let Ok(balanced) = equilibrium.balance(&mut at_one, &breakage, &mut Unobserved)? {
+    if let Attempt::Balanced(balanced) =
+        equilibrium.balance(&mut at_one, &breakage, &mut Unobserved)?
+    {
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
@@ -71,7 +75,7 @@ impl Start {
     /// Stiffness and first breakage from the elastic answer: everything is proportional to the load factor.
     fn read_off(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &Problem,
         at_one: &State,
         balanced: &Balanced,
         fragments: &Fragments,
@@ -80,12 +84,12 @@ impl Start {
             problem,
             at_one,
             balanced,
-            &Energies::unloaded(problem.boundary),
+            &Energies::unloaded(problem),
             fragments,
             StepCounters::default(),
         );
         self.elastic.stiffness = record.reaction / record.displacement;
-        let ratio = largest_ratio(at_one, balanced, problem.criteria);
+        let ratio = largest_ratio(at_one, balanced, &problem.criteria);
         self.elastic.first_break = (ratio > 0.0).then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,
@@ -96,12 +100,12 @@ impl Start {
 
 /// Inertia of the intact stiffness where it may be indefinite; told to the observer where it is not as it should be.
 fn stability(
-    problem: &Problem<'_>,
-    equilibrium: &Equilibrium<'_>,
+    problem: &Problem,
+    equilibrium: &Equilibrium,
     state: &State,
     observer: &mut dyn Observer,
 ) -> Result<Option<Stability>, SetupError> {
-    if !problem.system.has_negative_stiffness() {
+    if !problem.system.some_negative() {
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;

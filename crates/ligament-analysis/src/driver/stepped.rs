@@ -5,14 +5,15 @@
 
 use std::time::Instant;
 
-use super::Problem;
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::{Path, StopRules};
 use super::recorder::{StepCounters, largest_ratio};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
-use crate::equilibrium::{Balanced, SetupError};
+use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::problem::Problem;
 
 /// How to step and when to stop.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +22,7 @@ pub struct SteppedSettings {
     pub load_factors: Vec<f64>,
     /// Divide what is left of the first breakage's step, after a step that ends exactly there, into so many; 0: off.
     pub refine_first_break: usize,
-    /// Which bonds break in a round.
+    /// Rule by which the bonds that break in a round are picked.
     pub rule: BreakingRule,
     /// Relative change of the energy that ends Newton-Raphson (NHPD eq. 21).
     pub energy_tolerance: f64,
@@ -33,11 +34,12 @@ pub struct SteppedSettings {
 
 /// Follows the loading.
 pub fn run(
-    problem: &Problem<'_>,
+    problem: &Problem,
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let (mut path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.soften();
     let load_factors = refined(settings, path.elastic.first_break);
     let mut stepping = Stepping {
         path,
@@ -91,12 +93,12 @@ struct Stepping<'a> {
     path: Path<'a>,
     settings: &'a SteppedSettings,
     last_step: usize,
-    /// That of the step before.
+    /// Load factor of the step before.
     load_factor_before: f64,
 }
 
 impl Stepping<'_> {
-    /// One load step; tells why the run ends, if it does.
+    /// Does one load step, and gives the reason why the run ends, if it does.
     ///
     /// Where breakages leave no equilibrium, the step shows the last one before them.
     fn load_step(
@@ -114,8 +116,8 @@ impl Stepping<'_> {
         loop {
             self.path.enter(step, counters.rounds)?;
             let balanced = match self.path.balance(step, &breakage)? {
-                Ok(balanced) => balanced,
-                Err(reason) => {
+                Attempt::Balanced(balanced) => balanced,
+                Attempt::Unbalanced(reason) => {
                     let end = Some(Termination::NoEquilibrium { step, reason });
                     return match last {
                         Some(balanced) => self.record(&balanced, counters, end),
@@ -147,7 +149,7 @@ impl Stepping<'_> {
         let next = next_to_break(
             &self.settings.rule,
             &balanced.deformations,
-            self.path.problem.criteria,
+            &self.path.problem.criteria,
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);
@@ -172,7 +174,7 @@ impl Stepping<'_> {
         interrupted: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         counters.largest_ratio =
-            largest_ratio(&self.path.state, balanced, self.path.problem.criteria);
+            largest_ratio(&self.path.state, balanced, &self.path.problem.criteria);
         // A load that is taken back is no failure.
         let load_factor = self.path.state.load_factor.abs();
         let is_unloading = load_factor < self.load_factor_before.abs();

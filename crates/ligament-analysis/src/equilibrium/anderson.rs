@@ -1,4 +1,4 @@
-//! Anderson's mixing of fixed-point iterates (Walker and Ni, SIAM J. Numer. Anal. 49, 2011): several corrections tell what the
+//! Anderson's mixing of fixed-point iterates (Walker and Ni 2011): several corrections tell what the
 //! iteration will go on to do.
 
 use std::collections::VecDeque;

@@ -6,12 +6,12 @@ use ligament_linalg::{
     Eigenpairs, FactorKind, Factorisation, Search, SymmetricMatrix, largest_eigenpairs,
 };
 
-use super::shape::{self, Masses};
-use super::{
-    ModalError, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind, Moving,
-    RESIDUAL_TOLERANCE, Rotations, rigid,
-};
-use crate::equilibrium::Stability;
+use super::masses::Masses;
+use super::mode::{Mode, ModeKind, RESIDUAL_TOLERANCE, Rotations};
+use super::participation::Moving;
+use super::{ModalError, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, rigid, shape};
+use crate::balanced::Stability;
+use crate::costs::Costs;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
@@ -48,11 +48,12 @@ struct Found {
 }
 
 /// The equations of a body whose modes are wanted.
-pub struct ModalAnalysis<'a> {
-    problem: ModalProblem<'a>,
+pub struct ModalAnalysis {
+    problem: ModalProblem,
     settings: ModalSettings,
     rotations: Rotations,
-    stiffness: Stiffness<'a>,
+    stiffness: Stiffness,
+    costs: Costs,
     masses: Masses,
     /// Mass of each unknown, shape (n_unknowns).
     of_unknown: Vec<f64>,
@@ -60,21 +61,19 @@ pub struct ModalAnalysis<'a> {
     massive: Vec<(usize, f64)>,
 }
 
-impl<'a> ModalAnalysis<'a> {
+impl ModalAnalysis {
     /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
-    pub fn of(problem: ModalProblem<'a>, settings: ModalSettings) -> Result<Self, ModalError> {
-        let ModalProblem {
-            system, supports, ..
-        } = problem;
+    pub fn new(problem: &ModalProblem, settings: ModalSettings) -> Result<Self, ModalError> {
+        let (system, supports) = (&*problem.system, &problem.supports);
         let unknowns = Unknowns::all_but(system, |dof| supports.held[dof]);
         let has_rotations = !unknowns.rotations_only().is_empty();
-        let suitable = if has_rotations && system.shear_rigidity.iter().any(|&k| k < 0.0) {
+        let suitable = if has_rotations && system.some_negative_shear() {
             Rotations::Massless
         } else {
             Rotations::Inertia
         };
         let rotations = settings.rotations.unwrap_or(suitable);
-        let masses = Masses::new(problem.mass, &unknowns, rotations);
+        let masses = Masses::new(&problem.mass, &unknowns, rotations);
         let dofs = unknowns.degrees_of_freedom().iter();
         let of_unknown: Vec<f64> = dofs.map(|&dof| masses.of_dof()[dof as usize]).collect();
         let massive: Vec<(usize, f64)> = (of_unknown.iter().enumerate())
@@ -84,11 +83,16 @@ impl<'a> ModalAnalysis<'a> {
         if massive.is_empty() {
             return Err(ModalError::NothingMoves);
         }
+        let stiffness = Stiffness::new(&problem.system, unknowns, problem.solver)?;
         Ok(Self {
-            problem,
+            problem: problem.clone(),
             settings,
             rotations,
-            stiffness: Stiffness::new(system, unknowns, problem.solver)?,
+            costs: Costs {
+                analysis: stiffness.analysis_time(),
+                ..Costs::default()
+            },
+            stiffness,
             masses,
             of_unknown,
             massive,
@@ -96,7 +100,7 @@ impl<'a> ModalAnalysis<'a> {
     }
 
     /// The stiffness of the bonds.
-    pub fn stiffness(&self) -> &Stiffness<'a> {
+    pub fn stiffness(&self) -> &Stiffness {
         &self.stiffness
     }
 
@@ -113,8 +117,10 @@ impl<'a> ModalAnalysis<'a> {
     /// inertia), and if there are more than were found, those are sought.
     pub fn find(mut self) -> Result<ModalOutcome, ModalError> {
         let start = Instant::now();
-        let matrix = self.stiffness.assemble(&State::fresh(self.problem.system));
-        self.stiffness.costs.assembly += start.elapsed();
+        let matrix = self
+            .stiffness
+            .assemble(&State::fresh(&*self.problem.system));
+        self.costs.assembly += start.elapsed();
         let largest = self.largest_ratio(&matrix);
         let rigid_below = RIGID * largest;
         let wanted = self.settings.modes.min(self.massive.len());
@@ -125,19 +131,19 @@ impl<'a> ModalAnalysis<'a> {
             mass,
             supports,
             ..
-        } = self.problem;
-        let motions = rigid::motions(system, supports, &self.masses, wanted);
+        } = self.problem.clone();
+        let motions = rigid::motions(&*system, &supports, &self.masses, wanted);
         let mut found = Found {
             shapes: motions.shapes,
             stability: None,
             complete: None,
         };
-        let is_rigid = |shape: &Vec<f64>| shape::eigenvalue(system, shape) <= rigid_below;
+        let is_rigid = |shape: &Vec<f64>| shape::eigenvalue(&*system, shape) <= rigid_below;
         found.shapes.retain(is_rigid);
         if found.shapes.len() < wanted {
             self.find_elastic(&mut found, matrix, largest, wanted, &mut notices)?;
         }
-        let moving = Moving::new(&system.cloud, mass, &self.masses);
+        let moving = Moving::new(&*system, &mass, &self.masses);
         let modes = self.modes(found.shapes, wanted, &moving, rigid_below);
         notices.extend(notices_after(&modes, motions.count, found.stability));
         Ok(ModalOutcome {
@@ -148,7 +154,7 @@ impl<'a> ModalAnalysis<'a> {
             complete: found.complete,
             stability: found.stability,
             notices,
-            costs: self.stiffness.costs,
+            costs: self.costs,
             solver: *self.stiffness.choice(),
         })
     }
@@ -222,8 +228,8 @@ impl<'a> ModalAnalysis<'a> {
     ) -> Result<Box<dyn Factorisation>, ModalError> {
         let start = Instant::now();
         let factor = kind.factorise(self.stiffness.symbolic(), matrix);
-        self.stiffness.costs.factorisation += start.elapsed();
-        self.stiffness.costs.factorisations += 1;
+        self.costs.factorisation += start.elapsed();
+        self.costs.factorisations += 1;
         factor.map_err(|reason| ModalError::NoFactor { reason })
     }
 
@@ -258,8 +264,8 @@ impl<'a> ModalAnalysis<'a> {
             }
             remove(&known, output);
         });
-        self.stiffness.costs.solves += pairs.products;
-        self.stiffness.costs.solve += start.elapsed();
+        self.costs.solves += pairs.products;
+        self.costs.solve += start.elapsed();
         pairs
     }
 
@@ -290,19 +296,19 @@ impl<'a> ModalAnalysis<'a> {
         }
         self.masses.remove(others, &mut shape);
         self.masses.normalise(&mut shape);
-        self.stiffness.costs.solves += 1;
-        self.stiffness.costs.solve += start.elapsed();
+        self.costs.solves += 1;
+        self.costs.solve += start.elapsed();
         shape
     }
 
     fn eigenvalues(&mut self, shapes: &[Vec<f64>]) -> Vec<f64> {
         let start = Instant::now();
-        let system = self.problem.system;
+        let system = &*self.problem.system;
         let values = shapes.iter();
         let values = values
             .map(|shape| shape::eigenvalue(system, shape))
             .collect();
-        self.stiffness.costs.bonds += start.elapsed();
+        self.costs.bonds += start.elapsed();
         values
     }
 
@@ -327,19 +333,19 @@ impl<'a> ModalAnalysis<'a> {
         };
         numbered.sort_by(|one, other| rank(one.0).total_cmp(&rank(other.0)));
         numbered.truncate(wanted);
-        let (system, unknowns) = (self.problem.system, self.stiffness.unknowns());
+        let (system, unknowns) = (&*self.problem.system, self.stiffness.unknowns());
         let modes = numbered.into_iter().map(|(_, mut shape)| {
             self.masses.normalise(&mut shape);
             shape::mode(system, unknowns, &self.masses, moving, shape, rigid_below)
         });
         let modes = modes.collect();
-        self.stiffness.costs.bonds += start.elapsed();
+        self.costs.bonds += start.elapsed();
         modes
     }
 
     fn stability(&self, negative: usize) -> Result<Option<Stability>, ModalError> {
-        let system = self.problem.system;
-        if !system.has_negative_stiffness() {
+        let system = &*self.problem.system;
+        if !system.some_negative() {
             return Ok(None);
         }
         let expected = self.stiffness.negative_rotations(&State::fresh(system))?;

@@ -1,8 +1,8 @@
 //! Rigid motions of the fragments of a body, as far as supports leave them.
 
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 
-use super::shape::{Masses, inner};
+use super::masses::{Masses, inner};
 use crate::connectivity::Fragments;
 use crate::supports::Supports;
 use crate::unknowns::COMPONENTS;
@@ -20,12 +20,12 @@ pub(super) struct RigidMotions {
 
 /// The rigid motions of all fragments in their order, and the shapes of the first `wanted`.
 pub(super) fn motions(
-    system: &BondSystem,
+    system: &dyn Bonds,
     supports: &Supports,
     masses: &Masses,
     wanted: usize,
 ) -> RigidMotions {
-    let fragments = Fragments::find(system, &vec![true; system.bonds.len()]);
+    let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
     let mut motions = RigidMotions {
         count: 0,
         shapes: Vec::new(),

@@ -176,6 +176,19 @@ impl Action {
         }
     }
 
+    /// Key of the action in a case file.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Displacement(_) => "displacement",
+            Self::Force(_) => "force",
+            Self::ForcePerLength(_) => "force_per_length",
+            Self::BodyForce(_) => "body_force",
+            Self::Moment(_) => "moment",
+            Self::BodyCouple(_) => "body_couple",
+            Self::Pressure(_) => "pressure",
+        }
+    }
+
     /// Units of its displacement and its force in the history: their product is work.
     pub fn units(&self) -> Units {
         let turns = |it: &Displacement| it.x.is_none() && it.y.is_none();

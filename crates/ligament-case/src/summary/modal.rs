@@ -66,16 +66,16 @@ impl ModalSummary {
             kind: mode.kind.name(),
             frequency: mode.frequency(),
             residual: mode.residual,
-            effective_shares: moving.shares(mode.participation),
+            effective_shares: of_plane(&moving.shares(&mode.participation)),
         };
         let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
-        let mut warnings = model.warnings.clone();
+        let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(outcome.notices.iter().map(ToString::to_string));
         Self {
             model: ModelSummary::new(case, model),
             mass: moving.total,
-            centre_of_mass: moving.centre,
-            moving: moving.free,
+            centre_of_mass: of_plane(&moving.centre),
+            moving: of_plane(&moving.free),
             rotations: match outcome.rotations {
                 Rotations::Inertia => "inertia",
                 Rotations::Massless => "massless",
@@ -136,4 +136,9 @@ impl ModalSummary {
         }
         Ok(())
     }
+}
+
+/// The components that there are in the plane.
+fn of_plane<const N: usize>(components: &[f64]) -> [f64; N] {
+    std::array::from_fn(|k| components[k])
 }

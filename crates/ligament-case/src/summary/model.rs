@@ -5,7 +5,6 @@ use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
 use crate::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
-use crate::formulation;
 use crate::model::Model;
 
 /// The numbers of a model.
@@ -112,7 +111,10 @@ impl Spread {
 /// Law and corrections of the bonds, in words.
 fn formulation_words(case: &CaseFile, model: &Model) -> String {
     let correction = correction_line(case, model.correction.as_ref());
-    format!("{}; {correction}", formulation_line(case))
+    format!(
+        "{}; {correction}",
+        formulation_line(case, model.setup.law.element())
+    )
 }
 
 /// Numbers of bonds of the points.
@@ -145,9 +147,9 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line(case: &CaseFile) -> String {
+pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
     let model = &case.case.model;
-    let unknowns = match formulation::element(model) {
+    let unknowns = match element {
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
         ElementKind::Imaginary => {

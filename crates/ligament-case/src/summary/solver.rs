@@ -1,6 +1,7 @@
 //! The solver of a run and its work.
 
-use ligament_analysis::stiffness::{Costs, FactorKind, Ordering, SolverChoice, Update};
+use ligament_analysis::costs::Costs;
+use ligament_analysis::solver::{FactorKind, Ordering, SolverChoice, Update};
 use serde::Serialize;
 
 /// The solver and its work.

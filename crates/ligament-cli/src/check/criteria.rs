@@ -2,12 +2,11 @@
 
 use std::io::{self, Write};
 
+use ligament::formulation::constants;
 use ligament_model::failure::{Criterion, Measure};
 
 use ligament_case::case::CaseFile;
-use ligament_case::failure::constants;
 use ligament_case::model::Model;
-use ligament_case::resolve;
 
 /// Writes the criteria with their limits over the bonds.
 pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
@@ -20,7 +19,7 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::
     for (given, criterion) in given.zip(&model.criteria.list) {
         write_limits(out, criterion)?;
         if given.spends_fracture_energy() {
-            write_energy(out, case, criterion)?;
+            write_energy(out, model, criterion)?;
         }
     }
     Ok(())
@@ -31,7 +30,8 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
     write!(out, "  {:<21} {} = ", criterion.name, measure.formula())?;
     let failing = |bond: &usize| criterion.limit[*bond].is_finite();
     let bonds: Vec<usize> = (0..criterion.limit.len()).filter(failing).collect();
-    let of_bonds = |value: &dyn Fn(usize) -> f64| Range::of(bonds.iter().map(|&bond| value(bond)));
+    let of_bonds =
+        |value: &dyn Fn(usize) -> f64| Range::over(bonds.iter().map(|&bond| value(bond)));
     let Some(limits) = of_bonds(&|bond| criterion.limit[bond]) else {
         return writeln!(out, "no limit: no bond may fail");
     };
@@ -58,13 +58,14 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
 }
 
 /// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
-fn write_energy(out: &mut dyn Write, case: &CaseFile, criterion: &Criterion) -> io::Result<()> {
+fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
     let (shear, at_most) = match criterion.measure {
         // Bonds across the bar may come to their limit before those along it.
         Measure::Energy => ("shear of the bonds is counted", "at most "),
         _ => ("what shear of the bonds stores comes on top of it", ""),
     };
-    for material in resolve::materials(case) {
+    let setup = &model.setup;
+    for material in setup.materials() {
         let energy = material.fracture_energy.unwrap_or_default();
         writeln!(
             out,
@@ -74,11 +75,12 @@ fn write_energy(out: &mut dyn Write, case: &CaseFile, criterion: &Criterion) -> 
         )?;
     }
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
-    if let [material] = resolve::materials(case).as_slice()
-        && let Some(constants) = constants(case, material)
-        && let Some(limits) = Range::of(criterion.limit.iter().copied().filter(|it| it.is_finite()))
+    if let [region] = setup.materials.as_slice()
+        && let Some(constants) = constants(&region.material, &setup.law, setup.plane())
+        && let Some(limits) =
+            Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
-        let young = constants.in_plane(resolve::plane(case)).young;
+        let young = constants.in_plane(setup.plane()).young;
         writeln!(
             out,
             "{:<24}a bar without a crack fails at {at_most}E s_0 = {} Pa, which changes with the horizon",
@@ -101,7 +103,7 @@ fn prefix(name: &str) -> String {
 struct Range([f64; 3]);
 
 impl Range {
-    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+    fn over(values: impl Iterator<Item = f64>) -> Option<Self> {
         let mut values: Vec<f64> = values.collect();
         values.sort_unstable_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;

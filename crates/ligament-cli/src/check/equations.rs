@@ -4,9 +4,10 @@ use std::io::{self, Write};
 use std::time::Instant;
 
 use ligament_analysis::SetupError;
-use ligament_analysis::stiffness::{
-    FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Stiffness, Update,
+use ligament_analysis::solver::{
+    FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Update,
 };
+use ligament_analysis::stiffness::Stiffness;
 
 use ligament_case::case::{self, CaseFile, Factorisation};
 use ligament_case::memory;
@@ -25,7 +26,7 @@ pub(super) fn write(
     out: &mut dyn Write,
     case: &CaseFile,
     model: &Model,
-    stiffness: &Stiffness<'_>,
+    stiffness: &Stiffness,
 ) -> anyhow::Result<()> {
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
@@ -96,7 +97,7 @@ fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> 
     )
 }
 
-fn analyse(stiffness: &Stiffness<'_>, ordering: Ordering) -> Result<Analysis, SetupError> {
+fn analyse(stiffness: &Stiffness, ordering: Ordering) -> Result<Analysis, SetupError> {
     let start = Instant::now();
     let symbolic = stiffness.analysed_with(ordering)?;
     Ok(Analysis {

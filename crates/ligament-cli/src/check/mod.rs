@@ -1,5 +1,6 @@
 //! `ligament check`: everything up to the first solve, or the model alone, and what it takes.
 
+mod body;
 mod criteria;
 mod equations;
 mod modal;
@@ -14,13 +15,16 @@ use ligament_analysis::{ControlKind, Equilibrium};
 use ligament_model::Elasticity;
 use ligament_output::results::point_grid;
 
-use ligament_case::body::Body;
+use ligament::Loading;
+use ligament::body::Body;
+use ligament::run::on_threads;
+use ligament::setup::Analysis;
+use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_case::case::{CaseFile, Control, Steps};
 use ligament_case::gauges::words;
 use ligament_case::model::{Model, build_model};
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Loading};
-use ligament_case::run::ELASTIC_ENERGY_TOLERANCE;
+use ligament_case::setup::materials;
 use ligament_case::stages::{Stage, Stages};
 use ligament_case::summary::{
     Spread, correction_line, family, formulation_line, heading, temperature_change,
@@ -42,7 +46,7 @@ pub fn check(
     fields: Option<&Path>,
     out: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
-    resolve::on_threads(case, || check_here(case, extent, fields, out))?
+    on_threads(case.threads(), || check_here(case, extent, fields, out))?
 }
 
 /// Checks a case on the threads of the caller.
@@ -54,12 +58,14 @@ fn check_here(
 ) -> anyhow::Result<()> {
     let mut stages = Stages::default();
     let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
-    match &case.case.modal {
-        Some(modal) => modal::check(case, modal, extent, &model, &mut stages, out)?,
-        None => check_loading(case, extent, &model, &mut stages, out)?,
+    match model.setup.analysis {
+        Analysis::Modal(settings) => {
+            modal::check(case, settings, extent, &model, &mut stages, out)?;
+        }
+        _ => check_loading(case, extent, &model, &mut stages, out)?,
     }
     write_stages(out, stages.done())?;
-    let loose = Fragments::find(&model.system, &vec![true; model.system.bonds.len()])
+    let loose = Fragments::find(&*model.system, &vec![true; model.system.bonds.len()])
         .points
         .len();
     if loose > 1 {
@@ -77,7 +83,7 @@ fn check_here(
         let cloud = &model.system.cloud;
         point_grid(
             &path,
-            &model.body.grid(),
+            &model.body().grid(),
             &cloud.volumes,
             &cloud.spacing,
             &model.fixed,
@@ -95,19 +101,19 @@ fn check_loading(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let loading = Loading::of(case, &*model.body, &model.system)?;
+    let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
     let problem = loading.problem(&model.system, &model.criteria);
     let equilibrium = match extent {
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || {
-            Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)
+            Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)
         })?),
     };
 
     write_model(out, case, model)?;
-    write_boundary(out, case, &*model.body, &loading)?;
-    for free in gauges::of_intact_body(&model.system, &loading.boundary) {
-        writeln!(out, "  not held: {}", words(&free, &*model.body))?;
+    write_boundary(out, case, model.body(), &loading)?;
+    for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
+        writeln!(out, "  not held: {}", words(&free, model.body()))?;
     }
     write_loading(out, case)?;
     if let Some(equilibrium) = &equilibrium {
@@ -120,7 +126,7 @@ fn check_loading(
 fn write_model(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.cloud.volumes.iter().sum();
-    model.body.write(out, volume)?;
+    body::write(out, model.body(), volume)?;
     write_materials(out, case, model)?;
     write_bonds(out, case, model)?;
     criteria::write(out, case, model)?;
@@ -143,7 +149,7 @@ fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
 fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
-    for (index, material) in resolve::materials(case).iter().enumerate() {
+    for (index, material) in materials(case).iter().enumerate() {
         let volume: f64 = (0..cloud.len())
             .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
             .sum();
@@ -210,7 +216,7 @@ fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
         model.system.bonds.len(),
         model.cut_bonds
     )?;
-    if !model.body.holes().is_empty() {
+    if !model.body().holes().is_empty() {
         writeln!(out, "  pairs across holes    {}", model.across_holes)?;
     }
     writeln!(out, "  points with no_fail   {}", model.no_fail_points)?;
@@ -227,7 +233,11 @@ fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
         " m",
     )?;
     spread(out, "bonds of a point", family(model), "")?;
-    writeln!(out, "  {}", formulation_line(case))?;
+    writeln!(
+        out,
+        "  {}",
+        formulation_line(case, model.setup.law.element())
+    )?;
     writeln!(
         out,
         "  {}",
@@ -286,7 +296,7 @@ fn write_boundary(
             units.force
         )?,
     }
-    for probe in &loading.probes {
+    for probe in loading.probes.iter() {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {
                 points.map(|point| body.place(point)).join(" to ")

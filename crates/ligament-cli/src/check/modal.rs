@@ -2,48 +2,47 @@
 
 use std::io::Write;
 
-use ligament_analysis::modal::{ModalAnalysis, Rotations};
+use ligament::Vibration;
+use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::{Extent, equations, write_group, write_model};
-use ligament_case::case::{self, CaseFile, Modal};
+use ligament_case::case::CaseFile;
 use ligament_case::model::Model;
-use ligament_case::resolve::{self, Vibration};
 use ligament_case::stages::Stages;
 
 /// Checks supports, masses and equations.
 pub(super) fn check(
     case: &CaseFile,
-    modal: &Modal,
+    settings: ModalSettings,
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let vibration = Vibration::of(case, &*model.body, &model.system.cloud)?;
+    let vibration = Vibration::new(&model.setup, &model.system.cloud);
+    let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = match extent {
         Extent::Model => None,
-        Extent::Matrix => Some(stages.time("analysis", || {
-            ModalAnalysis::of(problem, resolve::modal(modal))
-        })?),
+        Extent::Matrix => Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?),
     };
     write_model(out, case, model)?;
     writeln!(out, "supports")?;
     for group in &vibration.supports.groups {
-        write_group(out, &*model.body, &group.name, &group.points)?;
+        write_group(out, model.body(), &group.name, &group.points)?;
     }
     if vibration.supports.groups.is_empty() {
         writeln!(out, "  none: the body is free")?;
     }
     writeln!(out, "modes")?;
-    writeln!(out, "  wanted                {}", modal.modes)?;
+    writeln!(out, "  wanted                {}", settings.modes)?;
     if let Some(analysis) = &analysis {
-        let why = match modal.rotations {
-            case::Rotations::Inertia | case::Rotations::Massless => "as the case says",
-            case::Rotations::Auto if analysis.rotations() == Rotations::Massless => {
+        let why = match settings.rotations {
+            Some(_) => "as the case says",
+            None if analysis.rotations() == Rotations::Massless => {
                 "because bonds have a negative shear stiffness"
             }
-            case::Rotations::Auto => "because no bond has a negative shear stiffness",
+            None => "because no bond has a negative shear stiffness",
         };
         let what = match analysis.rotations() {
             Rotations::Inertia => "with inertia",

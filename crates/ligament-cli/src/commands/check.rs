@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::CaseArgs;
+use super::case_args::CaseArgs;
 use crate::check::{Extent, check};
 
 pub(super) const EXAMPLES: &str = "\

@@ -2,10 +2,8 @@
 
 use std::io::{self, Write};
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
-
-use super::Cli;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -22,11 +20,11 @@ pub struct CompletionsArgs {
 }
 
 impl CompletionsArgs {
-    /// Does it.
-    pub(super) fn execute(self) -> anyhow::Result<()> {
+    /// Writes the script for a command and all below it.
+    pub(super) fn execute(self, mut program: Command) -> anyhow::Result<()> {
         // Generated into memory: clap_complete panics where the pipe is closed early.
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), "ligament", &mut script);
+        clap_complete::generate(self.shell, &mut program, "ligament", &mut script);
         Ok(io::stdout().lock().write_all(&script)?)
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::CaseArgs;
+use super::case_args::CaseArgs;
 use ligament_case::progress::ProgressMode;
 use ligament_case::run::run;
 use ligament_study::sweep::take_leash;

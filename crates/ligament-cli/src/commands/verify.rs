@@ -7,7 +7,7 @@ use clap::Args;
 
 use ligament_verify::report::console;
 use ligament_verify::table::Extent;
-use ligament_verify::{Request, verify};
+use ligament_verify::{EXPERIMENTS, Request, verify};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -42,7 +42,7 @@ impl VerifyArgs {
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let mut stdout = io::stdout();
         if self.list {
-            return Ok(console::list(&mut stdout)?);
+            return Ok(console::list(&mut stdout, &EXPERIMENTS)?);
         }
         let request = Request {
             names: self.names,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use ligament_model::failure::frictional::Calibration;
 
-use super::{CaseArgs, position};
+use super::case_args::{CaseArgs, position};
 use ligament_case::case::MOST_THREADS;
 use ligament_study::yielding::criteria::Combination;
 use ligament_study::yielding::{Families, Place, Request, yielding};

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::Context;
+use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_output::csv::{Table, Value};
-use ligament_output::results::Absence;
 use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 

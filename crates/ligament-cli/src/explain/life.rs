@@ -36,21 +36,21 @@ pub(super) struct Lives {
 pub(super) struct Life {
     /// Number of the pair.
     pub(super) pair: usize,
-    /// Its ends.
+    /// Ends of the bond.
     pub(super) ends: [u32; 2],
     /// Length, m.
     pub(super) length: f64,
     /// Direction cosines from the first to the second end.
     pub(super) direction: [f64; 2],
-    /// Its limits, one a criterion.
+    /// Limits of the bond, one a criterion.
     pub(super) limits: Vec<Limit>,
-    /// Its deformation in each moment, also after it broke.
+    /// Deformation of the bond in each moment, also after it broke.
     pub(super) deformation: Vec<BondDeformation>,
     /// Number of moments in which it was intact.
     pub(super) n_intact: usize,
-    /// How it broke, and the number of the criterion by which it did.
+    /// Breakage of the bond, and the number of the criterion by which it failed.
     pub(super) breakage: Option<(StoredBreak, Option<usize>)>,
-    /// Its largest utilisation.
+    /// Largest utilisation of the bond.
     pub(super) nearest: Option<Nearest>,
 }
 
@@ -85,8 +85,8 @@ pub(super) fn pair_of(run: &StoredRun, ends: [u32; 2]) -> Option<usize> {
 }
 
 impl Lives {
-    /// Reads each file of fields once.
-    pub(super) fn of(
+    /// Reads the lives of some bonds; each file of fields is read once.
+    pub(super) fn read(
         run: &StoredRun,
         pairs: Vec<usize>,
         loading: StoredLoading,
@@ -104,7 +104,7 @@ impl Lives {
         for pair in bonds {
             lives.of_bonds.push(Life::begin(run, pair)?);
         }
-        let mut strains = Strains::of(run, loading.follows_path);
+        let mut strains = Strains::from_run(run, loading.follows_path);
         for step in run.field_steps() {
             // A run that is under way may have fields of a step before its row.
             let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
@@ -129,7 +129,7 @@ impl Lives {
 }
 
 impl Limit {
-    fn of(criterion: &StoredCriterion, pair: usize) -> Option<Self> {
+    fn from_criterion(criterion: &StoredCriterion, pair: usize) -> Option<Self> {
         let measure = Measure::ALL
             .into_iter()
             .find(|it| it.word() == criterion.measure)?;
@@ -145,7 +145,7 @@ impl Limit {
 
     /// The measure of a deformation.
     pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
-        self.measure.of(deformation, &self.coefficients)
+        self.measure.value(deformation, &self.coefficients)
     }
 
     /// Measure over limit, 0 where the measure is not positive.
@@ -162,7 +162,7 @@ impl Life {
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = along[0].hypot(along[1]);
         let limit = |criterion: &StoredCriterion| {
-            Limit::of(criterion, pair).ok_or_else(|| Error::Unreadable {
+            Limit::from_criterion(criterion, pair).ok_or_else(|| Error::Unreadable {
                 path: run.folder.join("criteria.csv"),
                 reason: format!(
                     "criterion {} has the measure `{}` and after its limit `{}`, of which one is unknown here",

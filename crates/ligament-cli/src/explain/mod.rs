@@ -87,12 +87,12 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let (text, lives) = match request.subject {
         Subject::Point(tag) => {
             let point = point_of(&run, tag)?;
-            let lives = Lives::of(&run, bonds_of(&run, point), loading)?;
+            let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
             (report::family(&run, point, None, &lives), lives)
         }
         Subject::At(position) => {
             let point = nearest_point(&run, position);
-            let lives = Lives::of(&run, bonds_of(&run, point), loading)?;
+            let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
             (report::family(&run, point, Some(position), &lives), lives)
         }
         Subject::Bond(tags) => {
@@ -103,7 +103,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             }
             let ends = [a.min(b), a.max(b)];
             let pair = pair_of(&run, ends);
-            let lives = Lives::of(&run, pair.into_iter().collect(), loading)?;
+            let lives = Lives::read(&run, pair.into_iter().collect(), loading)?;
             (report::bond(&run, ends, &lives), lives)
         }
     };

@@ -2,7 +2,7 @@
 
 use std::ops::Add;
 
-use ligament_output::results::Absence;
+use ligament_model::Absence;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
 use super::life::{Life, Lives};
@@ -12,9 +12,9 @@ use ligament_case::case::Units;
 
 /// An explanation.
 pub(super) struct Text {
-    /// What it is of.
+    /// Title: the bond or point that is explained.
     pub(super) title: String,
-    /// All lines below it.
+    /// All lines below the title.
     pub(super) body: String,
 }
 
@@ -151,7 +151,7 @@ fn counts(run: &StoredRun, lives: &Lives) -> String {
     words
 }
 
-/// What the results leave out, and how to get it.
+/// Lines on what the results leave out, and how to get it.
 fn missing(run: &StoredRun, lives: &Lives) -> Vec<String> {
     let mut lines = Vec::new();
     let may_fail = !run.model.criteria.is_empty();

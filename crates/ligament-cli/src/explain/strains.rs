@@ -3,7 +3,7 @@
 use ligament_model::BondSet;
 use ligament_model::bonds::Incidence;
 use ligament_model::element::imaginary::{ImaginaryElements, StrainStiffness};
-use ligament_model::element::{BondDeformation, Element};
+use ligament_model::element::{BondDeformation, Element, Elements, Rigidities};
 use ligament_output::results::stored::{Motions, StoredRun};
 
 /// The bonds of a stored lattice, and which of them are unbroken.
@@ -18,8 +18,8 @@ pub(super) struct Strains {
 }
 
 impl Strains {
-    /// Those of a run; None where its bonds have no strains of their own.
-    pub(super) fn of(run: &StoredRun, before_breakages: bool) -> Option<Self> {
+    /// The strains of a run; None where its bonds have no strains of their own.
+    pub(super) fn from_run(run: &StoredRun, before_breakages: bool) -> Option<Self> {
         if run.deformation_names.len() < 3 {
             return None;
         }
@@ -78,7 +78,8 @@ impl Strains {
 
     /// The deformation of a bond, without what the temperature gives it.
     pub(super) fn deformation(&self, bond: usize, motions: &Motions) -> BondDeformation {
-        let element = self.elements.element(&self.bonds, &self.intact, bond);
+        let none = Rigidities::default();
+        let element = (self.elements).element(&self.bonds, &none, &self.intact, bond);
         let whole = element.deformation(motions.of_points.as_flattened());
         if motions.thermal_strain.is_empty() {
             return whole;

@@ -1,8 +1,8 @@
 //! What happened to bonds, in words.
 
+use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Measure, Softened};
-use ligament_output::results::Absence;
 use ligament_output::results::stored::StoredRun;
 
 use super::life::{Life, Limit, Lives, Nearest};
@@ -173,7 +173,7 @@ fn end_words(lives: &Lives, life: &Life) -> Option<String> {
     ))
 }
 
-/// What is left of a bond that passed limits, in the last moment, with the names of their criteria.
+/// The rest of a bond that passed limits, in the last moment, with the names of the criteria.
 fn softened<'a>(lives: &Lives, life: &'a Life) -> Vec<(&'a str, Softened)> {
     let Some(last) = lives.moments.len().checked_sub(1) else {
         return Vec::new();
@@ -187,7 +187,7 @@ fn softened<'a>(lives: &Lives, life: &'a Life) -> Vec<(&'a str, Softened)> {
     .collect()
 }
 
-/// The same, a sentence a criterion.
+/// The rest of a bond that passed limits, a sentence for each criterion.
 fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
     let words = |(name, softened): (&str, Softened)| {
         format!(

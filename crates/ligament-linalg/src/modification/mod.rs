@@ -1,8 +1,9 @@
 //! Changes of a factor in place: A + sum of c_i w_i w_i^T for w_i with few entries, and the solve that follows.
 //!
 //! A vector changes only the supernodes on the way from its first row to the root of the elimination tree, and the pattern
-//! of the factor never grows as long as the entries of a vector are pairwise in the pattern of the matrix (Davis & Hager,
-//! SIAM J. Matrix Anal. Appl. 22, 2001). A right-hand side that is zero outside the same rows takes the same way, so the
+//! of the factor never grows as long as the entries of a vector are pairwise in the pattern of the matrix (Davis and Hager
+//! 2001).
+//! A right-hand side that is zero outside the same rows takes the same way, so the
 //! forward substitution goes along while a panel is in the cache.
 
 mod diagonal;

@@ -225,8 +225,8 @@ fn apply<S: Simd, const WIDTH: usize, const TERMS: usize>(
     }
 }
 
-/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill, Golub, Murray & Saunders, Math. Comp.
-/// 28, 1974, method C1). Gives what it does to the column, and d'; worthless where that vanishes.
+/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill 1974, method C1). Gives the action on the
+/// column, and d'; the result is worthless where d' vanishes.
 #[inline(always)]
 fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     let old = *pivot;

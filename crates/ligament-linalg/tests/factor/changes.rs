@@ -324,7 +324,7 @@ fn changing_back_returns() {
     }
 }
 
-/// The same calls give the same bits, in a pool of any number of threads.
+/// Equal calls give equal bits, in a pool of any number of threads.
 #[test]
 fn the_number_of_threads_does_not_matter() {
     let run = |threads: usize| {

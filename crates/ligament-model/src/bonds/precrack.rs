@@ -60,6 +60,27 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
         .collect()
 }
 
+/// The bonds that cross the straight line from `start` to `end` (mesh-file coordinates), by the rule of pre-cracks, and whether
+/// their first end lies on its left.
+pub fn crossing_bonds(
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    start: [f64; 2],
+    end: [f64; 2],
+) -> Vec<(u32, bool)> {
+    let line = PreCrack {
+        points: vec![start, end],
+        ends: Ends::Excluded,
+    }
+    .in_local_coordinates(cloud);
+    let position = |point: u32| cloud.positions[point as usize];
+    (0..)
+        .zip(&bonds.ends)
+        .filter(|(_, ends)| line.cuts(position(ends[0]), position(ends[1])))
+        .map(|(bond, ends)| (bond, line.starts_on_the_left(position(ends[0]))))
+        .collect()
+}
+
 /// Number of bonds that the pre-cracks leave whole although an end of theirs lies exactly on the bond: where a crack begins
 /// on the outline of a mesh, these are the bonds along the outline.
 pub fn count_touched_bonds(

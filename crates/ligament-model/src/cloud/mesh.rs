@@ -2,7 +2,7 @@
 
 use ligament_mesh::{Cell, Mesh};
 
-use super::{PointCloud, distance, search_tree};
+use super::{PointCloud, distance, middle_of_bounding_box, search_tree};
 use crate::curve::along_hilbert_curve;
 use crate::horizon::INCLUSION_TOLERANCE;
 
@@ -60,21 +60,6 @@ impl PointCloud {
 
 fn corner_area(cell: &Cell, positions: &[[f64; 2]]) -> f64 {
     cell.area(positions) / cell.corners().len() as f64
-}
-
-fn middle_of_bounding_box(positions: &[[f64; 2]]) -> [f64; 2] {
-    [0, 1].map(|axis| {
-        let (lower, upper) = positions
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| {
-                (lower.min(p[axis]), upper.max(p[axis]))
-            });
-        if lower <= upper {
-            0.5 * (lower + upper)
-        } else {
-            0.0
-        }
-    })
 }
 
 /// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest cell side.

@@ -1,7 +1,8 @@
-//! Material points, from a mesh (`mesh.rs`) or a regular lattice ([`lattice`]).
+//! Material points, from a mesh (`mesh.rs`), a regular lattice ([`lattice`]) or arrays (`points.rs`).
 
 pub mod lattice;
 mod mesh;
+mod points;
 
 use rayon::prelude::*;
 use rstar::RTree;
@@ -151,6 +152,22 @@ pub(crate) fn search_tree(positions: &[[f64; 2]]) -> RTree<NumberedPoint> {
             .map(|(number, &p)| GeomWithData::new(p, number as u32))
             .collect(),
     )
+}
+
+/// The middle of the smallest box around some positions, m.
+fn middle_of_bounding_box(positions: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let (lower, upper) = positions
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| {
+                (lower.min(p[axis]), upper.max(p[axis]))
+            });
+        if lower <= upper {
+            0.5 * (lower + upper)
+        } else {
+            0.0
+        }
+    })
 }
 
 /// Distance of two points, m; the same bits whichever comes first.

@@ -5,8 +5,8 @@
 
 use super::pair::PairKinematics;
 use super::spring::SpringBond;
-use super::{BondDeformation, Remaining, UNKNOWNS};
-use crate::system::BondSystem;
+use super::{BondDeformation, Remaining, Rigidities, UNKNOWNS};
+use crate::bonds::BondSet;
 
 /// A pair of springs between points that turn, and a spring against their relative rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,11 +18,13 @@ pub struct BeamBond {
 }
 
 impl PairKinematics for BeamBond {
+    const TURNS_POINTS: bool = true;
+
     #[inline]
-    fn of(system: &BondSystem, bond: usize) -> Self {
+    fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self {
         Self {
-            springs: SpringBond::of(system, bond),
-            rotational_rigidity: system.rotational_rigidity[bond],
+            springs: SpringBond::new(bonds, rigidities, bond),
+            rotational_rigidity: rigidities.rotational[bond],
         }
     }
 

@@ -1,5 +1,4 @@
-//! The element of MBB-PD (Masoumi, Ravandi and Salehi, "A modified bond-based peridynamics model without limitations on elastic
-//! properties"): a small imaginary rectangle around a bond of a square lattice, and the strains in it.
+//! The element of MBB-PD: a small imaginary rectangle around a bond of a square lattice, and the strains in it.
 //!
 //! | class | bond | rectangle | eqs |
 //! |---|---|---|---|
@@ -25,9 +24,8 @@ mod surroundings;
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
 use crate::bonds::{BondSet, Incidence};
-use crate::system::BondSystem;
 pub(super) use quotients::{Axis, Quotient, Quotients};
 pub use surroundings::Surroundings;
 
@@ -59,9 +57,6 @@ pub struct ImaginaryElements {
     pub couplings: Incidence,
     /// The other points that some element couples with each point, ascending.
     pub neighbours: Incidence,
-    /// Factors of the rows (xx, yy, xy) of D in the printed forces of each bond, shape (n_bonds); empty where forces come from the
-    /// energy.
-    pub row_factors: Vec<[f64; 3]>,
 }
 
 impl ImaginaryElements {
@@ -92,13 +87,21 @@ impl ImaginaryElements {
             stiffness,
             surroundings,
             positions,
-            row_factors: Vec::new(),
         }
     }
+}
 
-    /// The element of one of the bonds while those marked in `intact` (n_bonds) are unbroken.
+impl Elements for ImaginaryElements {
+    type Element = ImaginaryElement;
+
     #[inline]
-    pub fn element(&self, bonds: &BondSet, intact: &[bool], bond: usize) -> ImaginaryElement {
+    fn element(
+        &self,
+        bonds: &BondSet,
+        _: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> ImaginaryElement {
         let gradient = Gradient::of(bonds, &self.surroundings, &self.positions, intact, bond);
         let is_supported = gradient.count > 0;
         ImaginaryElement {
@@ -111,10 +114,38 @@ impl ImaginaryElements {
         }
     }
 
-    /// Whether some D is indefinite, so that the stiffness of the body may be, too.
-    pub fn some_indefinite(&self) -> bool {
+    fn turns_points(&self) -> bool {
+        false
+    }
+
+    fn turns_freely(&self) -> bool {
+        true
+    }
+
+    fn some_negative(&self, _: &Rigidities) -> bool {
         let mut matrices = self.stiffness.iter().map(|it| matrix(it.entries));
         matrices.any(|matrix| matrix.cholesky().is_none())
+    }
+
+    fn share(&self, bonds: &BondSet, bond: u32, point: u32) -> f64 {
+        let first_share = self.stiffness[bond as usize].first_share;
+        if bonds.ends[bond as usize][0] == point {
+            first_share
+        } else {
+            1.0 - first_share
+        }
+    }
+
+    fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
+        let of_bonds = (bonds.iter()).flat_map(|&bond| self.surroundings.dependents(bond));
+        let mut leaning: Vec<u32> = of_bonds.copied().collect();
+        leaning.sort_unstable();
+        leaning.dedup();
+        leaning
+    }
+
+    fn couplings(&self) -> Option<[&Incidence; 2]> {
+        Some([&self.couplings, &self.neighbours])
     }
 }
 
@@ -243,14 +274,9 @@ impl ImaginaryElement {
         weights.map(|(point, x, y)| (point, [[x, 0.0, y], [0.0, y, x]]))
     }
 
-    /// The points that it couples.
-    pub fn points(&self) -> &[u32] {
-        self.gradient.points()
-    }
-
-    /// Block of the stiffness between two of its points, given by their places in [`ImaginaryElement::points`]: rows of the
-    /// first, columns of the second, shape (2, 2), N/m.
-    pub fn block(&self, first: usize, second: usize) -> [[f64; 2]; 2] {
+    /// Block of the stiffness between two of its points, given by their places among them: rows of the first, columns of
+    /// the second, shape (2, 2), N/m.
+    fn block(&self, first: usize, second: usize) -> [[f64; 2]; 2] {
         let [d11, d12, d16, d22, d26, d66] = self.stiffness;
         let Gradient { by_x, by_y, .. } = &self.gradient;
         let ([x, y], [x_2, y_2]) = ([by_x[first], by_y[first]], [by_x[second], by_y[second]]);
@@ -285,18 +311,6 @@ impl ImaginaryElement {
 }
 
 impl Element for ImaginaryElement {
-    /// # Panics
-    ///
-    /// Panics if the system is not one of imaginary elements.
-    #[inline]
-    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
-        let elements = system
-            .imaginary
-            .as_ref()
-            .expect("a system of imaginary elements");
-        elements.element(&system.bonds, intact, bond)
-    }
-
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
         // D has no parts of its own for stretch and shear.
@@ -367,5 +381,16 @@ impl Element for ImaginaryElement {
                 entries.filter(|(_, value)| *value != 0.0).collect(),
             )
         })
+    }
+
+    fn upper_blocks(&self, point: u32, mut add: impl FnMut(u32, Block)) {
+        let points = self.gradient.points();
+        let Some(column) = points.iter().position(|&it| it == point) else {
+            return;
+        };
+        for (row, &other) in points.iter().enumerate().filter(|(_, it)| **it <= point) {
+            let [[xx, xy], [yx, yy]] = self.block(row, column);
+            add(other, [[xx, xy, 0.0], [yx, yy, 0.0], [0.0; UNKNOWNS]]);
+        }
     }
 }

@@ -1,14 +1,17 @@
 //! Bonds that couple their two ends and nothing else.
 
-use nalgebra::{Matrix6, Vector6};
+use std::marker::PhantomData;
 
-use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
-use crate::system::BondSystem;
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
+use crate::bonds::BondSet;
 
 /// The kinematics of a bond between two points.
-pub trait PairKinematics: Copy {
-    /// Those of a bond.
-    fn of(system: &BondSystem, bond: usize) -> Self;
+pub trait PairKinematics: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
+    /// Whether the points turn.
+    const TURNS_POINTS: bool;
+
+    /// The kinematics of a bond.
+    fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self;
 
     /// With the rigidities times what is left of them.
     fn weakened(self, remaining: &Remaining) -> Self;
@@ -28,14 +31,41 @@ pub trait PairKinematics: Copy {
     /// K as a sum over stretch, shear and relative rotation of rigidity g g^T; the rows g take the unknowns of A and B to
     /// (s, gamma, theta_rel).
     fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3];
+}
 
-    /// Element stiffness K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9), shape (6, 6).
-    fn stiffness(&self) -> Matrix6<f64> {
-        let modes = self.modes().into_iter();
-        modes.fold(Matrix6::zeros(), |sum, (rigidity, gradient)| {
-            let gradient = Vector6::from(gradient);
-            sum + rigidity * gradient * gradient.transpose()
-        })
+/// The elements of bonds that couple their ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pairs<B>(PhantomData<B>);
+
+impl<B> Default for Pairs<B> {
+    fn default() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<B: PairKinematics> Elements for Pairs<B> {
+    type Element = Pair<B>;
+
+    #[inline(always)]
+    fn element(
+        &self,
+        bonds: &BondSet,
+        rigidities: &Rigidities,
+        _: &[bool],
+        bond: usize,
+    ) -> Pair<B> {
+        Pair {
+            ends: bonds.ends[bond],
+            bond: B::new(bonds, rigidities, bond),
+        }
+    }
+
+    fn turns_points(&self) -> bool {
+        B::TURNS_POINTS
+    }
+
+    fn turns_freely(&self) -> bool {
+        B::TURNS_POINTS
     }
 }
 
@@ -50,14 +80,6 @@ pub struct Pair<B> {
 
 // The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
 impl<B: PairKinematics> Element for Pair<B> {
-    #[inline(always)]
-    fn of(system: &BondSystem, _: &[bool], bond: usize) -> Self {
-        Self {
-            ends: system.bonds.ends[bond],
-            bond: B::of(system, bond),
-        }
-    }
-
     #[inline(always)]
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
@@ -96,6 +118,10 @@ impl<B: PairKinematics> Element for Pair<B> {
         add(self.ends[1], at_b);
     }
 
+    fn end_forces(&self, deformation: &BondDeformation) -> Option<[[f64; UNKNOWNS]; 2]> {
+        Some(self.bond.end_forces(deformation))
+    }
+
     fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
         let (length, direction) = self.bond.geometry();
         let [_, [f_x, f_y, _]] = self.bond.end_forces(deformation);
@@ -113,5 +139,28 @@ impl<B: PairKinematics> Element for Pair<B> {
                 entries.filter(|(_, value)| *value != 0.0).collect(),
             )
         })
+    }
+
+    /// Blocks of K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9).
+    fn upper_blocks(&self, point: u32, mut add: impl FnMut(u32, Block)) {
+        let column_end = usize::from(self.ends[1] == point);
+        let modes = self.bond.modes();
+        for (row_end, &other) in self
+            .ends
+            .iter()
+            .enumerate()
+            .filter(|(_, end)| **end <= point)
+        {
+            let mut block = [[0.0; UNKNOWNS]; UNKNOWNS];
+            for (rigidity, gradient) in &modes {
+                let [rows, columns] = [row_end, column_end].map(|end| &gradient[UNKNOWNS * end..]);
+                for (sums, row) in block.iter_mut().zip(rows) {
+                    for (sum, column) in sums.iter_mut().zip(columns) {
+                        *sum += rigidity * row * column;
+                    }
+                }
+            }
+            add(other, block);
+        }
     }
 }

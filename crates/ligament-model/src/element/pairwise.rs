@@ -12,9 +12,70 @@
 //! direction. Eq. 17 has no meaning for H and V bonds. These forces are not those of an energy: the stiffness is not symmetric. The
 //! form is here to show what the printed equations give.
 
-use super::imaginary::{BondClass, ImaginaryElement};
-use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
-use crate::system::BondSystem;
+use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
+use crate::bonds::{BondSet, Incidence};
+
+/// The elements of a lattice with the printed forces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairwiseElements {
+    /// The elements with the forces of the energy.
+    pub lattice: ImaginaryElements,
+    /// Factors of the rows (xx, yy, xy) of D in the printed forces of each bond, shape (n_bonds).
+    pub row_factors: Vec<[f64; 3]>,
+    /// Distance of each point from its nearest one, shape (n_points), m.
+    pub spacing: Vec<f64>,
+}
+
+impl Elements for PairwiseElements {
+    type Element = PairwiseElement;
+
+    fn element(
+        &self,
+        bonds: &BondSet,
+        rigidities: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> PairwiseElement {
+        let offset = bonds.direction[bond].map(|cosine| cosine * bonds.length[bond]);
+        let spacing = self.spacing[bonds.ends[bond][0] as usize];
+        PairwiseElement {
+            strains: self.lattice.element(bonds, rigidities, intact, bond),
+            ends: bonds.ends[bond],
+            offset,
+            row_factors: self.row_factors[bond],
+            of_rows: of_rows(offset, spacing, BondClass::of(bonds.direction[bond])),
+        }
+    }
+
+    fn turns_points(&self) -> bool {
+        self.lattice.turns_points()
+    }
+
+    fn turns_freely(&self) -> bool {
+        self.lattice.turns_freely()
+    }
+
+    fn has_energy(&self) -> bool {
+        false
+    }
+
+    fn some_negative(&self, rigidities: &Rigidities) -> bool {
+        self.lattice.some_negative(rigidities)
+    }
+
+    fn share(&self, bonds: &BondSet, bond: u32, point: u32) -> f64 {
+        self.lattice.share(bonds, bond, point)
+    }
+
+    fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
+        self.lattice.leaning(bonds)
+    }
+
+    fn couplings(&self) -> Option<[&Incidence; 2]> {
+        self.lattice.couplings()
+    }
+}
 
 /// One bond with its surroundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,22 +92,6 @@ pub struct PairwiseElement {
 }
 
 impl PairwiseElement {
-    /// Force on the second end for displacements of size one along x and y of each point that it couples, with the point: rows of
-    /// the force, columns of the displacement, shape (2, 2), N/m. The first end feels the opposite.
-    pub fn couplings(&self) -> impl Iterator<Item = (u32, [[f64; 2]; 2])> + '_ {
-        self.strains.strains_of_points().map(|(point, strains)| {
-            let of_columns =
-                strains.map(|[xx, yy, xy]| self.force(&BondDeformation::of_strain([xx, yy, xy])));
-            let block = [0, 1].map(|row| of_columns.map(|column| column[row]));
-            (point, block)
-        })
-    }
-
-    /// Points A and B.
-    pub fn ends(&self) -> [u32; 2] {
-        self.ends
-    }
-
     /// Force on the second end, N.
     #[inline]
     fn force(&self, deformation: &BondDeformation) -> [f64; 2] {
@@ -96,26 +141,6 @@ fn greatest_common_divisor(one: u32, other: u32) -> u32 {
 }
 
 impl Element for PairwiseElement {
-    /// # Panics
-    ///
-    /// Panics if the system is not one of imaginary elements with factors of their rows.
-    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
-        let elements = system
-            .imaginary
-            .as_ref()
-            .expect("a system of imaginary elements");
-        let bonds = &system.bonds;
-        let offset = bonds.direction[bond].map(|cosine| cosine * bonds.length[bond]);
-        let spacing = system.cloud.spacing[bonds.ends[bond][0] as usize];
-        Self {
-            strains: ImaginaryElement::of(system, intact, bond),
-            ends: bonds.ends[bond],
-            offset,
-            row_factors: elements.row_factors[bond],
-            of_rows: of_rows(offset, spacing, BondClass::of(bonds.direction[bond])),
-        }
-    }
-
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
             strains: self.strains.weakened(remaining),
@@ -155,9 +180,30 @@ impl Element for PairwiseElement {
         [f_x * x, f_y * y, 0.5 * (f_x * y + f_y * x)]
     }
 
-    /// Those of the energy form: the forces have none.
+    /// Terms of the energy form: the forces have none.
     fn terms(&self) -> [Term; 3] {
         self.strains.terms()
+    }
+
+    /// Blocks of the energy form.
+    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block)) {
+        self.strains.upper_blocks(point, add);
+    }
+
+    fn derivatives(&self, mut add: impl FnMut(usize, usize, f64)) {
+        let [a, b] = self.ends;
+        for (point, strains) in self.strains.strains_of_points() {
+            let of_columns = strains.map(|strain| self.force(&BondDeformation::of_strain(strain)));
+            for (end, sign) in [(a, -1.0), (b, 1.0)] {
+                for r in 0..2 {
+                    for (c, column) in of_columns.iter().enumerate() {
+                        let [row, at] = [(end, r), (point, c)]
+                            .map(|(point, component)| UNKNOWNS * point as usize + component);
+                        add(row, at, sign * column[r]);
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -1,11 +1,11 @@
-//! The bond of a pair of springs, along it and across it, between points without rotation (Zhu and Ni 2017; MPPD section 2.1).
+//! The bond of a pair of springs, along it and across it, between points without rotation (PDS; MPPD section 2.1).
 //!
 //! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
 //! rigid rotation costs energy.
 
 use super::pair::PairKinematics;
-use super::{BondDeformation, Remaining, UNKNOWNS};
-use crate::system::BondSystem;
+use super::{BondDeformation, Remaining, Rigidities, UNKNOWNS};
+use crate::bonds::BondSet;
 
 /// Geometry and rigidity of one bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,13 +21,15 @@ pub struct SpringBond {
 }
 
 impl PairKinematics for SpringBond {
+    const TURNS_POINTS: bool = false;
+
     #[inline]
-    fn of(system: &BondSystem, bond: usize) -> Self {
+    fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self {
         Self {
-            length: system.bonds.length[bond],
-            direction: system.bonds.direction[bond],
-            axial_rigidity: system.axial_rigidity[bond],
-            shear_rigidity: system.shear_rigidity[bond],
+            length: bonds.length[bond],
+            direction: bonds.direction[bond],
+            axial_rigidity: rigidities.axial[bond],
+            shear_rigidity: rigidities.shear[bond],
         }
     }
 

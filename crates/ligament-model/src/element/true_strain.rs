@@ -9,9 +9,9 @@
 //! The forces are not linear in the displacements. The stiffness of small strains serves all iterations: each takes the error to about
 //! a strain's share of itself.
 
-use super::imaginary::{Axis, ImaginaryElement, Quotients};
-use super::{BondDeformation, Element, Remaining, Term, UNKNOWNS};
-use crate::system::BondSystem;
+use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
+use crate::bonds::{BondSet, Incidence};
 
 /// One bond with its surroundings as they are left.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,29 +22,66 @@ pub struct TrueStrainElement {
     distances: [f64; 4],
 }
 
-impl Element for TrueStrainElement {
-    /// # Panics
-    ///
-    /// Panics if the system is not one of imaginary elements.
+/// The elements of a lattice with true strains.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrueStrainElements {
+    /// The elements with small strains.
+    pub lattice: ImaginaryElements,
+}
+
+impl Elements for TrueStrainElements {
+    type Element = TrueStrainElement;
+
     #[inline]
-    fn of(system: &BondSystem, intact: &[bool], bond: usize) -> Self {
-        let small = ImaginaryElement::of(system, intact, bond);
-        let elements = system
-            .imaginary
-            .as_ref()
-            .expect("a system of imaginary elements");
-        let quotients = Quotients::of(&system.bonds, &elements.surroundings, intact, bond);
+    fn element(
+        &self,
+        bonds: &BondSet,
+        rigidities: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> TrueStrainElement {
+        let quotients = Quotients::of(bonds, &self.lattice.surroundings, intact, bond);
         let mut distances = [0.0; 4];
         for (distance, quotient) in distances.iter_mut().zip(quotients.iter()) {
-            *distance = quotient.distance(&elements.positions);
+            *distance = quotient.distance(&self.lattice.positions);
         }
-        Self {
-            small,
+        TrueStrainElement {
+            small: self.lattice.element(bonds, rigidities, intact, bond),
             quotients,
             distances,
         }
     }
 
+    fn turns_points(&self) -> bool {
+        self.lattice.turns_points()
+    }
+
+    fn turns_freely(&self) -> bool {
+        self.lattice.turns_freely()
+    }
+
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn some_negative(&self, rigidities: &Rigidities) -> bool {
+        self.lattice.some_negative(rigidities)
+    }
+
+    fn share(&self, bonds: &BondSet, bond: u32, point: u32) -> f64 {
+        self.lattice.share(bonds, bond, point)
+    }
+
+    fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
+        self.lattice.leaning(bonds)
+    }
+
+    fn couplings(&self) -> Option<[&Incidence; 2]> {
+        self.lattice.couplings()
+    }
+}
+
+impl Element for TrueStrainElement {
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
@@ -93,8 +130,13 @@ impl Element for TrueStrainElement {
         self.small.dyad(deformation)
     }
 
-    /// Those of small strains.
+    /// Terms of small strains.
     fn terms(&self) -> [Term; 3] {
         self.small.terms()
+    }
+
+    /// Blocks of small strains.
+    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block)) {
+        self.small.upper_blocks(point, add);
     }
 }

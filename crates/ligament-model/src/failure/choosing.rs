@@ -37,9 +37,9 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
     Ok(Criteria { list })
 }
 
-/// What bonds with these limits (n_bonds) do after them. A parameter that is not given makes the lives of the bonds take the
-/// fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle bond with that
-/// fracture energy.
+/// Behaviour of bonds with these limits (n_bonds) after them. A parameter that is not given makes the lives of the bonds
+/// take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle
+/// bond with that fracture energy.
 fn after(wanted: &After, limits: &[f64], basis: &Basis<'_>) -> Result<AfterLimit, NoLimit> {
     let law = wanted.law;
     let parameter = match (law.parameter, wanted.parameter) {

@@ -9,12 +9,12 @@ use nalgebra::Matrix3;
 
 use crate::horizon::INCLUSION_TOLERANCE;
 
-/// Which bonds of the lattice resist what, and how much.
+/// Strains that the bonds of the lattice resist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Components {
-    /// Each bond all three strains.
+    /// Each bond resists all three strains.
     All,
-    /// Bonds along x the strain along x alone, those along y that along y alone, the others all three.
+    /// Bonds along x and along y resist the strain along themselves alone, the others all three.
     OwnRows,
 }
 
@@ -27,7 +27,7 @@ pub struct Lattice {
     pub horizon: f64,
     /// Thickness of the body, m.
     pub thickness: f64,
-    /// What its bonds resist.
+    /// Strains that the bonds resist.
     pub components: Components,
 }
 
@@ -49,12 +49,13 @@ pub struct Limits {
     pub angle: f64,
 }
 
-/// Sums over the bonds of a lattice that a crack cuts: its energy per area is that, J/m^2, times the square of the strain.
+/// Sums over the bonds of a lattice that a crack cuts. The energy of the crack per area is the sum, J/m^2, times the square
+/// of the strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackEnergies {
-    /// Of a crack that opens along x, and along y, for the square of the stretch.
+    /// Sums for a crack that opens along x, and along y, times the square of the stretch.
     pub opening: [f64; 2],
-    /// Of one that slides, for the square of the angle.
+    /// Sum for a crack that slides, times the square of the angle.
     pub sliding: f64,
 }
 

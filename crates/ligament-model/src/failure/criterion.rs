@@ -7,9 +7,9 @@ use crate::element::BondDeformation;
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    /// What results call it.
+    /// Name of the criterion in results.
     pub name: &'static str,
-    /// What it looks at.
+    /// Measure of the deformation that has the limit.
     pub measure: Measure,
     /// Limit of each bond; infinite where it never fails, shape (n_bonds).
     pub limit: Vec<f64>,
@@ -34,7 +34,7 @@ impl Criterion {
     /// The measure of a deformation of a bond.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
-        self.measure.of(deformation, self.coefficients(bond))
+        self.measure.value(deformation, self.coefficients(bond))
     }
 
     /// The coefficients of the measure for a bond, shape (n).
@@ -67,12 +67,12 @@ impl Criterion {
     }
 }
 
-/// How near a bond is to its breakage.
+/// Distance of a bond from its breakage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// Number of the criterion that decides.
     pub criterion: usize,
-    /// Its measure.
+    /// Measure of the bond's deformation.
     pub measure: f64,
     /// The measure at which the bond breaks.
     pub limit: f64,

@@ -58,7 +58,7 @@ pub fn critical_stretches(basis: &Basis<'_>) -> Vec<f64> {
 
 /// k_t/k_n of each bond; 0 where the bond has no stiffness at all, shape (n_bonds).
 fn shear_ratios(system: &BondSystem) -> Vec<f64> {
-    let rigidities = system.axial_rigidity.iter().zip(&system.shear_rigidity);
+    let rigidities = system.rigidities.axial.iter().zip(&system.rigidities.shear);
     rigidities
         .map(|(&axial, &shear)| if axial == 0.0 { 0.0 } else { shear / axial })
         .collect()
@@ -98,7 +98,7 @@ pub fn mean_lengths(system: &BondSystem) -> Vec<f64> {
         let (mut sum, mut weights) = (0.0, 0.0);
         for &bond in system.bonds.incidence.at(point) {
             // The volume of the point itself is in all of them.
-            let weight = system.axial_rigidity[bond as usize];
+            let weight = system.rigidities.axial[bond as usize];
             sum += weight * system.bonds.length[bond as usize];
             weights += weight;
         }

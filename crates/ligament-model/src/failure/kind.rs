@@ -9,32 +9,32 @@ use crate::material::{Elasticity, Material};
 /// A kind of failure criterion.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
-    /// The word for it in case files and in results.
+    /// Word of the kind in case files and in results.
     pub word: &'static str,
-    /// What fails, and where its limit comes from, a sentence.
+    /// Sentence that says what fails, and where the limit comes from.
     pub words: &'static str,
-    /// How it looks at bonds; it stands for a [`Criterion`](super::Criterion) of each.
+    /// Measures of a bond's deformation; the kind stands for a [`Criterion`](super::Criterion) of each.
     pub measures: &'static [Measure],
-    /// What of a material its limits come from, unless they are given.
+    /// Properties of a material that the limits come from, unless they are given.
     pub takes: &'static [Property],
-    /// Fields of a [`Choice`] that it takes.
+    /// Fields of a [`Choice`] that the kind takes.
     pub keys: &'static [&'static str],
-    /// Why bonds break at their limit whatever they might do after it, if that is so.
+    /// Reason why bonds always break at their limit, if they do.
     pub brittle_because: Option<&'static str>,
-    /// What it asks of a material beyond what it [takes](Self::takes).
+    /// Further check of a material, beyond the properties that the kind [takes](Self::takes).
     pub suits: fn(&Choice, &Material) -> Result<(), Unfit>,
-    /// The limits of the bonds, for each of its measures.
+    /// Limits of the bonds, for each of the measures.
     pub limits: fn(&Choice, &Basis<'_>) -> Result<Vec<Limits>, NoLimit>,
 }
 
 /// A property of materials that limits come from.
 #[derive(Debug, Clone, Copy)]
 pub struct Property {
-    /// Its key in a case file.
+    /// Key of the property in a case file.
     pub key: &'static str,
-    /// Its unit.
+    /// Unit of the property.
     pub unit: &'static str,
-    /// Its value, where the material has it.
+    /// Value of the property, where the material has it.
     pub value: fn(&Material) -> Option<f64>,
 }
 
@@ -81,7 +81,7 @@ impl Limits {
 /// A kind of criterion with what is chosen of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Choice {
-    /// What fails.
+    /// The kind.
     pub kind: Kind,
     /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
     pub limit: Option<f64>,
@@ -89,19 +89,20 @@ pub struct Choice {
     pub critical_stretch: Option<f64>,
     /// Shear at which a bond that does not open fails, rad.
     pub critical_angle: Option<f64>,
-    /// How the limit of friction comes from the strengths.
+    /// Calibration of friction by the strengths.
     pub calibration: Option<Calibration>,
-    /// What a bond does after its limit.
+    /// Behaviour of a bond after its limit.
     pub after: After,
 }
 
-/// How the cohesion and the friction of bonds come from two strengths.
+/// Calibration of the cohesion and the friction of bonds by two strengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Calibration {
-    /// As printed: the stress of the bar is put in as E s of the bond (MPPD eqs 55, 56). Exact for nu = 0 alone.
+    /// The printed calibration, in which the stress of the bar is put in as E s of the bond (MPPD eqs 55, 56). Exact for nu
+    /// = 0 alone.
     #[default]
     Printed,
-    /// From the strains of the bar in tension and in compression; possible where nu < F_t/F_c.
+    /// Calibration by the strains of the bar in tension and in compression; possible where nu < F_t/F_c.
     TwoPoint,
 }
 
@@ -110,7 +111,7 @@ pub enum Calibration {
 pub struct After {
     /// The law.
     pub law: Law,
-    /// Its parameter; none where it has none, and where it is to be such that the fracture energy of the material comes out.
+    /// Parameter of the law; None where the law has none, and where the fracture energy of the material decides about it.
     pub parameter: Option<f64>,
 }
 
@@ -140,7 +141,7 @@ impl Kind {
         }
     }
 
-    /// Whether it looks at strains of the bond's own.
+    /// Whether the kind looks at strains of the bond's own.
     pub fn takes_strains(&self) -> bool {
         self.measures.iter().any(|it| it.takes_strains())
     }
@@ -179,7 +180,7 @@ impl Choice {
         ]
     }
 
-    /// What it takes of each material for its limits.
+    /// Properties of each material that the limits come from.
     pub fn takes(&self) -> &'static [Property] {
         let is_given = self.own_limits().iter().any(|(_, limit)| limit.is_some());
         if is_given { &[] } else { self.kind.takes }
@@ -198,7 +199,7 @@ impl Choice {
         key.filter(|_| parameter.is_none())
     }
 
-    /// Whether a material has what the criterion takes of it.
+    /// Checks that a material has the properties that the criterion takes.
     ///
     /// # Errors
     ///

@@ -32,19 +32,19 @@ pub enum Measure {
     MixedModeY,
 }
 
-/// What a criterion weakens in a bond once its limit is passed and before it breaks.
+/// Resistance that a criterion weakens in a bond once its limit is passed and before it breaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weakened {
-    /// Its resistance to stretch, shear and rotation; not that to shortening: the faces of the crack touch.
+    /// Resistance to stretch, shear and rotation; not to shortening, because the faces of the crack touch.
     Opening,
-    /// Its resistance to shortening, shear and rotation.
+    /// Resistance to shortening, shear and rotation.
     Crushing,
-    /// Its resistance to shear.
+    /// Resistance to shear.
     Sliding,
 }
 
 impl Measure {
-    /// All of them.
+    /// All measures.
     pub const ALL: [Self; 7] = [
         Self::Tension,
         Self::Compression,
@@ -55,7 +55,7 @@ impl Measure {
         Self::MixedModeY,
     ];
 
-    /// The word for it in results.
+    /// The word for the measure in results.
     pub fn word(self) -> &'static str {
         match self {
             Self::Tension => "tension",
@@ -68,12 +68,12 @@ impl Measure {
         }
     }
 
-    /// Whether it looks at strains of the bond's own, and not at the relative motion of its ends.
+    /// Whether the measure looks at strains of the bond's own, and not at the relative motion of its ends.
     pub fn takes_strains(self) -> bool {
         matches!(self, Self::MixedModeX | Self::MixedModeY)
     }
 
-    /// What it is called, for those that need a name beside their formula.
+    /// The noun for the measure; empty where the formula says enough.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Tension => "stretch",
@@ -83,7 +83,7 @@ impl Measure {
         }
     }
 
-    /// Its formula, in plain text.
+    /// The formula of the measure, in plain text.
     pub fn formula(self) -> &'static str {
         match self {
             Self::Tension => "s",
@@ -96,7 +96,7 @@ impl Measure {
         }
     }
 
-    /// Names of its coefficients, as they stand in the formula; of those of mixed modes all but the first may be left out.
+    /// Names of the coefficients as they stand in the formula. For mixed modes all but the first may be left out.
     pub fn coefficient_names(self) -> &'static [&'static str] {
         match self {
             Self::Tension | Self::Compression | Self::Sliding => &[],
@@ -106,9 +106,9 @@ impl Measure {
         }
     }
 
-    /// The measure of a deformation, with the coefficients of the bond where the measure has some.
+    /// The value of the measure for a deformation, with the coefficients of the bond where the measure has some.
     #[inline]
-    pub fn of(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
+    pub fn value(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
         let BondDeformation { stretch, shear, .. } = *deformation;
         let coefficient = || coefficients.first().copied().unwrap_or(0.0);
         match self {
@@ -167,8 +167,9 @@ mod tests {
 
     #[test]
     fn values_by_hand() {
-        let of =
-            |stretch, shear| Measure::ALL.map(|it| it.of(&deformation(stretch, shear), &[0.25]));
+        let of = |stretch, shear| {
+            Measure::ALL.map(|measure| measure.value(&deformation(stretch, shear), &[0.25]))
+        };
         let along_y = |shear: f64| (0.3_f64.powi(2) + 0.25 * shear.powi(2)).sqrt();
         assert_eq!(
             of(3.0, -8.0),
@@ -179,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_negative_shear_stiffness_never_gives_less_than_nothing() {
-        assert_eq!(Measure::Energy.of(&deformation(1.0, 10.0), &[-0.5]), 0.0);
+        assert_eq!(Measure::Energy.value(&deformation(1.0, 10.0), &[-0.5]), 0.0);
     }
 
     #[test]
@@ -192,7 +193,7 @@ mod tests {
                         shear: load * -0.7,
                         rotation: load * 0.4,
                     };
-                    measure.of(&deformation, coefficients)
+                    measure.value(&deformation, coefficients)
                 });
                 assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");
             }

@@ -52,7 +52,7 @@ pub fn critical_stretches(system: &BondSystem, energies: &[f64], no_fail: &[bool
     (
         weakest(system, no_fail, energies),
         &system.bonds.ends,
-        &system.axial_rigidity,
+        &system.rigidities.axial,
     )
         .into_par_iter()
         .map(|(energy, ends, &axial_rigidity)| {

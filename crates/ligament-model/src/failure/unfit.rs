@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What is wrong with a choice, or with a material for it; all but one name the key.
+/// Fault of a choice, or of a material for it; all but one name the key.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unfit {
     /// A key, or a setting of it, that means nothing with another setting.
@@ -11,30 +11,30 @@ pub enum Unfit {
         key: &'static str,
         /// The key, or its setting.
         named: String,
-        /// What it does not go with.
+        /// The setting with which it means nothing.
         setting: String,
-        /// Why not.
+        /// The reason.
         reason: &'static str,
     },
     /// A key that is not there.
     Missing {
         /// The key.
         key: &'static str,
-        /// What makes it necessary.
+        /// The setting that makes the key necessary.
         reason: String,
     },
     /// A number outside of what makes sense.
     OutOfRange {
         /// The key.
         key: &'static str,
-        /// What it must be.
+        /// Range of numbers that make sense, in words.
         expected: String,
         /// The number.
         found: f64,
     },
     /// A material with axes, for which only criteria with limits of their own are made.
     WithAxes {
-        /// What of the material the criterion takes.
+        /// Property of the material that the criterion takes.
         property: &'static str,
         /// The word of the criterion.
         kind: &'static str,
@@ -113,7 +113,7 @@ pub enum NoLimit {
     NothingLeft {
         /// Horizon of the bond, m.
         horizon: f64,
-        /// Its limit.
+        /// Limit of the bond's measure.
         limit: f64,
         /// The measure at which a brittle bond takes the fracture energy.
         brittle: f64,

@@ -1,5 +1,5 @@
-//! Bond-based peridynamics with a conical micromodulus: bonds count less the longer they are (Ha and Bobaru 2010, "Studies of
-//! dynamic crack propagation and crack branching with peridynamics", section 2).
+//! Bond-based peridynamics with a conical micromodulus: bonds count less the longer they are (Ha and Bobaru 2010, section
+//! 2).
 
 use super::bbpd::central;
 use super::beam::axial_constant;

@@ -1,5 +1,4 @@
-//! The beam-like bond: MPPD's "Gerstle" form, which is also the law of NHPD (Zhang, Yang and Zhuang, "A micropolar peridynamics
-//! model with non-unified horizon for damage of solids with different non-local effects", eq. 6).
+//! The beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
 
 use std::f64::consts::PI;
 

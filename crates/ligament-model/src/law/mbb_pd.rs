@@ -1,5 +1,5 @@
-//! MBB-PD: bonds of three classes on a square lattice, with all strains of a small imaginary rectangle around each (Masoumi, Ravandi and
-//! Salehi, "A modified bond-based peridynamics model without limitations on elastic properties"), in the form that conserves energy.
+//! Bonds of three classes on a square lattice, with all strains of a small imaginary rectangle around each (MBB-PD), in the
+//! form that conserves energy.
 //!
 //! As printed the factors psi (eq. 19) are calibrated with other strains (eq. A.6) than the bonds have (eqs 12 to 15), and the forces (eq. 17)
 //! are not conjugate to the shear strains: axial stiffness 0.594, shear stiffness 0.238 of the right ones at m = 3. Here every bond has the

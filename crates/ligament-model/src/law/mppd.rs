@@ -1,4 +1,4 @@
-//! The micropolar law with a constant shear stiffness (MPPD section 3: Diana and Casolo 2019).
+//! The micropolar law with a constant shear stiffness (MPPD section 3).
 
 use rayon::prelude::*;
 

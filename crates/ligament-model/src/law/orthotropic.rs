@@ -1,4 +1,4 @@
-//! The orthotropic micropolar law (OMPPD section 2.1: Diana and Casolo 2019): stiffnesses that depend on the direction of the
+//! The orthotropic micropolar law (OMPPD section 2.1): stiffnesses that depend on the direction of the
 //! bond in the axes of the material.
 
 use std::f64::consts::PI;

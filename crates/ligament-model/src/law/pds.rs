@@ -1,4 +1,4 @@
-//! Bonds that resist stretch and shear, without rotations of the points (PDS: Zhu and Ni 2017; MPPD section 2.1).
+//! Bonds that resist stretch and shear, without rotations of the points (PDS; MPPD section 2.1).
 
 use super::beam::{axial_constant, bending_constant};
 use super::{BondStiffness, Densities};

@@ -8,7 +8,7 @@ pub enum RotationalStiffness {
     Decaying,
     /// k_t l/4: the moment at an end does not depend on the rotation of the other.
     Quarter,
-    /// Rotational stiffness k_t l/12 of a beam (Gerstle; OMPPD eq. 22).
+    /// Rotational stiffness k_t l/12 of a beam (Gerstle 2007; OMPPD eq. 22).
     Beam,
     /// No rotational stiffness: relative rotations cost nothing.
     Zero,

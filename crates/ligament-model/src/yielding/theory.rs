@@ -50,7 +50,7 @@ pub fn critical_deformation(
                 mean / (deviator * (coefficient - 1.0)),
             ];
             let finite = candidates.into_iter().filter(|cosine| cosine.is_finite());
-            let value = |deformation: &BondDeformation| measure.of(deformation, &[coefficient]);
+            let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient]);
             finite.map(at).fold(
                 at(1.0),
                 |best, it| {
@@ -109,11 +109,11 @@ mod tests {
                 ] {
                     let strains = PrincipalStretches::new(first, second);
                     let critical = critical_deformation(measure, q, strains);
-                    let largest = measure.of(&critical, &[q]);
+                    let largest = measure.value(&critical, &[q]);
                     let sampled = (0..20_000)
                         .map(|k| PI * f64::from(k) / 20_000.0)
                         .map(|x| strains.along([(2.0 * x).cos(), (2.0 * x).sin()]))
-                        .map(|deformation| measure.of(&deformation, &[q]))
+                        .map(|deformation| measure.value(&deformation, &[q]))
                         .fold(f64::NEG_INFINITY, f64::max);
                     let place = format!("{measure:?} {q} {first} {second}: {sampled} {largest}");
                     assert!(sampled <= largest + 1e-14, "{place}");
@@ -132,7 +132,7 @@ mod tests {
             let bound = steepest_slope(measure, 2.0) * strains.deviator();
             let value = |x: f64| {
                 let twice = [(2.0 * x).cos(), (2.0 * x).sin()];
-                measure.of(&strains.along(twice), &[2.0])
+                measure.value(&strains.along(twice), &[2.0])
             };
             let slope = |k: u32| {
                 let x = f64::from(k) * PI / 5000.0;

@@ -2,64 +2,29 @@
 
 use std::path::Path;
 
-use super::absence::AbsentBond;
+use ligament_mesh::Cell;
+use ligament_model::{BodyGrid, Canvas, FixedFields};
+
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
-/// The body as output files show it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodyGrid {
-    /// Positions of the points, shape (n_points), m.
-    pub positions: Vec<[f64; 2]>,
-    /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
-    pub tags: Vec<i64>,
-    /// The noun that tags belong to: `node` or `cell`.
-    pub tagged: &'static str,
-    /// The cells on which the fields of the points are drawn.
-    pub canvas: Canvas,
-}
-
-/// The cells on which the fields of the points are drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Canvas {
-    /// Cells between the points, whose fields are point data.
-    Between(Vec<vtu::Cell>),
-    /// A cell of its own for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to
-    /// no other cell: they move with the point, and cracks open.
-    Around(Vec<[[f64; 2]; 4]>),
-}
-
-/// Fields that do not change during a run, beside those of the bond system.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FixedFields {
-    /// Horizons, shape (n_points), m.
-    pub horizon: Vec<f64>,
-    /// Share of its bonds that pre-cracks cut, shape (n_points).
-    pub precrack_share: Vec<f64>,
-    /// Energy density over the continuum's for uniaxial x, uniaxial y, biaxial and shear strain, shape (4, n_points).
-    pub energy_ratios: [Vec<f64>; 4],
-    /// Omega of each bond, shape (n_bonds).
-    pub domain_factor: Vec<f64>,
-    /// Points whose bonds never fail, shape (n_points).
-    pub no_fail: Vec<bool>,
-    /// Pairs within a horizon that are no bonds, in the order of their ends.
-    pub absent: Vec<AbsentBond>,
-}
-
-impl FixedFields {
-    pub(super) fn fields<'a>(&'a self, volumes: &'a [f64], spacing: &'a [f64]) -> Vec<Field<'a>> {
-        let [uniaxial_x, uniaxial_y, biaxial, shear] = &self.energy_ratios;
-        vec![
-            Field::scalar("volume", volumes),
-            Field::scalar("horizon", &self.horizon),
-            Field::scalar("nearest_distance", spacing),
-            Field::scalar("precrack_share", &self.precrack_share),
-            Field::scalar("energy_ratio_x", uniaxial_x),
-            Field::scalar("energy_ratio_y", uniaxial_y),
-            Field::scalar("energy_ratio_biaxial", biaxial),
-            Field::scalar("energy_ratio_shear", shear),
-        ]
-    }
+/// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
+pub(super) fn fixed_fields<'a>(
+    fixed: &'a FixedFields,
+    volumes: &'a [f64],
+    spacing: &'a [f64],
+) -> Vec<Field<'a>> {
+    let [uniaxial_x, uniaxial_y, biaxial, shear] = &fixed.energy_ratios;
+    vec![
+        Field::scalar("volume", volumes),
+        Field::scalar("horizon", &fixed.horizon),
+        Field::scalar("nearest_distance", spacing),
+        Field::scalar("precrack_share", &fixed.precrack_share),
+        Field::scalar("energy_ratio_x", uniaxial_x),
+        Field::scalar("energy_ratio_y", uniaxial_y),
+        Field::scalar("energy_ratio_biaxial", biaxial),
+        Field::scalar("energy_ratio_shear", shear),
+    ]
 }
 
 /// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.
@@ -70,55 +35,58 @@ pub fn point_grid(
     spacing: &[f64],
     fixed: &FixedFields,
 ) -> Result<(), Error> {
-    let mut fields = fixed.fields(volumes, spacing);
+    let mut fields = fixed_fields(fixed, volumes, spacing);
     fields.push(Field::integer(grid.tagged, &grid.tags));
-    grid.write(path, None, &fields)
+    write_grid(path, grid, None, &fields)
 }
 
 /// Writes fields of the points (n_points) of a body at rest, with the tags of the points.
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    grid.write(path, None, &all)
+    write_grid(path, grid, None, &all)
 }
 
-impl BodyGrid {
-    /// Writes fields of the points, the displacement first so that readers warp by it.
-    pub(super) fn write(
-        &self,
-        path: &Path,
-        displacement: Option<&[[f64; 3]]>,
-        fields: &[Field<'_>],
-    ) -> Result<(), Error> {
-        let vector = |values| Field::vector("displacement", values);
-        let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
-        all.extend(fields);
-        match &self.canvas {
-            Canvas::Between(cells) => {
-                let grid = UnstructuredGrid {
-                    points: &self.positions,
-                    cells,
-                    point_fields: &all,
-                    cell_fields: &[],
-                };
-                vtu::write_vtu(path, &grid)
-            }
-            Canvas::Around(corners) => {
-                let cells: Vec<vtu::Cell> = (0..corners.len() as u32)
-                    .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
-                    .collect();
-                let of_corners: Option<Vec<[f64; 3]>> = displacement
-                    .map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
-                let of_corners: Vec<Field<'_>> =
-                    of_corners.as_deref().map(vector).into_iter().collect();
-                let grid = UnstructuredGrid {
-                    points: corners.as_flattened(),
-                    cells: &cells,
-                    point_fields: &of_corners,
-                    cell_fields: &all,
-                };
-                vtu::write_vtu(path, &grid)
-            }
+/// Writes fields of the points of a body, the displacement first so that readers warp by it.
+pub(super) fn write_grid(
+    path: &Path,
+    body: &BodyGrid,
+    displacement: Option<&[[f64; 3]]>,
+    fields: &[Field<'_>],
+) -> Result<(), Error> {
+    let vector = |values| Field::vector("displacement", values);
+    let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
+    all.extend(fields);
+    match &body.canvas {
+        Canvas::Between(cells) => {
+            let drawn = |cell: &Cell| match *cell {
+                Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
+                Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
+            };
+            let cells: Vec<vtu::Cell> = cells.iter().map(drawn).collect();
+            let grid = UnstructuredGrid {
+                points: &body.positions,
+                cells: &cells,
+                point_fields: &all,
+                cell_fields: &[],
+            };
+            vtu::write_vtu(path, &grid)
+        }
+        Canvas::Around(corners) => {
+            let cells: Vec<vtu::Cell> = (0..corners.len() as u32)
+                .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
+                .collect();
+            let of_corners: Option<Vec<[f64; 3]>> =
+                displacement.map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
+            let of_corners: Vec<Field<'_>> =
+                of_corners.as_deref().map(vector).into_iter().collect();
+            let grid = UnstructuredGrid {
+                points: corners.as_flattened(),
+                cells: &cells,
+                point_fields: &of_corners,
+                cell_fields: &all,
+            };
+            vtu::write_vtu(path, &grid)
         }
     }
 }
@@ -150,7 +118,7 @@ mod tests {
             Field::scalar("damage", &damage),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        grid.write(&path, Some(&moved), &fields).unwrap();
+        write_grid(&path, &grid, Some(&moved), &fields).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

@@ -13,7 +13,6 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
-mod absence;
 mod grid;
 mod largest;
 mod model_file;
@@ -26,14 +25,14 @@ mod tables;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_model::{BodyGrid, FixedFields};
 
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
-pub use absence::{Absence, AbsentBond};
-pub use grid::{BodyGrid, Canvas, FixedFields, point_grid, write_points};
+pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
 pub use rule::{Time, WriteRule};
@@ -43,7 +42,7 @@ use tables::{Tables, deformation_names};
 pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
-    problem: Problem<'a>,
+    problem: Problem,
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
@@ -62,18 +61,18 @@ impl<'a> ResultWriter<'a> {
         grid: &'a BodyGrid,
         fixed: &'a FixedFields,
         rule: WriteRule,
-        problem: &Problem<'a>,
+        problem: &Problem,
     ) -> Result<Self, Error> {
         if rule.model {
             model_file::write(folder, grid, fixed, problem, None)?;
         }
         let can_fail = !problem.criteria.list.is_empty();
-        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.bonds.len()));
+        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
         Ok(Self {
             folder,
             grid,
             largest,
-            problem: *problem,
+            problem: problem.clone(),
             fixed,
             rule,
             tables: Tables::create(folder, problem, grid.tagged)?,
@@ -98,7 +97,7 @@ impl<'a> ResultWriter<'a> {
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let (system, balanced) = (view.system, view.balanced);
-        let names = deformation_names(system.element);
+        let names = deformation_names(system);
         let deformations: Vec<Vec<f64>> = (0..names.len())
             .map(|place| {
                 let deformations = balanced.deformations.iter();
@@ -107,7 +106,7 @@ impl<'a> ResultWriter<'a> {
                     .collect()
             })
             .collect();
-        let utilisation: Vec<f64> = (0..system.bonds.len())
+        let utilisation: Vec<f64> = (0..system.ends().len())
             .map(|bond| (view.criteria).utilisation(bond, &balanced.deformations[bond]))
             .collect();
         let state: Vec<i64> = view
@@ -118,8 +117,7 @@ impl<'a> ResultWriter<'a> {
             .collect();
         let displacement = point_fields::displacements(view);
         let lines: Vec<vtu::Cell> = system
-            .bonds
-            .ends
+            .ends()
             .iter()
             .map(|&ends| vtu::Cell::Line(ends))
             .collect();
@@ -169,7 +167,7 @@ impl Observer for ResultWriter<'_> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
         }
-        let ends = &self.problem.system.bonds.ends;
+        let ends = self.problem.system.ends();
         failed(self.tables.breaks(records, &self.grid.tags, ends))
     }
 

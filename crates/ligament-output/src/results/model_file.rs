@@ -15,8 +15,8 @@
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
 
 use ligament_analysis::driver::Problem;
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
 use super::largest::Largest;
 use super::tables::labels;
 use crate::Error;
@@ -35,25 +35,25 @@ pub(super) fn write(
     folder: &ResultFolder,
     grid: &BodyGrid,
     fixed: &FixedFields,
-    problem: &Problem<'_>,
+    problem: &Problem,
     largest: Option<&Largest>,
 ) -> Result<(), Error> {
-    let (system, absent) = (problem.system, &fixed.absent);
+    let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
-    let lines: Vec<vtu::Cell> = (system.bonds.ends.iter())
+    let lines: Vec<vtu::Cell> = (system.ends().iter())
         .chain(absent.iter().map(|pair| &pair.ends))
         .map(|&ends| vtu::Cell::Line(ends))
         .collect();
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
-    let absence: Vec<i64> = std::iter::repeat_n(0, system.bonds.len())
+    let absence: Vec<i64> = std::iter::repeat_n(0, system.ends().len())
         .chain(absent.iter().map(|pair| pair.absence.number()))
         .collect();
-    let horizon: Vec<f32> = (system.bonds.horizon.iter())
+    let horizon: Vec<f32> = (system.horizons().iter())
         .chain(absent.iter().map(|pair| &pair.horizon))
         .map(|&horizon| horizon as f32)
         .collect();
     let nothing = std::iter::repeat_n(f32::NAN, n_absent);
-    let alpha: Vec<f32> = (system.weight.iter().zip(&fixed.domain_factor))
+    let alpha: Vec<f32> = (system.weights().iter().zip(&fixed.domain_factor))
         .map(|(weight, omega)| (weight / omega) as f32)
         .chain(nothing.clone())
         .collect();
@@ -79,7 +79,7 @@ pub(super) fn write(
         points: &grid.positions,
         cells: &lines,
         point_fields: &[
-            Field::scalar("volume", &system.cloud.volumes),
+            Field::scalar("volume", system.volumes()),
             Field::scalar("horizon", &fixed.horizon),
             Field::integer("no_fail", &no_fail),
             Field::integer(grid.tagged, &grid.tags),
@@ -90,7 +90,7 @@ pub(super) fn write(
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.
-fn limits(problem: &Problem<'_>, n_absent: usize) -> Vec<(String, Vec<f64>)> {
+fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
     let criteria = &problem.criteria.list;
     let mut found = Vec::new();
     for (criterion, label) in criteria

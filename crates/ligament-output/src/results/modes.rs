@@ -7,11 +7,12 @@
 
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::modal::ModalOutcome;
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
+use super::grid::{fixed_fields, write_grid};
 use super::point_fields::in_plane;
 use crate::Error;
-use crate::csv::Table;
+use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::Field;
@@ -43,22 +44,18 @@ pub fn write_modes(
     let mut table = Table::create(folder.file("modes.csv"), &COLUMNS)?;
     let mut collection = Collection::new(folder.file("modes.pvd"));
     for (number, mode) in (1_u32..).zip(&outcome.modes) {
-        let [x, y, turn] = mode.participation.map(|factor| factor * factor);
-        let [share_x, share_y, share_turn] = outcome.moving.shares(mode.participation);
-        table.append(&[
+        let effective = mode.participation.iter().map(|factor| factor * factor);
+        let shares = outcome.moving.shares(&mode.participation);
+        let mut row: Vec<Value<'_>> = vec![
             number.into(),
             mode.kind.name().into(),
             mode.frequency().into(),
             mode.angular_frequency().into(),
             mode.eigenvalue.into(),
             mode.residual.into(),
-            x.into(),
-            y.into(),
-            turn.into(),
-            share_x.into(),
-            share_y.into(),
-            share_turn.into(),
-        ])?;
+        ];
+        row.extend(effective.chain(shares).map(Value::from));
+        table.append(&row)?;
         let name = format!("mode_{number:04}.vtu");
         let displacement = in_plane(&mode.shape);
         let motions = mode.shape.chunks(COMPONENTS);
@@ -68,8 +65,8 @@ pub fn write_modes(
             Field::scalar("strain_energy_density", &mode.strain_energy_density),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        fields.extend(fixed.fields(volumes, spacing));
-        grid.write(&folder.file(&name), Some(&displacement), &fields)?;
+        fields.extend(fixed_fields(fixed, volumes, spacing));
+        write_grid(&folder.file(&name), grid, Some(&displacement), &fields)?;
         collection.append(f64::from(number), name)?;
     }
     Ok(())

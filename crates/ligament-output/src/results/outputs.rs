@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::absence::Absence;
+use ligament_model::Absence;
+
 use super::model_file::MODEL;
 use crate::folder::RESOLVED_CASE;
 use crate::vtu::read::VtuFile;

@@ -5,9 +5,10 @@ use std::path::Path;
 use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
-use ligament_analysis::stress::{traction, virial};
+use ligament_analysis::interface::{StressReading, Stresses};
+use ligament_model::{BodyGrid, FixedFields};
 
-use super::grid::{BodyGrid, FixedFields};
+use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
 use crate::Error;
 use crate::vtu::Field;
@@ -26,15 +27,16 @@ pub(super) fn write(
     let motion = Motion::read(view);
     let damage = Damage::read(view);
     let heat = Heat::read(view);
-    let stresses = Stresses::read(rule, view);
+    let stresses = stresses(rule, view);
     let mut fields = motion.fields(&damage.share);
     fields.push(Field::integer(grid.tagged, &grid.tags));
     fields.extend(damage.fields());
     fields.extend(heat.fields());
-    fields.extend(stresses.fields());
-    let cloud = &view.system.cloud;
-    fields.extend(fixed.fields(&cloud.volumes, &cloud.spacing));
-    grid.write(path, Some(&displacements(view)), &fields)
+    let of_stress = stresses.iter();
+    fields.extend(of_stress.map(|(name, it)| Field::components(name, it.names, &it.values)));
+    let system = view.system;
+    fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
+    write_grid(path, grid, Some(&displacements(view)), &fields)
 }
 
 /// Motion of the points, what the bonds store and exert, and which parts are connected.
@@ -49,7 +51,7 @@ struct Motion {
 impl Motion {
     fn read(view: &View<'_>) -> Self {
         let (state, balanced) = (view.state, view.balanced);
-        let reactions = (view.boundary).reactions(state.load_factor, &balanced.internal.values);
+        let reactions = (view.loads).reactions(state.load_factor, &balanced.internal.values);
         let motions = state.displacement.chunks(COMPONENTS);
         let held = state.held.chunks(COMPONENTS);
         Self {
@@ -113,13 +115,12 @@ struct Heat {
 
 impl Heat {
     fn read(view: &View<'_>) -> Self {
-        let at_load = |at_full_load: &[f64]| -> Vec<f64> {
-            let values = at_full_load.iter();
-            values.map(|value| view.state.load_factor * value).collect()
-        };
+        let load_factor = view.state.load_factor;
+        let strain = view.loads.thermal_strain(load_factor);
+        let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
         Self {
-            change: at_load(&view.boundary.temperature_change),
-            strain: at_load(view.boundary.thermal_strain.as_flattened()),
+            change: view.loads.temperature_change(load_factor),
+            strain: of_points.flat_map(|point| strain.of_point(point)).collect(),
         }
     }
 
@@ -136,36 +137,20 @@ impl Heat {
     }
 }
 
-/// Stresses of the points, as far as they are wanted.
-struct Stresses {
-    virial: Option<Vec<[f64; 3]>>,
-    traction: Option<Vec<[f64; 4]>>,
-}
-
-impl Stresses {
-    fn read(rule: WriteRule, view: &View<'_>) -> Self {
-        let (system, bonds) = (view.system, view.state.bonds());
-        let deformations = &view.balanced.deformations;
-        Self {
-            virial: (rule.virial).then(|| virial::stress(system, bonds, deformations)),
-            traction: (rule.traction).then(|| traction::stress(system, bonds, deformations)),
-        }
-    }
-
-    fn fields(&self) -> Vec<Field<'_>> {
-        let mut fields = Vec::new();
-        if let Some(stress) = &self.virial {
-            let components = &["xx", "yy", "xy"];
-            let values = stress.as_flattened();
-            fields.push(Field::components("stress_virial", components, values));
-        }
-        if let Some(stress) = &self.traction {
-            let components = &["xx", "yx", "yy", "xy"];
-            let values = stress.as_flattened();
-            fields.push(Field::components("stress_traction", components, values));
-        }
-        fields
-    }
+/// Stresses of the points, as far as they are wanted, with the names of their fields.
+fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
+    let readings = [
+        ("stress_virial", rule.virial, StressReading::Virial),
+        ("stress_traction", rule.traction, StressReading::Traction),
+    ];
+    let wanted = readings.into_iter().filter(|(_, is_wanted, _)| *is_wanted);
+    let stress = |reading| {
+        let (left, deformations) = (view.state.bonds(), &view.balanced.deformations);
+        view.system.stresses(reading, left, deformations)
+    };
+    wanted
+        .map(|(name, _, reading)| (name, stress(reading)))
+        .collect()
 }
 
 /// Displacements of the points.

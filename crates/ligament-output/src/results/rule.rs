@@ -31,7 +31,7 @@ pub enum Time {
 
 impl Time {
     pub(super) fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
-        match (self, view.boundary.control.kind) {
+        match (self, view.loads.control().kind) {
             (Self::Step, _) => record.step as f64,
             (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {
                 record.displacement

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
+use ligament_model::Absence;
 
-use super::absence::Absence;
 use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
-use super::tables::deformation_names;
+use super::tables::told;
 use crate::csv::read::Sheet;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
@@ -149,14 +149,10 @@ impl StoredRun {
         require_run(folder)?;
         let model = StoredModel::read(folder)?;
         let broken = Sheet::read(folder.join("breaks.csv"))?;
-        let strains = deformation_names(ElementKind::Imaginary);
+        let [pairs, strains] =
+            [ElementKind::Beam, ElementKind::Imaginary].map(|kind| told(kind.strain_names()));
         let has_strains = broken.columns().iter().any(|column| column == strains[0]);
-        let kind = if has_strains {
-            ElementKind::Imaginary
-        } else {
-            ElementKind::Beam
-        };
-        let deformation_names = deformation_names(kind);
+        let deformation_names = if has_strains { strains } else { pairs };
         Ok(Self {
             deformation_names,
             history: steps(&Sheet::read(folder.join("history.csv"))?)?,

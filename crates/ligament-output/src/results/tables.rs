@@ -1,9 +1,9 @@
 //! The CSV tables of a run.
 
-use ligament_analysis::ElementKind;
+use ligament_analysis::Bonds;
+use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
-use ligament_analysis::stiffness::Costs;
 
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -75,7 +75,7 @@ pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
 /// Writes the table of what each criterion looks at and what happens after its limit.
 fn write_criteria(
     folder: &ResultFolder,
-    problem: &Problem<'_>,
+    problem: &Problem,
     labels: &[String],
 ) -> Result<(), Error> {
     let mut table = Table::create(folder.file("criteria.csv"), &CRITERIA)?;
@@ -107,13 +107,15 @@ pub(super) struct Tables {
 
 /// Names of the components of a bond's deformation in results. The relative rotation of the two ends is left out, because no
 /// criterion looks at it.
-pub(super) fn deformation_names(element: ElementKind) -> &'static [&'static str] {
-    const PAIRS: [&str; 3] = ElementKind::Beam.deformation_names();
-    const STRAINS: [&str; 3] = ElementKind::Imaginary.deformation_names();
-    if element.has_strains() {
-        &STRAINS
-    } else {
-        &PAIRS[..2]
+pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
+    told(system.strain_names())
+}
+
+/// The strains that results have of those with these names.
+pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
+    match names {
+        [told @ .., "rotation"] => told,
+        all => all,
     }
 }
 
@@ -121,12 +123,12 @@ impl Tables {
     /// Creates the tables; `tagged` is what the tags of bonds' ends are of: nodes or cells.
     pub(super) fn create(
         folder: &ResultFolder,
-        problem: &Problem<'_>,
+        problem: &Problem,
         tagged: &str,
     ) -> Result<Self, Error> {
         let criteria = labels(problem.criteria.list.iter().map(|criterion| criterion.name));
         write_criteria(folder, problem, &criteria)?;
-        let groups = problem.boundary.groups.iter();
+        let groups = problem.loads.groups().iter();
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
@@ -141,7 +143,7 @@ impl Tables {
         let breaks_columns: Vec<&str> = (BREAKS.into_iter())
             .chain(ends.iter().map(String::as_str))
             .chain(["utilisation", "criterion"])
-            .chain(deformation_names(problem.system.element).iter().copied())
+            .chain(deformation_names(&*problem.system).iter().copied())
             .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
@@ -149,7 +151,7 @@ impl Tables {
             breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
             timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
             criteria,
-            n_components: deformation_names(problem.system.element).len(),
+            n_components: deformation_names(&*problem.system).len(),
             step: 0,
             round: 0,
             load_factor: 0.0,

@@ -22,7 +22,7 @@ pub(super) struct Body {
     pub(super) cells: Vec<Cell>,
     /// What points of the model are: nodes, or cells of a lattice.
     tagged: FieldLocation,
-    /// Their places by their tags.
+    /// Indices of the points by their tags.
     places: HashMap<i64, usize>,
 }
 
@@ -58,7 +58,7 @@ impl Body {
         })
     }
 
-    /// Whether its cells share their corners: then cracks do not open between them.
+    /// Whether the cells of the body share their corners: then cracks do not open between them.
     pub(super) fn is_mesh(&self) -> bool {
         self.tagged == FieldLocation::Point
     }

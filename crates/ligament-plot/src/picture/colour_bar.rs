@@ -19,7 +19,7 @@ pub(super) struct ColourBar<'a> {
     scale: &'a Scale,
     /// Texts of the labels, from the bottom, with the number of their level.
     labels: Vec<(usize, String)>,
-    /// What it shows, with the unit.
+    /// Title of the bar: the quantity with its unit.
     title: String,
 }
 

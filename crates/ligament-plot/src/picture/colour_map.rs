@@ -2,7 +2,7 @@
 
 use colorous::{CIVIDIS, Color, GREYS, RED_BLUE, VIRIDIS};
 
-/// A map from the shares of a scale to colours; all are told apart with any colour vision.
+/// A map from the shares of a scale to colours that any colour vision can distinguish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
     /// Dark blue over green to yellow.
@@ -19,7 +19,7 @@ impl ColourMap {
     /// All maps.
     pub const ALL: [Self; 4] = [Self::Viridis, Self::Cividis, Self::Grey, Self::Diverging];
 
-    /// Its name on the command line, and its colours in words.
+    /// The name of the map on the command line, and its colours in words.
     pub fn words(self) -> [&'static str; 2] {
         match self {
             Self::Viridis => ["viridis", "Dark blue over green to yellow"],

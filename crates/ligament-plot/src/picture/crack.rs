@@ -7,7 +7,7 @@ use ligament_output::results::outputs::cut_pairs;
 
 use super::PictureError;
 
-/// Colours of the criteria, told apart with any colour vision (Okabe and Ito).
+/// Colours of the criteria, which any colour vision can distinguish (Okabe and Ito).
 const COLOURS: [&str; 6] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
 ];
@@ -23,7 +23,7 @@ const OVER_FIELD: &str = "#000000";
 pub(super) struct Broken {
     /// The criterion.
     pub(super) name: String,
-    /// Its colour.
+    /// Colour of the criterion.
     pub(super) colour: &'static str,
     /// Tags of the ends with the step in which they broke.
     bonds: Vec<([i64; 2], usize)>,
@@ -34,7 +34,7 @@ pub(super) struct Broken {
 pub(super) struct Crack {
     /// By criterion, what a pre-crack cut first.
     pub(super) kinds: Vec<Broken>,
-    /// Whether bonds that broke in a step are still whole in its output.
+    /// Whether the output of a step shows the bonds that break in it still whole.
     breaks_after_output: bool,
 }
 

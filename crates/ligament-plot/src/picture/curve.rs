@@ -7,7 +7,7 @@ use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
-use crate::plots::{Colour, Mark, Paper, Plot, Series};
+use crate::plots::{Colour, Mark, Plot, Series};
 use crate::stored_loading::stored_loading;
 use ligament::suggestion::hint;
 
@@ -22,7 +22,7 @@ const WIDTHS: [f64; 2] = [120.0, 160.0];
 pub struct CurveRequest {
     /// Folders with results.
     pub folders: Vec<PathBuf>,
-    /// What they are called; empty: by their folders.
+    /// Labels of the curves; where empty, the names of the folders.
     pub labels: Vec<String>,
     /// Columns of the histories along x and y.
     pub columns: [String; 2],
@@ -96,7 +96,7 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         .target
         .width
         .unwrap_or(WIDTHS[usize::from(!is_single)]);
-    let svg = plot.on(Paper::new(width, &plot.series))?;
+    let svg = plot.for_paper(width)?;
     request.target.write(file, &svg)
 }
 

@@ -12,7 +12,7 @@ pub(super) const NONE: &str = "none";
 /// A field as it is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field {
-    /// Name with its component.
+    /// Name of the field with its component.
     pub(super) name: String,
     /// SI unit, `-` without one.
     pub(super) unit: &'static str,

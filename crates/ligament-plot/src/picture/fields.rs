@@ -44,7 +44,7 @@ pub enum Magnification {
 pub struct FieldRequest {
     /// Folders with results.
     pub folders: Vec<PathBuf>,
-    /// What they are called; empty: by their folders.
+    /// Labels of the results; where empty, the names of their folders.
     pub labels: Vec<String>,
     /// Field with its component, or `none`; None: damage where bonds broke, else the displacement; of modes the strain energy
     /// density.
@@ -77,7 +77,7 @@ struct Source {
     /// Units to show displacement and force in.
     shown: Option<[Shown; 2]>,
     crack: Option<Crack>,
-    /// Whether broken bonds are drawn; of a mesh, whose cells hide it, a pre-crack is drawn in any case.
+    /// Whether broken bonds are drawn. A pre-crack in a mesh, whose cells hide it, is drawn in any case.
     shows_broken: bool,
     /// Frequencies of modes by number, Hz.
     frequencies: BTreeMap<usize, f64>,
@@ -91,25 +91,10 @@ struct Source {
 pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let first = &request.folders[0];
     let labels = labels_of(&request.folders, &request.labels)?;
-    let mut sources = Vec::new();
-    for (folder, label) in request.folders.iter().zip(labels) {
-        sources.push(Source::open(folder, label, request)?);
-    }
-    let over_field = request.field.as_deref() != Some(NONE);
-    crack::paint(
-        sources
-            .iter_mut()
-            .filter_map(|it| it.crack.as_mut())
-            .collect(),
-        over_field,
-    );
-    let has_modes = sources
-        .iter()
-        .any(|it| it.outputs.kind == OutputKind::Modes);
-    let name = request
-        .field
-        .clone()
-        .unwrap_or_else(|| default_field(&sources).to_owned());
+    let sources = sources(request, labels)?;
+    let has_modes = (sources.iter()).any(|it| it.outputs.kind == OutputKind::Modes);
+    let given = request.field.clone();
+    let name = given.unwrap_or_else(|| default_field(&sources).to_owned());
     let file = request
         .target
         .file(|| first.join(default_name(&name, has_modes)))?;
@@ -160,6 +145,18 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     request
         .target
         .write(file, &strip.to_svg(width * PIXELS_PER_MM))
+}
+
+/// The results in the folders, with a colour for each criterion that broke bonds in them.
+fn sources(request: &FieldRequest, labels: Vec<String>) -> Result<Vec<Source>, PictureError> {
+    let mut sources = Vec::new();
+    for (folder, label) in request.folders.iter().zip(labels) {
+        sources.push(Source::open(folder, label, request)?);
+    }
+    let over_field = request.field.as_deref() != Some(NONE);
+    let cracks = sources.iter_mut().filter_map(|it| it.crack.as_mut());
+    crack::paint(cracks.collect(), over_field);
+    Ok(sources)
 }
 
 impl Source {

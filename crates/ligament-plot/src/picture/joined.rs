@@ -23,7 +23,7 @@ pub(super) struct Joined {
 impl Joined {
     /// Joins the corners of cells, by their positions without load and as they are drawn, both of shape (n_corners).
     pub(super) fn new(cells: &[Cell], reference: &[[f64; 2]], positions: &[[f64; 2]]) -> Self {
-        let Grid { origin, sides } = Grid::of(cells, reference);
+        let Grid { origin, sides } = Grid::from_cells(cells, reference);
         let near = NEAR * sides[0].min(sides[1]);
         let mut meeting: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
         let mut place_of = Vec::with_capacity(reference.len());
@@ -58,14 +58,14 @@ impl Joined {
 
 /// The grid of a lattice's corners without load.
 struct Grid {
-    /// One of them, m.
+    /// One corner of the grid, m.
     origin: [f64; 2],
     /// Sides of the cells along x and y, which all of them share, m.
     sides: [f64; 2],
 }
 
 impl Grid {
-    fn of(cells: &[Cell], reference: &[[f64; 2]]) -> Self {
+    fn from_cells(cells: &[Cell], reference: &[[f64; 2]]) -> Self {
         let corners = cells.first().map_or(&[][..], Cell::points);
         let corners = corners.iter().map(|it| reference[*it as usize]);
         let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];

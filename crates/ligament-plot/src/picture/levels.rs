@@ -25,7 +25,7 @@ pub(super) struct Rule {
 pub(super) struct Levels {
     /// The levels.
     pub(super) bounds: Vec<f64>,
-    /// Which of them have labels, ascending.
+    /// Indices of the levels with labels, ascending.
     pub(super) labelled: Vec<usize>,
 }
 

@@ -31,7 +31,7 @@ pub use fields::{FieldRequest, Magnification, draw_fields};
 use crate::plots::PlotError;
 use crate::plots::png::{PngError, to_png};
 
-/// How large a picture is, and where it goes.
+/// Size and file of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Target {
     /// File to write, `.png` or `.svg`; None: one beside the results.
@@ -84,7 +84,7 @@ pub enum PictureError {
     NoSuchOutput {
         /// The folder.
         path: PathBuf,
-        /// What it has.
+        /// Kind of the outputs in the folder.
         kind: OutputKind,
         /// The number.
         number: usize,
@@ -158,7 +158,7 @@ pub enum PictureError {
     /// A plot cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// No PNG can be made of it.
+    /// A PNG could not be made of the picture.
     #[error(transparent)]
     Png(#[from] PngError),
 }
@@ -182,7 +182,7 @@ enum Format {
 }
 
 impl Format {
-    fn of(path: &Path) -> Result<Self, PictureError> {
+    fn from_path(path: &Path) -> Result<Self, PictureError> {
         let extension = path
             .extension()
             .and_then(|it| it.to_str())
@@ -201,7 +201,7 @@ impl Target {
     /// The file and its format; `default` where none is given.
     fn file(&self, default: impl FnOnce() -> PathBuf) -> Result<(PathBuf, Format), PictureError> {
         let path = self.out.clone().unwrap_or_else(default);
-        let format = Format::of(&path)?;
+        let format = Format::from_path(&path)?;
         Ok((path, format))
     }
 
@@ -214,7 +214,7 @@ impl Target {
     }
 }
 
-/// What results are called in a picture: the labels given, or the names of their folders.
+/// Labels of results in a picture: the labels given, or the names of the folders.
 fn labels_of(folders: &[PathBuf], labels: &[String]) -> Result<Vec<String>, PictureError> {
     let name = |folder: &PathBuf| {
         let whole = folder.canonicalize().unwrap_or_else(|_| folder.clone());

@@ -53,7 +53,7 @@ pub(super) struct Frame {
     pub(super) low: [f64; 2],
     /// Upper right corner, m.
     pub(super) high: [f64; 2],
-    /// Its upper left corner in the document, pixels.
+    /// Upper left corner of the panel in the document, pixels.
     pub(super) at: [f64; 2],
     /// Pixels to the metre.
     pub(super) scale: f64,

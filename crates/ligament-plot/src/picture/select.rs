@@ -11,16 +11,16 @@ use super::PictureError;
 /// Modes that are drawn when none are named.
 const FIRST_MODES: usize = 6;
 
-/// Which outputs to draw.
+/// A choice of outputs to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Choice {
     /// The last one; of modes the first six.
     Default,
-    /// Those of these numbers.
+    /// Outputs with these numbers.
     Steps(Vec<usize>),
     /// So many, evenly spread over all.
     Strip(usize),
-    /// Those nearest to these displacements of the load.
+    /// Outputs nearest to these displacements of the load.
     Displacements(Vec<f64>),
 }
 
@@ -29,7 +29,7 @@ pub enum Choice {
 pub(super) struct Moment {
     /// Displacement of the first load.
     pub(super) displacement: f64,
-    /// Its force.
+    /// Force of the first load.
     pub(super) reaction: f64,
 }
 

@@ -25,7 +25,7 @@ const WIDE: f64 = 2.2;
 pub(super) struct Entry {
     /// Colour of its sample; None: words alone.
     pub(super) colour: Option<&'static str>,
-    /// Its words.
+    /// Words of the title.
     pub(super) words: String,
 }
 

@@ -2,8 +2,8 @@
 
 use plotters::prelude::{IntoDrawingArea, SVGBackend, WHITE};
 
-use super::paper::Pen;
-use super::{Drawn, LEGEND, Plot, PlotError, Series, draw_legends};
+use super::paper::{LEGEND, Pen};
+use super::{Drawn, Plot, PlotError, Series, draw_legends};
 
 /// Width and height, in pixels.
 const SIZE: (u32, u32) = (760, 600);

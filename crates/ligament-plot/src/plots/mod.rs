@@ -9,8 +9,7 @@ mod paper;
 pub mod png;
 pub mod polar;
 
-pub use paper::Paper;
-use paper::Pen;
+use paper::{Paper, Pen};
 
 use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
@@ -20,9 +19,6 @@ use plotters::prelude::{
     Cartesian2d, Circle, Color, DashedLineSeries, DrawingArea, IntoDrawingArea, IntoTextStyle,
     LineSeries, PathElement, RGBColor, SVGBackend, ShapeStyle, Text, WHITE,
 };
-
-/// Width of the legend, at the right.
-const LEGEND: i32 = 190;
 
 /// Height of a line of the legend.
 const LINE: i32 = 22;
@@ -37,7 +33,7 @@ const TEXT: RGBColor = RGBColor(30, 30, 30);
 /// A plot: several curves over one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// Name of its file.
+    /// Name of the plot's file.
     pub name: String,
     /// Title.
     pub title: String,
@@ -71,7 +67,7 @@ pub enum Mark {
     Dashes,
 }
 
-/// Colours that are told apart with any colour vision (Okabe and Ito).
+/// Colours that any colour vision can distinguish (Okabe and Ito).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colour {
     /// Black.
@@ -112,16 +108,41 @@ pub enum PlotError {
 impl Series {
     /// A curve through the points, shape (n, 2), in their order. The legend leaves out curves without a label or
     /// points.
-    pub fn new(label: &str, mark: Mark, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+    pub fn new(
+        label: impl Into<String>,
+        mark: Mark,
+        colour: Colour,
+        points: Vec<[f64; 2]>,
+    ) -> Self {
         Self {
-            label: label.to_owned(),
+            label: label.into(),
             mark,
             colour,
             points,
         }
     }
 
-    /// Its points, shape (n, 2).
+    /// A line with dots.
+    pub fn line(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Line, colour, points)
+    }
+
+    /// A line without dots.
+    pub fn curve(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Curve, colour, points)
+    }
+
+    /// Open circles.
+    pub fn circles(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Circles, colour, points)
+    }
+
+    /// A dashed line.
+    pub fn dashes(label: impl Into<String>, colour: Colour, points: Vec<[f64; 2]>) -> Self {
+        Self::new(label, Mark::Dashes, colour, points)
+    }
+
+    /// Points of the series, shape (n, 2).
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
@@ -137,12 +158,18 @@ impl Plot {
         self.on(Paper::SCREEN)
     }
 
-    /// The plot as the text of an SVG file of some size and fineness.
+    /// The plot as the text of an SVG file for a sheet of paper of a width in mm.
     ///
     /// # Errors
     ///
     /// If there is no finite point to draw.
-    pub fn on(&self, paper: Paper) -> Result<String, PlotError> {
+    pub fn for_paper(&self, width: f64) -> Result<String, PlotError> {
+        let labels = self.series.iter().filter(|it| it.is_named());
+        let letters = labels.map(|it| it.label.chars().count()).max();
+        self.on(Paper::new(width, letters))
+    }
+
+    fn on(&self, paper: Paper) -> Result<String, PlotError> {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let range = |axis: usize| range(points().map(|point| point[axis]));
         let Some((x, y)) = range(0).zip(range(1)) else {
@@ -255,7 +282,7 @@ impl Series {
         Ok(())
     }
 
-    /// Its entry in the legend at a height, in pixels of a screen.
+    /// Draws the entry of the series in the legend at a height, in pixels of a screen.
     fn draw_legend(&self, area: &DrawingArea<Backend<'_>, Shift>, y: i32, pen: Pen) -> Drawn {
         let at = |x: i32, y: i32| (pen.dots(x), pen.dots(y));
         let line =
@@ -293,6 +320,16 @@ impl Series {
 }
 
 impl Colour {
+    /// Colours of curves beside each other, in their order.
+    pub const CYCLE: [Self; 6] = [
+        Self::Blue,
+        Self::Vermilion,
+        Self::Green,
+        Self::Purple,
+        Self::Orange,
+        Self::Sky,
+    ];
+
     fn rgb(self) -> RGBColor {
         match self {
             Self::Black => RGBColor(60, 60, 60),
@@ -393,5 +430,37 @@ mod tests {
         assert_eq!(tick(-1e-9, decimals([-0.5, 0.4])), "0.0");
         assert_eq!(tick(1250.0, decimals([0.0, 5000.0])), "1250");
         assert_eq!(tick(0.25, decimals([0.2, 0.3])), "0.25");
+    }
+
+    #[test]
+    fn paper_has_its_width_and_room_for_the_legend() {
+        let series = Series::new(
+            "a long name",
+            Mark::Curve,
+            Colour::Blue,
+            vec![[0.0, 0.0], [1.0, 1.0]],
+        );
+        let with = Paper::new(120.0, Some(11));
+        let without = Paper::new(120.0, None);
+        assert!(with.plane() < without.plane() && with.dots().0 == without.dots().0);
+        let plot = Plot {
+            name: "p".to_owned(),
+            title: String::new(),
+            x: "x".to_owned(),
+            y: "y".to_owned(),
+            series: vec![series],
+        };
+        let svg = plot.for_paper(120.0).unwrap();
+        assert!(
+            svg.starts_with("<svg width=\"120.000mm\" height=\""),
+            "{}",
+            &svg[..60]
+        );
+        assert_eq!(svg.matches("<svg").count(), 1);
+        assert!(
+            plot.to_svg()
+                .unwrap()
+                .starts_with("<svg width=\"760\" height=\"420\"")
+        );
     }
 }

@@ -2,8 +2,6 @@
 
 use std::fmt::Write as _;
 
-use super::Series;
-
 /// Pixels of a screen that a millimetre of paper takes: text of 15 pixels has a height of 7 points in print.
 const PIXELS_PER_MM: f64 = 6.0;
 
@@ -27,13 +25,16 @@ impl Pen {
     }
 }
 
+/// Width of the legend on a screen, at the right.
+pub(super) const LEGEND: i32 = 190;
+
 /// The sheet for a plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Paper {
+pub(super) struct Paper {
     pub(super) pen: Pen,
     /// Width and height in pixels of a screen.
     size: (u32, u32),
-    /// Of them the width of the legend.
+    /// Width of the legend, a part of the whole.
     legend: i32,
     /// Width on paper, mm.
     width: Option<f64>,
@@ -41,19 +42,17 @@ pub struct Paper {
 
 impl Paper {
     /// A screen: 760 x 420 pixels.
-    pub const SCREEN: Self = Self {
+    pub(super) const SCREEN: Self = Self {
         pen: Pen::SCREEN,
         size: (760, 420),
-        legend: super::LEGEND,
+        legend: LEGEND,
         width: None,
     };
 
-    /// A sheet of paper of a width in mm, with room at the right for the legend of these curves.
-    pub fn new(width: f64, series: &[Series]) -> Self {
-        let labels = series.iter().filter(|it| it.is_named());
-        let longest = labels.map(|it| it.label.chars().count()).max();
+    /// A sheet of paper of a width in mm, with room at the right for a legend whose longest label has so many letters.
+    pub(super) fn new(width: f64, letters: Option<usize>) -> Self {
         // 8.5 pixels a letter of 15 pixels, beside the sample of the line.
-        let legend = longest.map_or(0, |letters| 52 + 17 * letters as i32 / 2);
+        let legend = letters.map_or(0, |letters| 52 + 17 * letters as i32 / 2);
         let pixels = (width * PIXELS_PER_MM).round();
         let height = HEIGHT * (pixels - f64::from(legend)).max(0.4 * pixels);
         Self {
@@ -91,43 +90,5 @@ impl Paper {
         );
         sized.push_str(&svg[end + 1..]);
         sized
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::{Colour, Mark, Plot};
-    use super::*;
-
-    #[test]
-    fn paper_has_its_width_and_room_for_the_legend() {
-        let series = Series::new(
-            "a long name",
-            Mark::Curve,
-            Colour::Blue,
-            vec![[0.0, 0.0], [1.0, 1.0]],
-        );
-        let with = Paper::new(120.0, std::slice::from_ref(&series));
-        let without = Paper::new(120.0, &[]);
-        assert!(with.plane() < without.plane() && with.dots().0 == without.dots().0);
-        let plot = Plot {
-            name: "p".to_owned(),
-            title: String::new(),
-            x: "x".to_owned(),
-            y: "y".to_owned(),
-            series: vec![series],
-        };
-        let svg = plot.on(with).unwrap();
-        assert!(
-            svg.starts_with("<svg width=\"120.000mm\" height=\""),
-            "{}",
-            &svg[..60]
-        );
-        assert_eq!(svg.matches("<svg").count(), 1);
-        assert!(
-            plot.to_svg()
-                .unwrap()
-                .starts_with("<svg width=\"760\" height=\"420\"")
-        );
     }
 }

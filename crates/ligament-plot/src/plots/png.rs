@@ -8,7 +8,7 @@ use super::outlines::{font, with_outlined_text};
 /// The font of all text in pictures ([its origin](https://dejavu-fonts.github.io) and licence lie beside it).
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
 
-/// Its name.
+/// Name of the font.
 pub const FAMILY: &str = "DejaVu Sans";
 
 /// Pixels of SVG to the inch.

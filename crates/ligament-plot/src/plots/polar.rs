@@ -9,8 +9,8 @@ use plotters::prelude::{
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::paper::Pen;
-use super::{Chart, Drawn, GRID, LEGEND, PlotError, Series, TEXT, decimals, draw_legends, tick};
+use super::paper::{LEGEND, Pen};
+use super::{Chart, Drawn, GRID, PlotError, Series, TEXT, decimals, draw_legends, tick};
 
 /// Width and height, in pixels: the room beside the legend is square.
 const SIZE: (u32, u32) = (570 + LEGEND as u32, 600);
@@ -21,11 +21,11 @@ const FILLED: f64 = 0.85;
 /// A polar plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarPlot {
-    /// Name of its file.
+    /// Name of the diagram's file.
     pub name: String,
     /// Title.
     pub title: String,
-    /// What the radius is, with its unit.
+    /// Quantity along the radius, with its unit.
     pub radius: String,
     /// The curves: angles from the x axis (rad) and radii of 0 or more.
     pub series: Vec<Series>,

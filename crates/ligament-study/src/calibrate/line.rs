@@ -38,7 +38,7 @@ pub enum LineError {
     /// The table could not be read.
     #[error("no table of a sweep at {}", path.display())]
     NoTable {
-        /// Where it should be.
+        /// The path at which the table should be.
         path: PathBuf,
         /// The reader's reason.
         source: ligament_output::Error,
@@ -73,7 +73,7 @@ pub enum LineError {
     SamePlace {
         /// The column along the line.
         x: String,
-        /// Its value.
+        /// The value that both runs have in this column.
         value: f64,
         /// The runs.
         runs: [String; 2],
@@ -85,7 +85,7 @@ pub enum LineError {
         key: String,
         /// Two of its values.
         values: [f64; 2],
-        /// Their runs.
+        /// The runs with these values.
         runs: [String; 2],
     },
     /// No line goes through the points.
@@ -95,9 +95,9 @@ pub enum LineError {
         of: String,
         /// The column along the line.
         x: String,
-        /// Which line.
+        /// Name of the line.
         name: String,
-        /// Why.
+        /// The reason.
         source: FitError,
     },
 }
@@ -116,7 +116,7 @@ struct Run {
 /// The line of some runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// What its runs have in common: `mesh.file = fine.msh`.
+    /// Setting that the runs of the line have in common: `mesh.file = fine.msh`.
     pub name: String,
     /// The result over the target, over x.
     pub fit: LineFit,
@@ -219,7 +219,7 @@ fn line(request: &Request, of_line: &[String], runs: &[&Run]) -> Result<Line, Li
     let points: Vec<[f64; 2]> = (runs.iter())
         .map(|run| [run.x, run.result / request.target])
         .collect();
-    let fit = LineFit::of(&points).map_err(|source| LineError::NoLine {
+    let fit = LineFit::through(&points).map_err(|source| LineError::NoLine {
         of: request.of.clone(),
         x: request.x.clone(),
         name: name.clone(),
@@ -275,7 +275,7 @@ pub fn write(request: &Request, lines: &[Line], out: &mut dyn Write) -> io::Resu
     Ok(())
 }
 
-/// Whether a path is that of a sweep or a table rather than of a case.
+/// Whether a path leads to a sweep or a table rather than to a case.
 pub fn is_table(path: &Path) -> bool {
     path.is_dir() || path.extension().is_some_and(|it| it == "csv")
 }

@@ -6,113 +6,25 @@
 
 pub mod line;
 mod record;
+pub mod request;
 pub mod search;
 
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io::Write;
 
 use anyhow::Context;
 
 use crate::inputs::{Contents, Inputs};
-use crate::quantities::{Quantities, QuantityError};
+use crate::quantities::Quantities;
 use ligament_case::case::{CaseError, CaseFile, Fault};
 use ligament_case::progress::ProgressMode;
 use ligament_case::run::run;
 use record::{Record, Run};
+use request::setting;
+pub use request::{CalibrationError, Request};
 use search::{Next, Search, Trial, Verdict};
-
-/// What is to be calibrated.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Request {
-    /// The case file.
-    pub case: PathBuf,
-    /// Changes to it that all runs have, `key=value` each.
-    pub overrides: Vec<String>,
-    /// Threads to compute with, before those of the case.
-    pub threads: Option<u32>,
-    /// The key whose value is sought.
-    pub key: String,
-    /// The result that is to meet the target, by its name in the summary.
-    pub of: String,
-    /// The target, in the unit of the result.
-    pub target: f64,
-    /// Largest difference from the target, relative to it.
-    pub within: f64,
-    /// Smallest and largest value of the key.
-    pub limits: [Option<f64>; 2],
-    /// Largest number of runs.
-    pub most_runs: usize,
-    /// Folder for the record and the runs.
-    pub out: PathBuf,
-    /// Whether an earlier calibration in the folder is replaced; it is continued otherwise.
-    pub force: bool,
-}
-
-/// Why a calibration cannot begin or go on.
-#[derive(Debug, thiserror::Error)]
-pub enum CalibrationError {
-    /// The target is zero, which has no relative neighbourhood.
-    #[error("--target {0}: a target is a finite number other than 0")]
-    NoTarget(f64),
-    /// The limits of the key exclude each other.
-    #[error("--from {0} is not below --to {1}")]
-    EmptyRange(f64, f64),
-    /// The case has no number at the key to begin with, or 0, which tells no size.
-    #[error(
-        "the case has no number other than 0 at `{key}` to begin with: give it one by --set {key}=..., or say between which values to \
-         look by --from and --to"
-    )]
-    NoStart {
-        /// The key.
-        key: String,
-    },
-    /// The result is not there.
-    #[error("run {run} ({setting}), results in {}", folder.display())]
-    NoResult {
-        /// Number of the run.
-        run: usize,
-        /// The value of the key that it ran with.
-        setting: String,
-        /// Its folder.
-        folder: PathBuf,
-        /// Why.
-        source: QuantityError,
-    },
-    /// A file of the case cannot be read.
-    #[error("cannot read {}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// The folder has a calibration of something else.
-    #[error(
-        "the calibration in {} {difference}; --force replaces it, --out takes another folder",
-        folder.display()
-    )]
-    Other {
-        /// The folder.
-        folder: PathBuf,
-        /// In what it differs.
-        difference: String,
-    },
-    /// The search ended without an answer.
-    #[error("{0}")]
-    NotMet(String),
-}
 
 /// Relative width of a bracket in which the result jumps.
 const RESOLUTION: f64 = 1e-3;
-
-/// Ends of a run at which it was still carrying more load than before, so that a peak may lie beyond.
-const CUT_SHORT: [&str; 5] = [
-    "steps-done",
-    "full-load",
-    "displacement-reached",
-    "wall-time",
-    "bonds-broken",
-];
 
 /// Runs a case with one value of the key after the other until the result meets the target, or cannot; tells of each run on
 /// `progress` and of the end on `out`.
@@ -129,7 +41,7 @@ pub fn calibrate(
     let search = search_of(request)?;
     // Faults of the case and of the key come before anything is written.
     let case = case_with(request, search.start)?;
-    let inputs = Inputs::of(&case, None, &mut Contents::default())
+    let inputs = Inputs::from_case(&case, None, &mut Contents::default())
         .map_err(|(path, source)| CalibrationError::Unreadable { path, source })?;
     let mut record = Record::open(request, &inputs)?;
     writeln!(progress, "{}", record.heading())?;
@@ -187,7 +99,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
     })
 }
 
-/// Why there is nothing to begin with: a key that no case has is told as such.
+/// The error that there is nothing to begin with; a key that no case has gets an error of its own.
 fn no_start(request: &Request) -> anyhow::Error {
     let is_about_key = |error: &CaseError| match error {
         CaseError::Key { fault, .. } => matches!(**fault, Fault::UnknownKey { .. }),
@@ -211,11 +123,6 @@ fn case_with(request: &Request, value: f64) -> Result<CaseFile, CaseError> {
     let threads = &mut case.case.solver.threads;
     *threads = request.threads.or(*threads);
     Ok(case)
-}
-
-/// What `--set` takes.
-fn setting(key: &str, value: f64) -> String {
-    format!("{key}={value:?}")
 }
 
 fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> {

@@ -8,13 +8,22 @@ use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
 use serde::{Deserialize, Serialize};
 
+use super::request::{CalibrationError, Request, setting};
 use super::search::{Trial, Verdict};
-use super::{CUT_SHORT, CalibrationError, Request, setting};
 use crate::inputs::Inputs;
 use crate::quantities::{Quantities, QuantityError};
 
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
+
+/// Ends of a run at which it was still carrying more load than before, so that a peak may lie beyond.
+const CUT_SHORT: [&str; 5] = [
+    "steps-done",
+    "full-load",
+    "displacement-reached",
+    "wall-time",
+    "bonds-broken",
+];
 
 /// The runs so far, on disk and in memory.
 pub(super) struct Record {
@@ -28,12 +37,12 @@ pub(super) struct Record {
 /// A run of a calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Run {
-    /// Its number, from 1.
+    /// Number of the run, from 1.
     number: usize,
     /// Value of the key, and the result.
     #[serde(flatten)]
     pub(super) trial: Trial,
-    /// Why it ended.
+    /// Reason why the calibration ended.
     termination: String,
     /// Broken bonds.
     broken_bonds: u64,
@@ -65,7 +74,7 @@ struct Whole<'a> {
     runs: &'a [Run],
 }
 
-/// What is read back of it.
+/// The part of a record that is read back.
 #[derive(Deserialize)]
 struct Earlier {
     key: String,
@@ -140,7 +149,7 @@ impl Record {
         &self.runs
     }
 
-    /// Where a run puts its results.
+    /// The folder in which a run puts its results.
     pub(super) fn run_folder(&self, number: usize) -> PathBuf {
         self.folder.file(&run_name(number))
     }

@@ -69,7 +69,7 @@ const MARGIN: f64 = 0.02;
 const DIGITS: usize = 7;
 
 impl Search {
-    /// What to do after these trials, in their order.
+    /// The next thing to do after these trials, given in their order.
     pub fn next(&self, trials: &[Trial]) -> Next {
         let Some(best) = self.best(trials) else {
             return Next::Try(self.allowed(self.start));

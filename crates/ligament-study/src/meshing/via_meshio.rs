@@ -20,7 +20,7 @@ const SCRIPT: &str = include_str!("via_meshio.py");
 pub struct ConversionRequest {
     /// The mesh of another program.
     pub source: PathBuf,
-    /// Its format as meshio calls it; none to go by the ending of its name.
+    /// Format of the source as meshio calls it; None to go by the ending of the name.
     pub format: Option<String>,
     /// The mesh file to write.
     pub out: PathBuf,
@@ -33,7 +33,7 @@ pub struct ConversionRequest {
 pub struct Conversion {
     /// The mesh as it stands in the file that was written.
     pub mesh: Mesh,
-    /// What was read in another way than it stands in the source, in words.
+    /// Remarks on what was read otherwise than it stands in the source, in words.
     pub remarks: Vec<String>,
 }
 
@@ -101,7 +101,7 @@ pub enum ConversionError {
     Volumes {
         /// The source.
         mesh: PathBuf,
-        /// Which cells it has.
+        /// Shapes and numbers of its cells.
         lines: Vec<String>,
     },
     /// The source has cells of shapes that are not read.
@@ -112,7 +112,7 @@ pub enum ConversionError {
     Shapes {
         /// The source.
         mesh: PathBuf,
-        /// Which.
+        /// Shapes and numbers of these cells.
         lines: Vec<String>,
     },
     /// The source has no planar cells.
@@ -123,7 +123,7 @@ pub enum ConversionError {
     NothingPlanar {
         /// The source.
         mesh: PathBuf,
-        /// What it has.
+        /// Shapes and numbers of the cells that the source has.
         lines: Vec<String>,
     },
     /// The source is not in the plane of x and y.
@@ -131,7 +131,7 @@ pub enum ConversionError {
     NotPlanar {
         /// The source.
         mesh: PathBuf,
-        /// How it lies.
+        /// Extents of the mesh along the axes, in words.
         lines: Vec<String>,
     },
     /// Python ended without a mesh.
@@ -273,7 +273,7 @@ struct Handed {
 }
 
 impl Handed {
-    /// None if the text is not as the script writes it.
+    /// The mesh that the script's text tells of; None if the text is not as the script writes it.
     fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         let n_remarks = section(lines.next()?, "remarks")?;
@@ -307,29 +307,8 @@ impl Handed {
         let n_groups = section(lines.next()?, "groups")?;
         let mut groups: Vec<Group> = Vec::new();
         for _ in 0..n_groups {
-            let mut words = lines.next()?.splitn(3, ' ');
-            let dimension: u8 = words.next()?.parse().ok()?;
-            let count = words.next()?.parse().ok()?;
-            let name = words.next()?.to_owned();
-            let members: Option<Vec<Vec<u32>>> = lines.by_ref().take(count).map(numbers).collect();
-            let (mut nodes, mut edges, mut of_cells) = (Vec::new(), Vec::new(), Vec::new());
-            for member in members? {
-                match (dimension, member.as_slice()) {
-                    (0, &[node]) if is_node(&node) => nodes.push(node),
-                    (1, &[a, b]) if is_node(&a) && is_node(&b) => edges.push([a, b]),
-                    (2, &[cell]) if (cell as usize) < cells.len() => of_cells.push(cell),
-                    _ => return None,
-                }
-            }
-            groups.push(Group {
-                name,
-                dimension,
-                // Numbers of groups are those of their order in their dimension, from 1.
-                number: 1 + groups.iter().filter(|it| it.dimension == dimension).count() as i32,
-                nodes,
-                edges,
-                cells: of_cells,
-            });
+            let group = group(&mut lines, &groups, positions.len(), cells.len())?;
+            groups.push(group);
         }
         (lines.next()? == "end").then_some(Self {
             mesh: Mesh {
@@ -343,6 +322,37 @@ impl Handed {
             remarks,
         })
     }
+}
+
+/// The next group, after those that came before, of a mesh with so many nodes and cells.
+fn group<'a>(
+    lines: &mut impl Iterator<Item = &'a str>,
+    before: &[Group],
+    n_nodes: usize,
+    n_cells: usize,
+) -> Option<Group> {
+    let mut words = lines.next()?.splitn(3, ' ');
+    let dimension: u8 = words.next()?.parse().ok()?;
+    let count = words.next()?.parse().ok()?;
+    let mut group = Group {
+        name: words.next()?.to_owned(),
+        dimension,
+        // Numbers of groups are those of their order in their dimension, from 1.
+        number: 1 + before.iter().filter(|it| it.dimension == dimension).count() as i32,
+        nodes: Vec::new(),
+        edges: Vec::new(),
+        cells: Vec::new(),
+    };
+    let is_node = |node: u32| (node as usize) < n_nodes;
+    for line in lines.take(count) {
+        match (dimension, numbers(line)?.as_slice()) {
+            (0, &[node]) if is_node(node) => group.nodes.push(node),
+            (1, &[a, b]) if is_node(a) && is_node(b) => group.edges.push([a, b]),
+            (2, &[cell]) if (cell as usize) < n_cells => group.cells.push(cell),
+            _ => return None,
+        }
+    }
+    Some(group)
 }
 
 /// The number of lines of a section.

@@ -23,7 +23,7 @@ const DIGITS: usize = 12;
 pub(crate) struct Setting {
     /// `key=value`.
     pub(crate) given: String,
-    /// Its place in the study.
+    /// Place of the setting in the study.
     pub(crate) place: KeyPath,
 }
 
@@ -32,11 +32,11 @@ pub(crate) struct Setting {
 pub struct Axis {
     /// The keys of the case file, or the one number of the geometry.
     pub keys: Vec<String>,
-    /// Whether it is a number of the geometry.
+    /// Whether the key is a number of the geometry.
     pub of_geometry: bool,
     /// Whether the study gives labels.
     pub is_labelled: bool,
-    /// Its values in their order.
+    /// Values of the axis, in their order.
     pub points: Vec<AxisPoint>,
 }
 
@@ -45,11 +45,11 @@ pub struct Axis {
 pub struct AxisPoint {
     /// A value for each key, for tables.
     pub cells: Vec<Cell>,
-    /// The same as TOML.
+    /// The values of the keys as TOML.
     pub(crate) texts: Vec<String>,
-    /// What people see of it.
+    /// Label of the value for people.
     pub label: String,
-    /// Its place in the study.
+    /// Place of the value in the study.
     pub(crate) place: KeyPath,
 }
 
@@ -304,54 +304,51 @@ fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
             };
             Err(KeyFault::new(place.child("log"), fault))
         }
-        (Some(step), None) => {
-            let place = || place.child("step");
-            let leads = step != 0.0 && (to - from) * step >= 0.0;
-            require(
-                leads,
-                place,
-                "other than 0 and lead from `from` to `to`",
-                step,
-            )?;
-            // The end belongs to the range where the steps lead to it but for rounding.
-            let steps = ((to - from) / step + 1e-9).floor();
-            let most = MOST_VALUES as f64;
-            require(
-                steps < most,
-                place,
-                &format!("so large that there are {MOST_VALUES} values at most"),
-                step,
-            )?;
-            Ok((0..=steps as usize)
-                .map(|k| tidy(from + k as f64 * step))
-                .collect())
-        }
-        (None, Some(count)) => {
-            let place = || place.child("count");
-            require(
-                (2..=MOST_VALUES).contains(&count),
-                place,
-                &format!("2 to {MOST_VALUES}"),
-                count,
-            )?;
-            require(
-                from != to,
-                place,
-                "1 value where `from` is `to`: give it by `values`",
-                count,
-            )?;
-            let share = |k: usize| k as f64 / (count - 1) as f64;
-            let value = |k: usize| match log {
-                true => from * (to / from).powf(share(k)),
-                false => from + (to - from) * share(k),
-            };
-            Ok((0..count).map(|k| tidy(value(k))).collect())
-        }
+        (Some(step), None) => stepped(range, step, || place.child("step")),
+        (None, Some(count)) => counted(range, count, || place.child("count")),
         (step, count) => {
             let given = [("step", step.is_some()), ("count", count.is_some())];
             Err(not_exactly_one(place, &given))
         }
     }
+}
+
+/// Numbers a step apart.
+fn stepped(range: &RawRange, step: f64, place: impl Fn() -> KeyPath) -> Result<Vec<f64>, KeyFault> {
+    let RawRange { from, to, .. } = *range;
+    let leads = step != 0.0 && (to - from) * step >= 0.0;
+    require(
+        leads,
+        &place,
+        "other than 0 and lead from `from` to `to`",
+        step,
+    )?;
+    // The end belongs to the range where the steps lead to it but for rounding.
+    let steps = ((to - from) / step + 1e-9).floor();
+    let few = format!("so large that there are {MOST_VALUES} values at most");
+    require(steps < MOST_VALUES as f64, &place, &few, step)?;
+    Ok((0..=steps as usize)
+        .map(|k| tidy(from + k as f64 * step))
+        .collect())
+}
+
+/// So many numbers, equal steps or, with `log`, equal factors apart.
+fn counted(
+    range: &RawRange,
+    count: usize,
+    place: impl Fn() -> KeyPath,
+) -> Result<Vec<f64>, KeyFault> {
+    let RawRange { from, to, log, .. } = *range;
+    let possible = (2..=MOST_VALUES).contains(&count);
+    require(possible, &place, &format!("2 to {MOST_VALUES}"), count)?;
+    let single = "1 value where `from` is `to`: give it by `values`";
+    require(from != to, &place, single, count)?;
+    let share = |k: usize| k as f64 / (count - 1) as f64;
+    let value = |k: usize| match log {
+        true => from * (to / from).powf(share(k)),
+        false => from + (to - from) * share(k),
+    };
+    Ok((0..count).map(|k| tidy(value(k))).collect())
 }
 
 /// A number without the digits that rounding put there.

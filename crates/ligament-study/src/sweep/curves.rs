@@ -24,9 +24,9 @@ const LINE_POINTS: usize = 2;
 /// The curves of a plot of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves<'a> {
-    /// What the study says of it.
+    /// The section of the study that asks for the plot.
     pub plot: &'a StudyPlot,
-    /// Name of its file, without the ending.
+    /// Name of the plot's file, without the ending.
     pub name: String,
     /// The curves in the order of the axis.
     pub curves: Vec<Curve>,
@@ -44,12 +44,12 @@ pub struct Curve {
 }
 
 impl<'a> Curves<'a> {
-    /// Those of a plot over the runs of a table.
+    /// The curves of a plot over the runs of a table.
     ///
     /// # Errors
     ///
     /// If x or y is no column of numbers.
-    pub fn of(
+    pub fn over_runs(
         study: &Study,
         plot: &'a StudyPlot,
         runs: &[Run],
@@ -70,7 +70,7 @@ impl<'a> Curves<'a> {
         let curve = |label: &str, points: Vec<[f64; 2]>| {
             let fit = plot.fit.map(|range| {
                 let inside = points.iter().copied().filter(|[x, _]| range.contains(*x));
-                LineFit::of(&inside.collect::<Vec<_>>())
+                LineFit::through(&inside.collect::<Vec<_>>())
             });
             Curve {
                 label: label.to_owned(),

@@ -58,7 +58,7 @@ pub enum StudyError {
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// Which.
+        /// The sweep that uses it, in words.
         what: String,
     },
     /// A file of the study's folder cannot be used.

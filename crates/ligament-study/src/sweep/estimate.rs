@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::fs;
 
+use ligament::run::on_threads;
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE};
+use ligament::{Loading, Vibration};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::modal::ModalAnalysis;
 
@@ -10,14 +13,12 @@ use ligament_case::case::{BodySection, CaseFile, Surface};
 use ligament_case::memory;
 use ligament_case::model::build_model;
 use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::resolve::{self, Loading, Vibration};
-use ligament_case::run::ELASTIC_ENERGY_TOLERANCE;
 use ligament_case::stages::Stages;
 
 /// What the program itself takes, bytes.
 const PROGRAM: u64 = 10_000_000;
 
-/// What is added for what the estimate leaves out: files on their way to disk, room that the allocator keeps. Runs of 846 to
+/// Share added for what the estimate leaves out: files on their way to disk, room that the allocator keeps. Runs of 846 to
 /// 4,808 points took 1.0 to 1.3 times the equations and the program.
 const MARGIN: f64 = 1.3;
 
@@ -27,7 +28,7 @@ pub(super) struct Estimates(BTreeMap<String, Option<u64>>);
 
 impl Estimates {
     /// Bytes that a case will take at most; `None` where its model cannot be built, which its run will say.
-    pub(super) fn of(&mut self, case: &CaseFile) -> Option<u64> {
+    pub(super) fn bytes(&mut self, case: &CaseFile) -> Option<u64> {
         let given = &case.case;
         let key = serde_json::to_string(&(
             &given.body,
@@ -51,7 +52,7 @@ fn estimate(case: &CaseFile) -> anyhow::Result<u64> {
     if plain.case.correction.surface == Surface::Domain {
         plain.case.correction.surface = Surface::None;
     }
-    let bytes = resolve::on_threads(&plain, || equations(&plain))??;
+    let bytes = on_threads(plain.threads(), || equations(&plain))??;
     Ok((MARGIN * (bytes as u64 + PROGRAM) as f64) as u64)
 }
 
@@ -59,16 +60,16 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     let quiet = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &quiet)?;
     let system = &model.system;
-    Ok(match &case.case.modal {
-        Some(modal) => {
-            let vibration = Vibration::of(case, &*model.body, &system.cloud)?;
-            let analysis = ModalAnalysis::of(vibration.problem(system), resolve::modal(modal))?;
+    Ok(match model.setup.analysis {
+        Analysis::Modal(settings) => {
+            let vibration = Vibration::new(&model.setup, &system.cloud)?;
+            let analysis = ModalAnalysis::new(&vibration.problem(system), settings)?;
             memory::of_equations(system, analysis.stiffness())
         }
-        None => {
-            let loading = Loading::of(case, &*model.body, system)?;
+        _ => {
+            let loading = Loading::new(&model.setup, system)?;
             let problem = loading.problem(system, &model.criteria);
-            let equilibrium = Equilibrium::of(&problem, ELASTIC_ENERGY_TOLERANCE)?;
+            let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
             memory::of_equations(system, equilibrium.stiffness())
         }
     })

@@ -29,14 +29,14 @@ pub struct StudyFolder {
 /// A part of the runs: those whose number, from 1, is `number` after a multiple of `count`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Its number, from 1.
+    /// Number of the shard, from 1.
     pub number: usize,
     /// Number of shards.
     pub count: usize,
 }
 
 impl Shard {
-    /// Whether it has the run of an index, from 0.
+    /// Whether the shard has the run of an index, from 0.
     pub fn contains(self, index: usize) -> bool {
         index % self.count == self.number - 1
     }
@@ -89,12 +89,12 @@ impl StudyFolder {
         Ok(folder)
     }
 
-    /// Whether it is the folder of a study.
+    /// Whether the folder is marked as the folder of a study.
     pub fn is_marked(&self) -> bool {
         self.path.join(MARKER).is_file()
     }
 
-    /// Whether there is nothing in it but what a shard that is marking it puts there.
+    /// Whether the folder holds nothing but what a shard that is marking it puts there.
     fn is_fresh(&self) -> bool {
         let hidden = format!(".{MARKER}.");
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
@@ -102,7 +102,7 @@ impl StudyFolder {
         names.all(|name| name == MARKER || name.starts_with(&hidden))
     }
 
-    /// Its path.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -112,7 +112,7 @@ impl StudyFolder {
         self.path.join("runs").join(&run.name)
     }
 
-    /// What is known of a run beside its results.
+    /// The record of a run, beside its results.
     pub(super) fn record(&self, run: &Run) -> PathBuf {
         self.path.join("records").join(format!("{}.json", run.name))
     }

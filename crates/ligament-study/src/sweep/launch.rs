@@ -31,7 +31,7 @@ pub(super) struct Room {
 }
 
 impl Room {
-    /// As much as there is, or as the user says.
+    /// Room as much as there is, or as the user says.
     pub(super) fn new(jobs: Option<usize>, gigabytes: Option<f64>) -> Self {
         let cores = thread::available_parallelism().map_or(1, NonZero::get);
         Self {
@@ -69,7 +69,7 @@ struct Ended {
 struct Running {
     index: usize,
     bytes: u64,
-    /// It ends when this is dropped, if only because this process ends.
+    /// Standard input of the run, which ends when this is dropped, if only because this process ends.
     _leash: Option<std::process::ChildStdin>,
 }
 
@@ -141,7 +141,7 @@ impl Launcher<'_> {
     /// Waits until the next run fits beside those that go on, or none goes on; gives the memory it will take.
     fn wait_for_room(&mut self, next: usize, audience: &mut dyn Audience) -> anyhow::Result<u64> {
         // A case without a model will fail by itself, with its reason.
-        let bytes = self.estimates.of(&self.runs[next].case).unwrap_or(0);
+        let bytes = self.estimates.bytes(&self.runs[next].case).unwrap_or(0);
         while self.running.len() >= self.room.jobs
             || (!self.running.is_empty() && !self.fits(bytes))
         {
@@ -235,7 +235,7 @@ impl Launcher<'_> {
         if !exit.success() {
             record::fail(run, self.folder, &self.last_words(run, exit))?;
         }
-        let status = match Status::of(run, self.folder) {
+        let status = match Status::in_folder(run, self.folder) {
             Status::Missing | Status::Changed(_) => {
                 Status::Failed("it ended well, but left no summary.json".to_owned())
             }
@@ -261,7 +261,7 @@ impl Launcher<'_> {
         )
     }
 
-    /// Why a run failed: its error, or the last that it said and how it ended.
+    /// The reason why a run failed: its error, or its last line and its exit status.
     fn last_words(&self, run: &Run, exit: ExitStatus) -> String {
         let mut text = Vec::new();
         // Without a log the exit status is all there is.

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::plan::Run;
 use crate::meshing::gmsh_program::{MeshRequest, MeshingError, make_mesh};
 
 /// A mesh to be made.
@@ -11,7 +10,7 @@ use crate::meshing::gmsh_program::{MeshRequest, MeshingError, make_mesh};
 pub struct MeshPlan {
     /// How.
     pub request: MeshRequest,
-    /// What it is made from, in words.
+    /// Geometry and numbers that the mesh is made from, in words.
     pub content: String,
 }
 
@@ -44,20 +43,19 @@ impl MeshPlan {
     }
 }
 
-/// Makes the meshes that some runs still lack, by the program `gmsh`; `tell` hears of each. Gives for each run why it has none.
+/// Makes the meshes that some runs, given by their names, still lack, by the program `gmsh`; `tell` hears of each. Gives for each run why it has none.
 ///
 /// # Errors
 ///
 /// If it is not a matter of one mesh alone: no geometry, no program, a number that the geometry does not have.
 pub(super) fn make<'a>(
-    runs: impl IntoIterator<Item = &'a Run>,
+    runs: impl IntoIterator<Item = (&'a str, &'a MeshPlan)>,
     gmsh: &Path,
     tell: &mut dyn FnMut(&str),
 ) -> Result<BTreeMap<String, String>, MeshingError> {
     let mut failed = BTreeMap::new();
     let mut tried: BTreeMap<&Path, Option<String>> = BTreeMap::new();
-    for run in runs {
-        let Some(plan) = &run.mesh else { continue };
+    for (run, plan) in runs {
         let out = plan.request.out.as_path();
         if !tried.contains_key(out) {
             let reason = if out.is_file() {
@@ -68,7 +66,7 @@ pub(super) fn make<'a>(
             tried.insert(out, reason);
         }
         if let Some(Some(reason)) = tried.get(out) {
-            failed.insert(run.name.clone(), reason.clone());
+            failed.insert(run.to_owned(), reason.clone());
         }
     }
     Ok(failed)

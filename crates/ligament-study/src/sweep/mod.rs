@@ -20,6 +20,7 @@ pub mod study;
 pub mod table;
 mod written;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -43,7 +44,7 @@ use table::Row;
 pub struct Request {
     /// The study file.
     pub study: PathBuf,
-    /// Its folder; `results/NAME` without it.
+    /// Folder of the study's results; `results/NAME` without it.
     pub out: Option<PathBuf>,
     /// What to do.
     pub task: Task,
@@ -105,24 +106,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         .filter(|(index, _)| settings.shard.is_none_or(|shard| shard.contains(*index)))
         .map(|(_, run)| run)
         .collect();
-    let mut todo = Vec::new();
-    let mut notes = Vec::new();
-    for run in &mine {
-        if settings.force {
-            record::forget(run, &folder)?;
-        }
-        match Status::of(run, &folder) {
-            Status::Done(_) => continue,
-            Status::Changed(how) => {
-                notes.push(format!(
-                    "{}: done anew, its inputs changed ({how})",
-                    run.words(study)
-                ));
-            }
-            Status::Failed(_) | Status::Missing => {}
-        }
-        todo.push(*run);
-    }
+    let (mut todo, notes) = not_done(study, &folder, &mine, settings.force)?;
     let before = mine.len() - todo.len();
     let mut progress = StudyProgress::new(study, settings.progress, todo.len());
     if let Some(Shard { number, count }) = settings.shard {
@@ -136,20 +120,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         progress.tell(&format!("{before} of {} runs were done before", mine.len()));
     }
     notes.iter().for_each(|note| progress.tell(note));
-    let unmeshed = meshes::make(todo.iter().copied(), &settings.gmsh, &mut |line| {
-        progress.tell(line)
-    })?;
-    for (name, reason) in &unmeshed {
-        if let Some(run) = todo.iter().find(|run| run.name == *name) {
-            record::fail(run, &folder, reason)?;
-            launch::Audience::ends(
-                &mut progress,
-                run,
-                &Status::Failed(reason.clone()),
-                Duration::ZERO,
-            );
-        }
-    }
+    let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
     todo.retain(|run| !unmeshed.contains_key(&run.name));
     let room = Room::new(settings.jobs, settings.memory);
     let sum = launch::all(&todo, &folder, &claim.runs, room, &mut progress)?;
@@ -182,6 +153,59 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         }
         .into()),
     }
+}
+
+/// The runs that are still to be done, or again, and what is to be said of them.
+fn not_done<'a>(
+    study: &Study,
+    folder: &StudyFolder,
+    mine: &[&'a Run],
+    force: bool,
+) -> anyhow::Result<(Vec<&'a Run>, Vec<String>)> {
+    let mut todo = Vec::new();
+    let mut notes = Vec::new();
+    for run in mine {
+        if force {
+            record::forget(run, folder)?;
+        }
+        match Status::in_folder(run, folder) {
+            Status::Done(_) => continue,
+            Status::Changed(how) => {
+                notes.push(format!(
+                    "{}: done anew, its inputs changed ({how})",
+                    run.words(study)
+                ));
+            }
+            Status::Failed(_) | Status::Missing => {}
+        }
+        todo.push(*run);
+    }
+    Ok((todo, notes))
+}
+
+/// Makes the meshes that runs lack; the runs that get none have failed, and are given with the reasons.
+fn made_meshes(
+    todo: &[&Run],
+    folder: &StudyFolder,
+    gmsh: &Path,
+    progress: &mut StudyProgress,
+) -> anyhow::Result<BTreeMap<String, String>> {
+    let lacking = todo
+        .iter()
+        .filter_map(|run| Some((run.name.as_str(), run.mesh.as_ref()?)));
+    let unmeshed = meshes::make(lacking, gmsh, &mut |line| progress.tell(line))?;
+    for (name, reason) in &unmeshed {
+        if let Some(run) = todo.iter().find(|run| run.name == *name) {
+            record::fail(run, folder, reason)?;
+            launch::Audience::ends(
+                progress,
+                run,
+                &Status::Failed(reason.clone()),
+                Duration::ZERO,
+            );
+        }
+    }
+    Ok(unmeshed)
 }
 
 fn write_times(
@@ -217,7 +241,7 @@ fn make_report(
         let mut found = Status::Missing;
         let mut path = String::new();
         for (folder, there) in folders {
-            let status = Status::of(&there[index], folder);
+            let status = Status::in_folder(&there[index], folder);
             let is_better = match status {
                 Status::Done(_) => true,
                 Status::Failed(_) => !matches!(found, Status::Failed(_)),
@@ -280,13 +304,13 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
     let mut estimates = Estimates::default();
     let mut todo = 0;
     for (index, run) in runs.iter().enumerate() {
-        let word = match Status::of(run, &folder) {
+        let word = match Status::in_folder(run, &folder) {
             Status::Changed(_) => "changed",
             status => status.word(),
         };
         todo += usize::from(word != "done");
         let memory = match estimate::has_mesh(&run.case) {
-            true => estimates.of(&run.case).map_or_else(
+            true => estimates.bytes(&run.case).map_or_else(
                 || "no model".to_owned(),
                 |bytes| format!("{:.0} MB", bytes as f64 / 1e6),
             ),

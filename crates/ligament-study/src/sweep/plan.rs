@@ -24,22 +24,22 @@ const LONGEST_LABEL: usize = 48;
 /// A run of a study.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// Its name, which is that of its folder; it depends on the run's own values alone.
+    /// Name of the run and of its folder; it depends on the run's own values alone.
     pub name: String,
     /// Index of its value on each axis.
     pub place: Vec<usize>,
     /// The settings that make its case out of the base case, `key=value` each.
     pub overrides: Vec<String>,
-    /// Its case, checked.
+    /// Case of the run, checked.
     pub case: CaseFile,
     /// The mesh that has to be made for it.
     pub mesh: Option<MeshPlan>,
-    /// What decides about its results.
+    /// Inputs that decide about the results.
     pub inputs: Inputs,
 }
 
 impl Run {
-    /// Its value on each axis.
+    /// The value of the run on each axis.
     pub fn points<'a>(
         &'a self,
         study: &'a Study,
@@ -48,7 +48,7 @@ impl Run {
         axes.map(|(axis, &index)| (axis, &axis.points[index]))
     }
 
-    /// Its values in words: "horizon_factor = 2.5, file = 4 mm".
+    /// The values of the run in words: "horizon_factor = 2.5, file = 4 mm".
     pub fn words(&self, study: &Study) -> String {
         let keys = short_keys(&study.axes);
         let parts = self.points(study).zip(&keys);
@@ -58,7 +58,7 @@ impl Run {
     }
 }
 
-/// What a value of an axis is called, by its keys: each with its value, or the first one with the label.
+/// Parts of the name of a value of an axis, by its keys: each with its value, or the first one with the label.
 fn parts_of<'a>(
     axis: &'a Axis,
     point: &'a AxisPoint,
@@ -149,25 +149,10 @@ fn run(
     let mesh = match &study.geometry {
         None => None,
         Some(geometry) => {
-            let numbers = points().filter(|(axis, _)| axis.of_geometry);
-            let numbers = numbers.filter_map(|(axis, point)| {
-                Some((axis.keys.first()?.clone(), point.cells.first()?.as_f64()?))
-            });
-            let name = (points().zip(names).zip(&place))
-                .filter(|(((axis, _), _), _)| axis.of_geometry)
-                .map(|((_, names), &k)| names[k].as_str());
-            let name = name.collect::<Vec<_>>().join(",");
-            let source = KeyPath(vec!["geometry".to_owned()]);
-            let content = contents.of(geometry).map_err(|error| StudyError::Input {
-                location: study.location(&source),
-                run: self::shortened(name.clone(), LONGEST_NAME),
-                path: geometry.clone(),
-                source: error,
-            })?;
-            let plan = MeshPlan::new(geometry, numbers.collect(), meshes, &name, &content);
+            let plan = mesh_plan(study, geometry, names, &place, meshes, contents)?;
             settings.push(Setting {
                 given: format!("mesh.file={}", quoted(&plan.request.out.to_string_lossy())),
-                place: source,
+                place: geometry_key(),
             });
             Some(plan)
         }
@@ -176,7 +161,7 @@ fn run(
     let case = CaseFile::parse(&study.case, text.to_owned(), &overrides)
         .map_err(|error| blame(study, &name, &settings, error))?;
     let content = mesh.as_ref().map(|plan| plan.content.as_str());
-    let inputs = Inputs::of(&case, content, contents).map_err(|(path, source)| {
+    let inputs = Inputs::from_case(&case, content, contents).map_err(|(path, source)| {
         let names_it = |it: &&Setting| {
             let stem = path.file_name().unwrap_or_default().to_string_lossy();
             it.given.contains(&*stem)
@@ -197,6 +182,50 @@ fn run(
         mesh,
         inputs,
     })
+}
+
+/// The mesh of a geometry with the numbers of a run.
+fn mesh_plan(
+    study: &Study,
+    geometry: &Path,
+    names: &[Vec<String>],
+    place: &[usize],
+    meshes: &Path,
+    contents: &mut Contents,
+) -> Result<MeshPlan, StudyError> {
+    let of_geometry = || {
+        let values = study.axes.iter().zip(names).zip(place);
+        values.filter(|((axis, _), _)| axis.of_geometry)
+    };
+    let numbers = of_geometry().filter_map(|((axis, _), &k)| {
+        Some((
+            axis.keys.first()?.clone(),
+            axis.points[k].cells.first()?.as_f64()?,
+        ))
+    });
+    let parts: Vec<&str> = of_geometry()
+        .map(|((_, names), &k)| names[k].as_str())
+        .collect();
+    let name = parts.join(",");
+    let content = contents
+        .identity(geometry)
+        .map_err(|source| StudyError::Input {
+            location: study.location(&geometry_key()),
+            run: shortened(name.clone(), LONGEST_NAME),
+            path: geometry.to_owned(),
+            source,
+        })?;
+    Ok(MeshPlan::new(
+        geometry,
+        numbers.collect(),
+        meshes,
+        &name,
+        &content,
+    ))
+}
+
+fn geometry_key() -> KeyPath {
+    KeyPath(vec!["geometry".to_owned()])
 }
 
 fn case_key() -> KeyPath {
@@ -280,7 +309,7 @@ fn safe(text: &str) -> String {
     text.trim().chars().map(letter).collect()
 }
 
-/// A name of at most so many bytes (of safe letters); a longer one is cut and told apart by a digest.
+/// A name of at most so many bytes (of safe letters); a longer one is cut and ends in a digest.
 fn shortened(name: String, longest: usize) -> String {
     if name.len() <= longest {
         return name;

@@ -26,7 +26,7 @@ pub(super) struct StudyProgress<'a> {
     /// Whether the names of results in the study were looked up in a run that has some.
     names_are_known: bool,
     begun: Instant,
-    /// Names of those that go on.
+    /// Names of the runs that go on.
     running: BTreeMap<String, String>,
 }
 

@@ -25,28 +25,28 @@ pub(super) struct Record {
     pub(super) version: String,
     /// The settings of the run on top of the base case.
     pub(super) settings: Vec<String>,
-    /// Its inputs.
+    /// Inputs of the run.
     pub(super) inputs: String,
-    /// Why it failed, if it did.
+    /// The reason why the run failed, if it did.
     pub(super) failed: Option<String>,
 }
 
 /// How far a run is.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Status {
-    /// It is done, with these results.
+    /// The run is done, with these results.
     Done(Quantities),
-    /// It failed when it was last tried.
+    /// The run failed when it was last tried.
     Failed(String),
-    /// It has no results.
+    /// The run has no results.
     Missing,
-    /// It has results of other inputs; how they differ.
+    /// The run has results of other inputs, which differ as the text says.
     Changed(String),
 }
 
 impl Status {
-    /// That of a run in a folder.
-    pub fn of(run: &Run, folder: &StudyFolder) -> Self {
+    /// The status of a run in a folder.
+    pub fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
         let text = fs::read_to_string(folder.record(run)).unwrap_or_default();
         let Ok(record) = serde_json::from_str::<Record>(&text) else {
             return Self::Missing;
@@ -76,7 +76,7 @@ impl Status {
 }
 
 impl Record {
-    fn of(run: &Run) -> Self {
+    fn for_run(run: &Run) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             settings: run.overrides.clone(),
@@ -96,7 +96,7 @@ pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
     forget(run, folder)?;
     // A link or a file in its place is not ours to remove; the run itself would refuse as well.
     ResultFolder::check(&folder.run(run), false)?;
-    Record::of(run).write(run, folder)
+    Record::for_run(run).write(run, folder)
 }
 
 /// Removes the results of a run, its summary first.
@@ -122,7 +122,7 @@ pub(super) fn forget(run: &Run, folder: &StudyFolder) -> Result<(), StudyError> 
 pub(super) fn fail(run: &Run, folder: &StudyFolder, reason: &str) -> anyhow::Result<()> {
     let record = Record {
         failed: Some(reason.to_owned()),
-        ..Record::of(run)
+        ..Record::for_run(run)
     };
     record.write(run, folder)
 }

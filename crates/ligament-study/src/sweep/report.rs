@@ -15,7 +15,6 @@ use super::table::{NoColumn, Row, StudyTable};
 use crate::quantities::{Quantities, QuantityError};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
-use ligament_plot::plots::Paper;
 use ligament_plot::plots::png::to_png;
 
 /// Width of a plot, mm, ...
@@ -52,7 +51,7 @@ pub(super) fn write(
     folder: &StudyFolder,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
-    let table = StudyTable::of(study, rows);
+    let table = StudyTable::from_rows(study, rows);
     table.write_csv(&folder.path().join("table.csv"))?;
 
     let title = if study.title.is_empty() {
@@ -75,7 +74,7 @@ pub(super) fn write(
         .collect();
     let mut drawn: Vec<Curves<'_>> = Vec::new();
     for (index, plot) in study.plots.iter().enumerate() {
-        match Curves::of(study, plot, runs, &table) {
+        match Curves::over_runs(study, plot, runs, &table) {
             Ok(mut curves) => {
                 let same = drawn
                     .iter()
@@ -98,12 +97,8 @@ pub(super) fn write(
         write_pivot(study, curves, out)?;
         write_fits(curves, out)?;
         let plot = curves.drawn(&title);
-        match plot.on(Paper::new(WIDTH, &plot.series)) {
-            Ok(svg) => {
-                let file = |ending| folder.path().join(format!("{}.{ending}", curves.name));
-                replace_file(&file("svg"), svg.as_bytes())?;
-                replace_file(&file("png"), &to_png(&svg, DPI)?)?;
-            }
+        match plot.for_paper(WIDTH) {
+            Ok(svg) => write_plot(folder, &curves.name, &svg)?,
             Err(error) => problems.push(error.to_string()),
         }
     }
@@ -154,6 +149,14 @@ pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> V
         }
     }
     unknown
+}
+
+/// Writes a plot as SVG and PNG.
+fn write_plot(folder: &StudyFolder, name: &str, svg: &str) -> anyhow::Result<()> {
+    let file = |ending| folder.path().join(format!("{name}.{ending}"));
+    replace_file(&file("svg"), svg.as_bytes())?;
+    replace_file(&file("png"), &to_png(svg, DPI)?)?;
+    Ok(())
 }
 
 fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {

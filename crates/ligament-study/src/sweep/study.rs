@@ -47,7 +47,7 @@ pub struct Derived {
     pub name: String,
     /// The result by its name (see [`crate::quantities`]).
     pub of: String,
-    /// What it is divided by.
+    /// Divisor of the result.
     pub over: f64,
 }
 
@@ -77,11 +77,11 @@ pub struct StudyPlot {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownLine {
-    /// Its slope.
+    /// Slope of the line.
     pub slope: f64,
-    /// Its y at x = 0.
+    /// Value of y at x = 0.
     pub intercept: f64,
-    /// What it is.
+    /// Label of the line.
     #[serde(default)]
     pub label: String,
 }
@@ -97,7 +97,7 @@ pub struct FitRange {
 }
 
 impl FitRange {
-    /// Whether it has the place x; its ends belong to it.
+    /// Whether the range contains x; its ends belong to it.
     pub fn contains(&self, x: f64) -> bool {
         self.from.is_none_or(|from| x >= from) && self.to.is_none_or(|to| x <= to)
     }
@@ -150,7 +150,8 @@ impl Study {
         let raw: RawStudy = decode(&document, &KeyPath::default())
             .map_err(|fault| source.error(in_study(fault)))?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let checked = Checked::of(&document, raw).map_err(|fault| source.error(fault))?;
+        let checked =
+            Checked::from_document(&document, raw).map_err(|fault| source.error(fault))?;
         Ok(Self {
             path: path.to_owned(),
             title: checked.title,
@@ -197,7 +198,7 @@ impl Study {
     }
 }
 
-/// What is checked of a study before its text is kept with it.
+/// A study whose parts were checked, before its text is kept with it.
 struct Checked {
     title: String,
     case: String,
@@ -209,7 +210,7 @@ struct Checked {
 }
 
 impl Checked {
-    fn of(document: &Node, raw: RawStudy) -> Result<Self, KeyFault> {
+    fn from_document(document: &Node, raw: RawStudy) -> Result<Self, KeyFault> {
         let root = KeyPath::default();
         require(
             !raw.case.is_empty(),

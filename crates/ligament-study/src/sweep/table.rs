@@ -13,7 +13,7 @@ use super::written::words;
 use crate::quantities::{Quantities, flatten};
 use ligament::suggestion::hint;
 
-/// What stands before the keys of inputs, so that they are told from results.
+/// Prefix of the keys of inputs, which distinguishes them from results.
 pub(super) const INPUT: &str = "case.";
 
 /// A row a run, in the order of the study.
@@ -26,9 +26,9 @@ pub struct StudyTable {
 /// A column: its cells have one type, or are null.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Its name.
+    /// Name of the column.
     pub name: String,
-    /// Its type.
+    /// Type of the cells.
     pub kind: Kind,
     /// A cell a run.
     pub cells: Vec<Cell>,
@@ -64,7 +64,7 @@ pub struct NoColumn {
 pub(super) struct Row<'a> {
     /// The run.
     pub(super) run: &'a Run,
-    /// How far it is.
+    /// Status of the run.
     pub(super) status: Status,
     /// The folder of its results.
     pub(super) folder: String,
@@ -72,7 +72,7 @@ pub(super) struct Row<'a> {
 
 impl StudyTable {
     /// The table of some runs.
-    pub(super) fn of(study: &Study, rows: &[Row<'_>]) -> Self {
+    pub(super) fn from_rows(study: &Study, rows: &[Row<'_>]) -> Self {
         let mut table = Self {
             columns: Vec::new(),
             rows: rows.len(),
@@ -148,7 +148,7 @@ impl StudyTable {
     }
 
     fn push(&mut self, name: String, mut cells: Vec<Cell>) {
-        let kind = Kind::of(&cells);
+        let kind = Kind::from_cells(&cells);
         for cell in &mut cells {
             if kind == Kind::Text && !cell.is_null() {
                 *cell = Cell::from(words(cell));
@@ -157,7 +157,7 @@ impl StudyTable {
         self.columns.push(Column { name, kind, cells });
     }
 
-    /// Its columns: run, status, axes, derived results, results, error, folder, inputs (`case.` before their keys).
+    /// Columns of the table: run, status, axes, derived results, results, error, folder, inputs (`case.` before their keys).
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -218,7 +218,7 @@ fn value(column: &Column, row: usize) -> Value<'_> {
 
 impl Kind {
     /// The narrowest that all cells have, of which null is any.
-    fn of(cells: &[Cell]) -> Self {
+    fn from_cells(cells: &[Cell]) -> Self {
         let all = |is: fn(&Cell) -> bool| cells.iter().all(|cell| cell.is_null() || is(cell));
         if cells.iter().all(Cell::is_null) {
             Self::Text
@@ -277,12 +277,12 @@ mod tests {
 
     #[test]
     fn columns_have_the_narrowest_type() {
-        assert_eq!(Kind::of(&[json!(1), json!(null)]), Kind::Integer);
-        assert_eq!(Kind::of(&[json!(1), json!(2.5)]), Kind::Number);
-        assert_eq!(Kind::of(&[json!(u64::MAX)]), Kind::Number);
-        assert_eq!(Kind::of(&[json!(true), json!(false)]), Kind::Truth);
-        assert_eq!(Kind::of(&[json!(1), json!("a")]), Kind::Text);
-        assert_eq!(Kind::of(&[json!(null)]), Kind::Text);
+        assert_eq!(Kind::from_cells(&[json!(1), json!(null)]), Kind::Integer);
+        assert_eq!(Kind::from_cells(&[json!(1), json!(2.5)]), Kind::Number);
+        assert_eq!(Kind::from_cells(&[json!(u64::MAX)]), Kind::Number);
+        assert_eq!(Kind::from_cells(&[json!(true), json!(false)]), Kind::Truth);
+        assert_eq!(Kind::from_cells(&[json!(1), json!("a")]), Kind::Text);
+        assert_eq!(Kind::from_cells(&[json!(null)]), Kind::Text);
     }
 
     #[test]

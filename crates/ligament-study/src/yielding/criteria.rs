@@ -7,7 +7,7 @@ use ligament_model::failure::{Criteria, Criterion, Measure, sliding, stretch};
 use ligament_model::yielding::{Family, PrincipalStretches, Worst, margin, printed_orientations};
 use ligament_model::{Isotropic, Plane};
 
-use super::YieldError;
+use super::error::YieldError;
 use ligament::suggestion::hint;
 
 /// A criterion with one limit.
@@ -71,7 +71,7 @@ impl FromStr for Combination {
 }
 
 impl Combination {
-    /// Those of the paper's figures: single ones, and both slidings with the limits of stretch.
+    /// Combinations in the paper's figures: single criteria, and both slidings with the limits of stretch.
     pub fn of_the_figures() -> Vec<Self> {
         use Part::{Compression, Frictional, Sliding, Tension};
         let named = |name: &str, parts: &[Part]| Self {
@@ -87,7 +87,7 @@ impl Combination {
         ]
     }
 
-    /// Its name.
+    /// Name of the combination.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -7,11 +7,11 @@ use ligament_model::yielding::locus::{LocusPoint, bond_locus, principal_locus};
 use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
 
-use super::SUMMARY;
+use super::request::SUMMARY;
 use super::subject::{Strain, Subject};
 use ligament_plot::plots::equal::EqualScales;
 use ligament_plot::plots::polar::PolarPlot;
-use ligament_plot::plots::{Colour, Mark, Plot, Series};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// Families of bonds under one criterion, or several of which the first that is met decides.
 #[derive(Debug, Clone)]
@@ -46,15 +46,6 @@ const ORIENTATION_STEP: f64 = 0.9;
 
 /// How far beyond the nearest point of the theoretical loci a diagram shows open ones.
 const WINDOW: f64 = 4.0;
-
-const COLOURS: [Colour; 6] = [
-    Colour::Blue,
-    Colour::Vermilion,
-    Colour::Green,
-    Colour::Purple,
-    Colour::Orange,
-    Colour::Sky,
-];
 
 /// Writes the tables `yield.csv`, `orientation.csv`, `locus.csv` and the diagrams of them.
 ///
@@ -154,7 +145,7 @@ fn polar(
 ) -> anyhow::Result<Option<PolarPlot>> {
     let criterion = &comparison.criterion;
     let mut series = Vec::new();
-    for (subject, colour) in comparison.subjects.iter().zip(COLOURS.iter().cycle()) {
+    for (subject, colour) in comparison.subjects.iter().zip(Colour::CYCLE.iter().cycle()) {
         let family = subject.family();
         let mut points = Vec::new();
         for k in 0..=400u32 {
@@ -174,7 +165,7 @@ fn polar(
                 ])?;
             }
         }
-        series.push(Series::new(&subject.name, Mark::Curve, *colour, points));
+        series.push(Series::curve(&subject.name, *colour, points));
     }
     let plot = PolarPlot {
         name: file_name(&format!("error-{}", strain.name), criterion),
@@ -186,31 +177,42 @@ fn polar(
     Ok(plot.series.iter().any(is_drawn).then_some(plot))
 }
 
+/// A row for each point of the locus of a family.
+fn append_locus(
+    table: &mut Table,
+    criterion: &str,
+    subject: &Subject,
+    points: &[LocusPoint],
+) -> Result<(), ligament_output::Error> {
+    for it in points {
+        table.append(&[
+            criterion.into(),
+            subject.name.as_str().into(),
+            it.path.to_degrees().into(),
+            it.theoretical.first.into(),
+            it.theoretical.second.into(),
+            it.effective.first.into(),
+            it.effective.second.into(),
+            it.bond.stretch.into(),
+            it.bond.shear.into(),
+            subject.criterion_name(it.criterion).into(),
+            it.error.into(),
+        ])?;
+    }
+    Ok(())
+}
+
 /// Loci in the planes of the principal stretches and of the bond's stretch and sliding.
 fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualScales>> {
     let criterion = &comparison.criterion;
     let (mut principal, mut bond) = (Vec::new(), Vec::new());
     let (mut theory, mut limits) = (Vec::new(), Vec::new());
-    for (subject, colour) in comparison.subjects.iter().zip(COLOURS.iter().cycle()) {
+    for (subject, colour) in comparison.subjects.iter().zip(Colour::CYCLE.iter().cycle()) {
         let family = subject.family();
         let points = principal_locus(&family, LOCUS_PATHS);
-        for it in &points {
-            table.append(&[
-                criterion.as_str().into(),
-                subject.name.as_str().into(),
-                it.path.to_degrees().into(),
-                it.theoretical.first.into(),
-                it.theoretical.second.into(),
-                it.effective.first.into(),
-                it.effective.second.into(),
-                it.bond.stretch.into(),
-                it.bond.shear.into(),
-                subject.criterion_name(it.criterion).into(),
-                it.error.into(),
-            ])?;
-        }
+        append_locus(table, criterion, subject, &points)?;
         let effective = around(&points, |it| it.effective);
-        principal.push(Series::new(&subject.name, Mark::Curve, *colour, effective));
+        principal.push(Series::curve(&subject.name, *colour, effective));
         for (place, piece) in deciding(&points).into_iter().enumerate() {
             let name = if place == 0 {
                 subject.name.as_str()
@@ -221,8 +223,8 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
                 .iter()
                 .map(|&[stretch, shear]| [stretch, -shear])
                 .collect();
-            bond.push(Series::new(name, Mark::Curve, *colour, piece));
-            bond.push(Series::new("", Mark::Curve, *colour, mirrored));
+            bond.push(Series::curve(name, *colour, piece));
+            bond.push(Series::curve("", *colour, mirrored));
         }
         if theory.is_empty() {
             theory = around(&points, |it| it.theoretical);
@@ -230,6 +232,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
             limits.extend(limits.first().copied());
         }
     }
+    let of_bond = "stretch and sliding of a bond";
     let mut plots = Vec::new();
     for (kind, title, [x, y], curves, dashes) in [
         (
@@ -239,18 +242,12 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
             principal,
             theory,
         ),
-        (
-            "bond",
-            "stretch and sliding of a bond",
-            ["s", "gamma"],
-            bond,
-            limits,
-        ),
+        ("bond", of_bond, ["s", "gamma"], bond, limits),
     ] {
         let Some(window) = window(&dashes) else {
             continue;
         };
-        let mut series = vec![Series::new("theory", Mark::Curve, Colour::Black, dashes)];
+        let mut series = vec![Series::curve("theory", Colour::Black, dashes)];
         series.extend(curves);
         plots.push(EqualScales {
             plot: Plot {

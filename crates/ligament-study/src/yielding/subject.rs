@@ -5,30 +5,30 @@ use ligament_model::failure::softening::brittle;
 use ligament_model::failure::{AfterLimit, Criteria, Criterion};
 use ligament_model::yielding::{Family, PrincipalStretches, Worst, lattice};
 
-use super::YieldError;
 use super::criteria::{Combination, Strengths};
+use super::error::YieldError;
 
 /// A family of bonds with its criteria and a name.
 #[derive(Debug, Clone)]
 pub struct Subject {
-    /// Its name: "m = 3", "node 12".
+    /// Name of the subject: "m = 3", "node 12".
     pub name: String,
     /// Number of bonds.
     pub size: usize,
     directions: Vec<f64>,
     criteria: Criteria,
-    /// What the measure of the tables takes, where it is a lattice.
+    /// Arguments of the measure of the paper's tables, where the subject is a lattice.
     printed: Option<(Combination, Strengths)>,
 }
 
 /// A uniform strain that diagrams are drawn for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strain {
-    /// Its name in files.
+    /// Name of the strain in files.
     pub name: &'static str,
-    /// What it is, in words.
+    /// The strain in words.
     pub words: &'static str,
-    /// Its principal stretches, of size one.
+    /// Principal stretches of the strain, of size one.
     pub stretches: PrincipalStretches,
 }
 
@@ -100,12 +100,12 @@ impl Subject {
         }
     }
 
-    /// Its bonds.
+    /// The bonds of the subject.
     pub fn family(&self) -> Family<'_> {
         Family::of_directions(&self.directions, &self.criteria)
     }
 
-    /// Names of its criteria.
+    /// Name of the criterion at a place.
     pub fn criterion_name(&self, place: usize) -> &'static str {
         self.criteria.list[place].name
     }

@@ -3,16 +3,16 @@
 use std::io::{self, Write};
 
 use super::Printable;
-use crate::{EXPERIMENTS, Experiment, Findings};
+use crate::experiment::{Experiment, Findings};
 
 /// Lists all experiments on the console.
-pub fn list(console: &mut dyn Write) -> io::Result<()> {
+pub fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::Result<()> {
     for Experiment {
         name,
         title,
         source,
         ..
-    } in &EXPERIMENTS
+    } in experiments
     {
         writeln!(console, "{name:<14}{title} ({source})")?;
     }
@@ -28,7 +28,7 @@ pub fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::Result<
 /// Shows the tables of an experiment on the console.
 pub fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
     for table in &findings.tables {
-        let Printable { head, rows, notes } = Printable::of(table);
+        let Printable { head, rows, notes } = Printable::from_table(table);
         writeln!(
             console,
             "\n  {}, {}",

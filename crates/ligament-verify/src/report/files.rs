@@ -4,9 +4,9 @@ use ligament_output::csv;
 use ligament_output::folder::ResultFolder;
 
 use crate::entry::Verdict;
+use crate::experiment::{Experiment, Findings};
 use crate::table::Table;
 use crate::tally::Tally;
-use crate::{Experiment, Findings};
 
 /// The file by which a folder is known to hold a report: a row an experiment.
 pub const SUMMARY: &str = "verification.csv";

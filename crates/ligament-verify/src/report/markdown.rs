@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use super::Printable;
 use crate::entry::Verdict;
+use crate::experiment::{Experiment, Findings};
 use crate::table::{Extent, Table};
 use crate::tally::Tally;
-use crate::{Experiment, Findings};
 
 /// The report as Markdown.
 pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
@@ -21,7 +21,7 @@ pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
         "\n| experiment | source | entries | {words} |\n|{dashes}\n"
     );
     for (experiment, findings) in done {
-        let tally = Tally::of(findings);
+        let tally = Tally::from_findings(findings);
         let counts = tally.counts().map(|count| count.to_string()).join(" | ");
         let (name, source, entries) = (experiment.name, experiment.source, tally.entries());
         let _ = writeln!(
@@ -69,7 +69,7 @@ what an entry changes in them is its labels, such as `--set material.poisson=0.1
 
 fn push_table(text: &mut String, table: &Table) {
     let heading = &table.heading;
-    let Printable { head, rows, notes } = Printable::of(table);
+    let Printable { head, rows, notes } = Printable::from_table(table);
     let _ = write!(
         text,
         "\n### {}\n\n{}. Source: {}.\n\n| {} |\n|{}\n",

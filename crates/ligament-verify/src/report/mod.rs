@@ -18,7 +18,7 @@ struct Printable {
 }
 
 impl Printable {
-    fn of(table: &Table) -> Self {
+    fn from_table(table: &Table) -> Self {
         let mut notes: Vec<String> = Vec::new();
         let rows = table
             .rows
@@ -79,9 +79,9 @@ mod tests {
     use super::files::{SUMMARY, Summary};
     use super::*;
     use crate::entry::Verdict;
+    use crate::experiment::{Experiment, Findings};
     use crate::table::{Extent, Known, Labels};
     use crate::tally::Tally;
-    use crate::{Experiment, Findings};
 
     const TABLE: &str = "\
 # title: First mode
@@ -155,7 +155,7 @@ nu,known,allowed,subset,standing,instead,reason
 
     #[test]
     fn tallies_add_up_and_are_told() {
-        let tally = Tally::of(&findings().unwrap());
+        let tally = Tally::from_findings(&findings().unwrap());
         let sum: Tally = [tally, tally].into_iter().sum();
         assert_eq!((sum.entries(), sum.count(Verdict::Failed)), (6, 2));
         assert_eq!(tally.to_string(), "3 entries: 1 met, 1 misprint, 1 FAILED");
@@ -169,7 +169,9 @@ nu,known,allowed,subset,standing,instead,reason
         let mut summary = Summary::create(&folder).unwrap();
         let findings = findings().unwrap();
         files::write(&folder, &findings).unwrap();
-        summary.append(&EXPERIMENT, &Tally::of(&findings)).unwrap();
+        summary
+            .append(&EXPERIMENT, &Tally::from_findings(&findings))
+            .unwrap();
         let text = std::fs::read_to_string(folder.file("t4.csv")).unwrap();
         let row = "0.1,2025.5,2053.2,digits,misprint,2053,\"digits exchanged, as ...\"";
         assert!(text.lines().any(|line| line == row), "{text}");

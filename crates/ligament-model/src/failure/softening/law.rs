@@ -5,17 +5,17 @@
 /// The functions take the law's parameter (any number where it has none) and the largest kappa = e/e_0 so far.
 #[derive(Debug, Clone, Copy)]
 pub struct Law {
-    /// The word for it in case files and in results.
+    /// Word of the law in case files and in results.
     pub word: &'static str,
-    /// What the force does, a sentence.
+    /// Sentence on what the force does.
     pub words: &'static str,
     /// What the force does, in few words; the parameter follows, if there is one.
     pub force: &'static str,
-    /// Its parameter, if it has one.
+    /// Parameter of the law, if there is one.
     pub parameter: Option<Parameter>,
     /// Whether a bond goes on after its limit at all.
     pub softens: bool,
-    /// Why only bonds that slide follow it, if that is so.
+    /// Reason why only bonds that slide may follow the law, if that is so.
     pub sliding_because: Option<&'static str>,
     /// The bond past its limit.
     pub at: fn(f64, f64) -> Softened,
@@ -28,9 +28,9 @@ pub struct Law {
 /// The parameter of a law of softening.
 #[derive(Debug, Clone, Copy)]
 pub struct Parameter {
-    /// Its key in a case file.
+    /// Key of the parameter in a case file.
     pub key: &'static str,
-    /// What it must be greater than.
+    /// Value that the parameter must exceed.
     pub above: f64,
     /// Why no other law takes the key.
     pub of_it_alone: &'static str,

@@ -1,0 +1,25 @@
+//! Errors that stop an analysis.
+
+use ligament_linalg::{FactorError, PatternError};
+use thiserror::Error;
+
+use crate::history::ObserverError;
+
+/// What stops an analysis with an error.
+#[derive(Debug, Error)]
+pub enum SetupError {
+    /// The system of equations could not be set up.
+    #[error("the pattern of the stiffness matrix is broken: {0}")]
+    Pattern(#[from] PatternError),
+    /// The symbolic analysis failed.
+    #[error(transparent)]
+    Analysis(#[from] FactorError),
+    /// The exact path was asked for with bonds that soften.
+    #[error(
+        "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
+    )]
+    Softening,
+    /// An observer could not do its part.
+    #[error(transparent)]
+    Observer(#[from] ObserverError),
+}

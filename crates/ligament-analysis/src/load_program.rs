@@ -1,0 +1,123 @@
+//! Programmes of loading: what acts on a body at each pseudo-time.
+
+mod proportional;
+
+use std::fmt::Debug;
+
+use crate::internal::InternalForces;
+use crate::unknowns::COMPONENTS;
+use ligament_model::thermal::ThermalStrain;
+
+pub use proportional::{BoundaryError, ProportionalLoading};
+
+/// A programme of loading: supports, prescribed motions, forces and temperatures as functions of a pseudo-time t.
+///
+/// Drivers choose t, the load factor of a state, and everything else asks the programme. Which degrees of freedom have a
+/// prescribed motion does not depend on t, so that the unknowns are the same all the way. Degrees of freedom are numbered as in
+/// the displacements of a [`State`](crate::State).
+pub trait LoadProgram: Debug + Send + Sync {
+    /// Whether the motion of a degree of freedom is prescribed.
+    fn is_prescribed(&self, degree_of_freedom: usize) -> bool;
+
+    /// Gives displacements (n_degrees_of_freedom, m and rad) their prescribed values at a time.
+    fn prescribe(&self, time: f64, displacement: &mut [f64]);
+
+    /// Given forces at some degrees of freedom, in their order, N and N m.
+    fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64>;
+
+    /// Largest size of a given force or moment, N or N m.
+    fn largest_force(&self, time: f64) -> f64;
+
+    /// Strains that the temperature gives without stress.
+    fn thermal_strain(&self, time: f64) -> ThermalStrain<'_>;
+
+    /// Changes of the temperature, shape (n_points), K; empty where no temperature changes at any time.
+    fn temperature_change(&self, time: f64) -> Vec<f64>;
+
+    /// Degrees of freedom that something moves or loads at some time, ascending: no other one does work.
+    fn loaded_degrees_of_freedom(&self) -> Vec<u32>;
+
+    /// Reactions of supports and prescribed motions to internal forces (n_degrees_of_freedom), N and N m: internal less given
+    /// force where the motion is prescribed, zero elsewhere.
+    fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64>;
+
+    /// Groups whose resultants the history reports.
+    fn groups(&self) -> &[BoundaryGroup];
+
+    /// Resultant of the given forces that act through a group, N and N m.
+    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> [f64; COMPONENTS];
+
+    /// The load whose displacement and force are the axes of the force-displacement curve.
+    fn control(&self) -> &Control;
+
+    /// Displacement of the control load along its direction in a state of these displacements, m, rad or K, or m^3 with a
+    /// pressure: the prescribed one, or the mean that does the work of the given forces.
+    fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64;
+
+    /// Force that the control load exerts along its direction, N, N m or J/K: what does its work.
+    fn control_force(&self, time: f64, internal: &InternalForces) -> f64;
+}
+
+/// A supported or loaded set of points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoundaryGroup {
+    /// Name in the history.
+    pub name: String,
+    /// Points, ascending.
+    pub points: Vec<u32>,
+    /// Resultant of the given forces that act through this group at load factor 1, N and N m.
+    pub force: [f64; COMPONENTS],
+}
+
+/// The load whose displacement and force are the axes of the force-displacement curve.
+///
+/// Displacement and force are work-conjugate: force times the increment of displacement is the work of this load, whatever its distribution.
+/// With the load's `shape` w_i (n_points, components x, y and rotation) and `magnitude` m at load factor lambda
+///
+/// - prescribed motions are u_i = lambda m w_i: the displacement is lambda m, the force the sum of w_i . R_i over the
+///   reactions R_i;
+/// - given forces are F_i = lambda m w_i: the force is lambda m, the displacement the sum of w_i . u_i;
+/// - a temperature changes by lambda m at most: the displacement is that, K, the force what does the work with it,
+///   -sum over the bonds of force . thermal deformation for m = 1 K, J/K.
+///
+/// So a load that is the same everywhere has the sum of its forces and the mean of its displacements along it, a bending
+/// load the moments of both about its zero. A pressure has no resultant where it acts all round: its magnitude is the
+/// pressure and its shape the areas with their normals into the body, so that the force is the pressure and the displacement
+/// the volume by which its surface gave way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Control {
+    /// Whether the motion or the force is given.
+    pub kind: ControlKind,
+    /// Points of the load.
+    pub points: Vec<u32>,
+    /// What each of them takes of a load of size one, in (x, y, rotation).
+    pub shape: Vec<[f64; COMPONENTS]>,
+    /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa),
+    /// before a profile.
+    pub magnitude: f64,
+}
+
+/// What a load prescribes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ControlKind {
+    /// The motion of its points.
+    Displacement,
+    /// The force on its points.
+    Force,
+    /// The temperature.
+    Temperature,
+}
+
+impl Control {
+    /// Sum over the points of shape . value, for values at degrees of freedom.
+    pub(crate) fn along(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let of_point = |(&point, shape): (&u32, &[f64; COMPONENTS])| {
+            let first = COMPONENTS * point as usize;
+            let components = shape.iter().enumerate();
+            components
+                .map(|(component, share)| value(first + component) * share)
+                .sum::<f64>()
+        };
+        self.points.iter().zip(&self.shape).map(of_point).sum()
+    }
+}

@@ -1,0 +1,194 @@
+//! Proportional loading: everything grows with one load factor.
+
+use thiserror::Error;
+
+use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
+use crate::internal::InternalForces;
+use crate::unknowns::{COMPONENTS, Component};
+use ligament_model::thermal::ThermalStrain;
+
+/// Loads that are all proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor
+/// one, and what the history reports of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProportionalLoading {
+    /// Prescribed value of each degree of freedom at load factor 1, shape (3 n_points), m or rad.
+    pub prescribed: Vec<Option<f64>>,
+    /// External force or moment on each degree of freedom at load factor 1, shape (3 n_points), N or N m.
+    pub force: Vec<f64>,
+    /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
+    pub temperature_change: Vec<f64>,
+    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, at load factor 1, shape
+    /// (n_points); empty where no temperature changes.
+    pub thermal_strain: Vec<[f64; 3]>,
+    /// Groups whose resultant the history reports.
+    pub groups: Vec<BoundaryGroup>,
+    /// What `displacement` and `reaction` of the history mean.
+    pub control: Control,
+}
+
+/// Why supports and loads do not go together.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum BoundaryError {
+    /// Two entries prescribe different values of one degree of freedom.
+    #[error("component {component} of point {point} is prescribed as {first} and as {second}")]
+    Conflict {
+        /// Point index.
+        point: u32,
+        /// Component name.
+        component: &'static str,
+        /// Value prescribed first, at load factor 1.
+        first: f64,
+        /// Value prescribed second, at load factor 1.
+        second: f64,
+    },
+}
+
+impl ProportionalLoading {
+    /// A body of `n_points` points that nothing holds or loads but the motion or force of `control`, which is still to be
+    /// added by [`ProportionalLoading::prescribe`] or [`ProportionalLoading::add_force`].
+    pub fn new(n_points: usize, control: Control) -> Self {
+        Self {
+            prescribed: vec![None; COMPONENTS * n_points],
+            force: vec![0.0; COMPONENTS * n_points],
+            temperature_change: Vec::new(),
+            thermal_strain: Vec::new(),
+            groups: Vec::new(),
+            control,
+        }
+    }
+
+    /// Prescribes a component of some points: `value` at load factor 1. The same value twice is no conflict.
+    pub fn prescribe(
+        &mut self,
+        points: &[u32],
+        component: Component,
+        value: f64,
+    ) -> Result<(), BoundaryError> {
+        for &point in points {
+            let slot = &mut self.prescribed[COMPONENTS * point as usize + component.index()];
+            match *slot {
+                Some(first) if first != value => {
+                    return Err(BoundaryError::Conflict {
+                        point,
+                        component: component.name(),
+                        first,
+                        second: value,
+                    });
+                }
+                _ => *slot = Some(value),
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a force or couple on a component of one point, N or N m at load factor 1.
+    pub fn add_force(&mut self, point: u32, component: Component, force: f64) {
+        self.force[COMPONENTS * point as usize + component.index()] += force;
+    }
+
+    /// Adds a group to the history, with the resultant of its own given forces at load factor 1.
+    ///
+    /// The same points under the same name are one group however many supports and loads act on them; other points
+    /// under the same name get a number.
+    pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: [f64; COMPONENTS]) {
+        let mut same_name = self.groups.iter_mut().filter(|group| group.name == name);
+        if let Some(group) = same_name.find(|group| group.points == points) {
+            group.force = [0, 1, 2].map(|component| group.force[component] + force[component]);
+            return;
+        }
+        let earlier = self
+            .groups
+            .iter()
+            .filter(|group| group.name == name)
+            .count();
+        let name = match earlier {
+            0 => name.to_owned(),
+            _ => format!("{name}-{}", earlier + 1),
+        };
+        self.groups.push(BoundaryGroup {
+            name,
+            points,
+            force,
+        });
+    }
+}
+
+impl LoadProgram for ProportionalLoading {
+    fn is_prescribed(&self, degree_of_freedom: usize) -> bool {
+        self.prescribed[degree_of_freedom].is_some()
+    }
+
+    fn prescribe(&self, time: f64, displacement: &mut [f64]) {
+        for (displacement, value) in displacement.iter_mut().zip(&self.prescribed) {
+            if let Some(value) = value {
+                *displacement = value * time;
+            }
+        }
+    }
+
+    fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64> {
+        let force = |&dof: &u32| self.force[dof as usize] * time;
+        degrees_of_freedom.iter().map(force).collect()
+    }
+
+    fn largest_force(&self, time: f64) -> f64 {
+        let sizes = self.force.iter().map(|force| force.abs());
+        sizes.fold(0.0, f64::max) * time.abs()
+    }
+
+    fn thermal_strain(&self, time: f64) -> ThermalStrain<'_> {
+        ThermalStrain::proportional(&self.thermal_strain, time)
+    }
+
+    fn temperature_change(&self, time: f64) -> Vec<f64> {
+        let changes = self.temperature_change.iter();
+        changes.map(|change| time * change).collect()
+    }
+
+    fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
+        let is_moved = |dof: usize| self.prescribed[dof].is_some_and(|value| value != 0.0);
+        let is_loaded = |&dof: &u32| self.force[dof as usize] != 0.0 || is_moved(dof as usize);
+        (0..self.force.len() as u32).filter(is_loaded).collect()
+    }
+
+    fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64> {
+        let prescribed = self.prescribed.iter().enumerate();
+        prescribed
+            .map(|(dof, value)| match value {
+                Some(_) => internal_forces[dof] - time * self.force[dof],
+                None => 0.0,
+            })
+            .collect()
+    }
+
+    fn groups(&self) -> &[BoundaryGroup] {
+        &self.groups
+    }
+
+    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> [f64; COMPONENTS] {
+        group.force.map(|force| time * force)
+    }
+
+    fn control(&self) -> &Control {
+        &self.control
+    }
+
+    fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
+        match self.control.kind {
+            ControlKind::Displacement | ControlKind::Temperature => self.control.magnitude * time,
+            ControlKind::Force => self.control.along(|dof| displacement[dof]),
+        }
+    }
+
+    fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {
+        let control = &self.control;
+        match control.kind {
+            ControlKind::Force => control.magnitude * time,
+            ControlKind::Temperature => internal.thermal / control.magnitude,
+            ControlKind::Displacement => control.along(|dof| match self.prescribed[dof] {
+                Some(_) => internal.values[dof] - time * self.force[dof],
+                None => 0.0,
+            }),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Masses of the degrees of freedom.
+
+use ligament_model::LumpedMass;
+
+use super::mode::Rotations;
+use crate::unknowns::{COMPONENTS, Component, Unknowns};
+
+/// Displacements closer than this (relative) to the largest one count as largest.
+const TIE: f64 = 1e-6;
+
+/// Masses of the degrees of freedom.
+pub(super) struct Masses {
+    /// Mass of each degree of freedom, zero where it is known or has none, shape (3 n_points).
+    of_dof: Vec<f64>,
+    /// Degrees of freedom that are no unknowns.
+    known: Vec<usize>,
+}
+
+impl Masses {
+    /// Masses of the unknowns.
+    pub(super) fn new(mass: &LumpedMass, unknowns: &Unknowns, rotations: Rotations) -> Self {
+        let of_component = |dof: usize| match (Component::at(dof), rotations) {
+            (Component::X | Component::Y, _) => mass.mass[dof / COMPONENTS],
+            (Component::Rotation, Rotations::Inertia) => mass.inertia[dof / COMPONENTS],
+            (Component::Rotation, Rotations::Massless) => 0.0,
+        };
+        let n_dofs = COMPONENTS * mass.mass.len();
+        Self {
+            of_dof: (0..n_dofs)
+                .map(|dof| unknowns.number(dof).map_or(0.0, |_| of_component(dof)))
+                .collect(),
+            known: (0..n_dofs)
+                .filter(|&dof| unknowns.number(dof).is_none())
+                .collect(),
+        }
+    }
+
+    /// Mass of each degree of freedom, zero where it is known or has none, shape (3 n_points).
+    pub(super) fn of_dof(&self) -> &[f64] {
+        &self.of_dof
+    }
+
+    /// Sets what cannot move to zero.
+    pub(super) fn clear_known(&self, shape: &mut [f64]) {
+        for &dof in &self.known {
+            shape[dof] = 0.0;
+        }
+    }
+
+    /// Takes from a shape what lies along orthonormal others.
+    pub(super) fn remove(&self, others: &[Vec<f64>], shape: &mut [f64]) {
+        for other in others {
+            let along = inner(&self.of_dof, other, shape);
+            for (value, other) in shape.iter_mut().zip(other) {
+                *value -= along * other;
+            }
+        }
+    }
+
+    /// Scales a shape to phi^T M phi = 1; the first of the largest displacements becomes positive.
+    pub(super) fn normalise(&self, shape: &mut [f64]) {
+        let norm = inner(&self.of_dof, shape, shape).sqrt();
+        let displacements = || {
+            let is_displacement = |(dof, _): &(usize, &f64)| dof % COMPONENTS < 2;
+            shape.iter().enumerate().filter(is_displacement)
+        };
+        let largest = displacements().fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
+        let first = displacements().find(|(_, value)| value.abs() >= (1.0 - TIE) * largest);
+        let sign = first.map_or(1.0, |(_, value)| value.signum());
+        let factor = sign / norm;
+        shape.iter_mut().for_each(|value| *value *= factor);
+    }
+}
+
+/// Sum of weight a b.
+pub(super) fn inner(weight: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    let products = weight.iter().zip(a).zip(b);
+    products.map(|((weight, a), b)| weight * a * b).sum()
+}

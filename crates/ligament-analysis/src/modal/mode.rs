@@ -1,0 +1,66 @@
+//! A natural mode.
+
+/// Residual of a mode above which the user is told.
+pub const RESIDUAL_TOLERANCE: f64 = 1e-8;
+
+/// What becomes of the rotations of the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rotations {
+    /// They have the inertia J_i.
+    Inertia,
+    /// They have none and follow the displacements.
+    Massless,
+}
+
+/// A natural mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// Whether it is a rigid motion.
+    pub kind: ModeKind,
+    /// omega^2, 1/s^2.
+    pub eigenvalue: f64,
+    /// Largest |K phi - omega^2 M phi| over the forces that meet at a point.
+    pub residual: f64,
+    /// phi^T M r for the rigid motions r of size one along x, along y and about the centre of mass, kg^(1/2), kg^(1/2) and
+    /// kg^(1/2) m: their squares are the effective masses and inertia.
+    pub participation: Vec<f64>,
+    /// Displacements and rotations, shape (3 n_points): phi^T M phi = 1 kg, and the first of the largest displacements is
+    /// positive.
+    pub shape: Vec<f64>,
+    /// Strain energy density of this motion, shape (n_points), J/m^3.
+    pub strain_energy_density: Vec<f64>,
+}
+
+/// Kinds of modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModeKind {
+    /// A motion that costs no energy.
+    Rigid,
+    /// Any other.
+    Elastic,
+}
+
+impl ModeKind {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Elastic => "elastic",
+        }
+    }
+}
+
+impl Mode {
+    /// omega, rad/s: 0 for a rigid motion, NaN where omega^2 is negative.
+    pub fn angular_frequency(&self) -> f64 {
+        match self.kind {
+            ModeKind::Rigid => 0.0,
+            ModeKind::Elastic => self.eigenvalue.sqrt(),
+        }
+    }
+
+    /// omega/(2 pi), Hz.
+    pub fn frequency(&self) -> f64 {
+        self.angular_frequency() / std::f64::consts::TAU
+    }
+}

@@ -1,0 +1,51 @@
+//! Solvers of the equations of an equilibrium, kept up while bonds break.
+
+pub(crate) mod direct;
+mod terms;
+pub(crate) mod unsymmetric;
+
+use ligament_linalg::{FactorError, Inertia};
+
+use crate::breakage::Breakage;
+use crate::costs::Costs;
+use crate::state::State;
+use ligament_model::thermal::ThermalStrain;
+
+/// A solver of K du = f with the tangent stiffness K of a state.
+///
+/// Corrections and forces are at the unknowns, shape (n_unknowns). A solver may be exact or only near: the residual of a state
+/// is always taken from its bonds.
+pub(crate) trait TangentSolver {
+    /// Takes in a breakage and gives the correction that it asks for, where both can be had together: K' du = (K - K') u with the
+    /// matrix K' of the bonds that are left.
+    fn follow(
+        &mut self,
+        breakage: &Breakage,
+        state: &State,
+        expansion: ThermalStrain<'_>,
+        costs: &mut Costs,
+    ) -> Option<Vec<f64>>;
+
+    /// Takes in how far bonds have softened.
+    fn weaken(&mut self, state: &State, costs: &mut Costs);
+
+    /// Gets ready to solve for a state; gives the unknowns that nothing holds, by their vanishing pivots. Those must be held in
+    /// the state, and the solver made ready again.
+    ///
+    /// # Errors
+    ///
+    /// If K has no factor.
+    fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError>;
+
+    /// The correction for forces that nothing balances, zero where the state is held. The solver must be ready.
+    fn solve(&mut self, state: &State, force: Vec<f64>, costs: &mut Costs) -> Vec<f64>;
+
+    /// Whether what the solver has of K went through changes, and with them through rounding.
+    fn is_changed(&self) -> bool;
+
+    /// Makes the solver start anew from the bonds the next time.
+    fn forget(&mut self);
+
+    /// Numbers of positive and negative eigenvalues of K; none where they are not known.
+    fn inertia(&self) -> Option<Inertia>;
+}

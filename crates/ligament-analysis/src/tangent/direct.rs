@@ -1,0 +1,223 @@
+//! Direct solution with a symmetric factor, L L^T or L D L^T, that is changed in place or made anew.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use ligament_linalg::{FactorError, Factorisation, Inertia, SymmetricMatrix, VANISHING_PIVOT};
+use ligament_model::element::Remaining;
+
+use super::TangentSolver;
+use super::terms::{Coupled, due_bonds};
+use crate::breakage::Breakage;
+use crate::costs::Costs;
+use crate::solver::{SolverChoice, Update};
+use crate::state::State;
+use crate::stiffness::Stiffness;
+use ligament_model::thermal::ThermalStrain;
+
+/// A direct solver for symmetric stiffnesses.
+pub(crate) struct DirectSolver {
+    stiffness: Arc<Stiffness>,
+    factor: Option<Box<dyn Factorisation>>,
+    /// A factor that is out of date: its memory is used again.
+    stale: Option<Box<dyn Factorisation>>,
+    /// Degrees of freedom that were held when the factor was made, and so are cut off from the others.
+    cut_off: Vec<bool>,
+    /// Whether the factor was changed since it was made.
+    is_changed: bool,
+    /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
+    remaining: Vec<Remaining>,
+    /// Elements that were lost or changed so far.
+    n_changed: usize,
+}
+
+impl DirectSolver {
+    /// A solver without a factor yet.
+    pub(crate) fn new(stiffness: Arc<Stiffness>) -> Self {
+        Self {
+            stiffness,
+            factor: None,
+            stale: None,
+            cut_off: Vec::new(),
+            is_changed: false,
+            remaining: Vec::new(),
+            n_changed: 0,
+        }
+    }
+
+    fn coupled(&self) -> Coupled<'_> {
+        Coupled {
+            stiffness: &self.stiffness,
+            cut_off: &self.cut_off,
+        }
+    }
+
+    /// Forgets the factor where `n_elements` changes are too many for a change in place, or it is time to make it anew.
+    fn forget_unless_in_place(&mut self, n_elements: usize) {
+        let SolverChoice {
+            update,
+            rebuild_every,
+            most_bonds_in_place,
+            ..
+        } = *self.stiffness.choice();
+        let period_before = self.n_changed / rebuild_every;
+        self.n_changed += n_elements;
+        let in_place = update == Update::Incremental
+            && self.n_changed / rebuild_every == period_before
+            && n_elements <= most_bonds_in_place;
+        if !in_place {
+            self.forget();
+        }
+    }
+
+    /// Takes the rounding off a correction where the state is held.
+    fn keep_held(&self, state: &State, correction: &mut [f64]) {
+        let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
+        for (value, &dof) in correction.iter_mut().zip(dofs) {
+            if state.held[dof as usize] {
+                *value = 0.0;
+            }
+        }
+    }
+}
+
+impl TangentSolver for DirectSolver {
+    fn follow(
+        &mut self,
+        breakage: &Breakage,
+        state: &State,
+        expansion: ThermalStrain<'_>,
+        costs: &mut Costs,
+    ) -> Option<Vec<f64>> {
+        if self.factor.is_none() || (breakage.bonds.is_empty() && breakage.holds.is_empty()) {
+            return None;
+        }
+        self.forget_unless_in_place(breakage.n_elements());
+        let mut factor = self.factor.take()?;
+        let start = Instant::now();
+        let coupled = self.coupled();
+        let terms = coupled.of_breakage(breakage);
+        // A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there: up to rounding,
+        // which is taken away. For this the forces at the holds must be in the right-hand side.
+        let force = breakage.unbalanced_force(&state.displacement, expansion);
+        let force: Vec<(usize, f64)> = (force.into_iter())
+            .filter_map(|(dof, value)| Some((coupled.number(dof)?, value)))
+            .collect();
+        let half_solved = factor.change(&terms, &force);
+        costs.change += start.elapsed();
+        costs.changes += 1;
+        // After a change that failed the factor is made anew, and that tells what is wrong if anything is.
+        let Ok(half_solved) = half_solved else {
+            self.stale = Some(factor);
+            return None;
+        };
+        let start = Instant::now();
+        let mut correction = factor.finish(half_solved);
+        self.keep_held(state, &mut correction);
+        costs.backward += start.elapsed();
+        costs.solves += 1;
+        self.is_changed = true;
+        self.factor = Some(factor);
+        Some(correction)
+    }
+
+    fn weaken(&mut self, state: &State, costs: &mut Costs) {
+        if self.factor.is_none() {
+            return;
+        }
+        // A factor of the elastic body has all of every bond.
+        let n_bonds = state.softening.remaining.len();
+        self.remaining.resize(n_bonds, Remaining::WHOLE);
+        let due = due_bonds(&self.remaining, state);
+        if due.is_empty() {
+            return;
+        }
+        self.forget_unless_in_place(due.len());
+        let Some(mut factor) = self.factor.take() else {
+            return;
+        };
+        let start = Instant::now();
+        let mut in_factor = std::mem::take(&mut self.remaining);
+        let terms = self.coupled().of_softening(&due, &mut in_factor, state);
+        self.remaining = in_factor;
+        let changed = factor.change(&terms, &[]);
+        costs.change += start.elapsed();
+        costs.changes += 1;
+        match changed {
+            Ok(_) => {
+                self.is_changed = true;
+                self.factor = Some(factor);
+            }
+            Err(_) => self.stale = Some(factor),
+        }
+    }
+
+    fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
+        if self.factor.is_some() {
+            return Ok(Vec::new());
+        }
+        let start = Instant::now();
+        let matrix = self.stiffness.assemble(state);
+        costs.assembly += start.elapsed();
+        let start = Instant::now();
+        let factor = match self.stale.take() {
+            Some(mut stale) => stale.refactorise(&matrix).map(|()| stale),
+            None => {
+                let kind = self.stiffness.choice().factorisation;
+                kind.factorise(self.stiffness.symbolic(), &matrix)
+            }
+        };
+        costs.factorisation += start.elapsed();
+        costs.factorisations += 1;
+        let vanishing = match &factor {
+            Ok(factor) => vanishing_pivots(factor.as_ref(), &matrix),
+            Err(
+                FactorError::ZeroPivot { unknown } | FactorError::NotPositiveDefinite { unknown },
+            ) => vec![*unknown],
+            Err(other) => return Err(other.clone()),
+        };
+        if vanishing.is_empty() {
+            self.factor = factor.ok();
+            self.cut_off.clone_from(&state.held);
+            self.remaining.clone_from(&state.softening.remaining);
+            self.is_changed = false;
+        }
+        Ok(vanishing)
+    }
+
+    fn solve(&mut self, state: &State, mut force: Vec<f64>, costs: &mut Costs) -> Vec<f64> {
+        let start = Instant::now();
+        let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
+        for (value, &dof) in force.iter_mut().zip(dofs) {
+            if self.cut_off[dof as usize] {
+                *value = 0.0;
+            }
+        }
+        if let Some(factor) = &mut self.factor {
+            factor.solve_in_place(&mut force);
+        }
+        self.keep_held(state, &mut force);
+        costs.solves += 1;
+        costs.solve += start.elapsed();
+        force
+    }
+
+    fn is_changed(&self) -> bool {
+        self.factor.is_some() && self.is_changed
+    }
+
+    fn forget(&mut self) {
+        self.stale = self.factor.take().or(self.stale.take());
+    }
+
+    fn inertia(&self) -> Option<Inertia> {
+        self.factor.as_ref().map(|factor| factor.inertia())
+    }
+}
+
+fn vanishing_pivots(factor: &dyn Factorisation, matrix: &SymmetricMatrix) -> Vec<usize> {
+    let pivots = factor.pivots();
+    (0..pivots.len())
+        .filter(|&i| pivots[i].abs() < VANISHING_PIVOT * matrix.diagonal(i).abs())
+        .collect()
+}

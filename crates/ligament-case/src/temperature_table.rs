@@ -1,0 +1,59 @@
+//! Temperatures from a table of comma-separated values.
+
+use std::path::Path;
+
+use ligament::setup::Sample;
+
+/// The rows of a file, each with its line; else what is wrong with the file.
+pub(crate) fn rows_of(path: &Path) -> Result<Vec<(usize, Sample)>, String> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
+    rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
+}
+
+/// The rows below the header; blank lines and those that begin with # say nothing.
+fn rows(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
+    // Spreadsheets begin their files with a byte order mark.
+    let lines = text.trim_start_matches('\u{feff}').lines();
+    let mut lines = (1..)
+        .zip(lines.map(str::trim))
+        .filter(|(_, text)| !text.is_empty() && !text.starts_with('#'));
+    let expected = "the first row must name the columns `x`, `y` (m) and `change` (K)";
+    let Some((line, header)) = lines.next() else {
+        return Err((1, format!("the file is empty: {expected}")));
+    };
+    let names: Vec<&str> = header.split(',').map(name_of).collect();
+    let column = |wanted: &str| {
+        let place = names.iter().position(|&name| name == wanted);
+        place.ok_or_else(|| (line, format!("there is no column `{wanted}`: {expected}")))
+    };
+    let columns = [column("x")?, column("y")?, column("change")?];
+    let row = |(line, text): (usize, &str)| {
+        let values: Vec<&str> = text.split(',').map(str::trim).collect();
+        if values.len() != names.len() {
+            let reason = format!(
+                "{} values, but the header names {} columns",
+                values.len(),
+                names.len()
+            );
+            return Err((line, reason));
+        }
+        let value = |column: usize| {
+            let number = values[column].parse::<f64>().ok();
+            number
+                .filter(|number| number.is_finite())
+                .ok_or_else(|| (line, format!("`{}` is no number", values[column])))
+        };
+        let [x, y, change] = columns;
+        let sample = Sample {
+            position: [value(x)?, value(y)?],
+            change: value(change)?,
+        };
+        Ok((line, sample))
+    };
+    lines.map(row).collect()
+}
+
+fn name_of(text: &str) -> &str {
+    text.trim().trim_matches('"')
+}

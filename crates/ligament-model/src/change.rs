@@ -1,0 +1,148 @@
+//! The elements that a breakage changes.
+//!
+//! The bonds that break lose their elements, and elements that lean on them change.
+
+use crate::element::{BondDeformation, Element, Elements, Term, UNKNOWNS};
+use crate::system::{BondsLeft, Typed};
+use crate::thermal::ThermalStrain;
+
+/// The elements that bonds change which break together.
+pub trait ChangedElements: std::fmt::Debug {
+    /// Number of elements that change.
+    fn n_elements(&self) -> usize;
+
+    /// Terms of the stiffness that the elements had before.
+    fn lost_terms(&self) -> Vec<Term>;
+
+    /// Terms of the stiffness that the elements have afterwards.
+    fn gained_terms(&self) -> Vec<Term>;
+
+    /// Force that nothing balances any more, for displacements (n_degrees_of_freedom): what the elements exerted on their
+    /// points, less what they exert now; parts of it with their degrees of freedom.
+    fn unbalanced_force(
+        &self,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+    ) -> Vec<(usize, f64)>;
+
+    /// Energy released at a fixed load, with the displacements after it (n_degrees_of_freedom), J:
+    /// 1/2 u^T (K_before - K_after) u'.
+    fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64;
+}
+
+/// An element that a breakage changes.
+#[derive(Debug, Clone, PartialEq)]
+struct ChangedElement<E> {
+    /// Ends of its bond.
+    ends: [u32; 2],
+    /// The element before, with its deformation when the bonds break.
+    before: (E, BondDeformation),
+    /// The element after, with its deformation then; none if its bond itself breaks.
+    after: Option<(E, BondDeformation)>,
+}
+
+impl<E: Elements> Typed<'_, E> {
+    /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    pub(crate) fn changed(
+        self,
+        left: BondsLeft<'_>,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        bonds: &[u32],
+    ) -> Box<dyn ChangedElements> {
+        let ends = &self.system.bonds.ends;
+        let deformed = |bond: usize, element: E::Element| {
+            let deformation = deformation(&element, ends[bond], displacement, expansion);
+            (element, deformation)
+        };
+        let broken = bonds.iter().filter_map(|&bond| {
+            let bond = bond as usize;
+            Some(ChangedElement {
+                ends: ends[bond],
+                before: deformed(bond, self.left(left, bond)?),
+                after: None,
+            })
+        });
+        let mut elements: Vec<ChangedElement<E::Element>> = broken.collect();
+        let leaning = self.elements.leaning(bonds);
+        if !leaning.is_empty() {
+            let mut intact = left.intact.to_vec();
+            for &bond in bonds {
+                intact[bond as usize] = false;
+            }
+            elements.extend(leaning.into_iter().filter_map(|bond| {
+                let bond = bond as usize;
+                let [before, after] = [left.intact, &intact].map(|intact| self.whole(intact, bond));
+                (intact[bond] && before != after).then(|| ChangedElement {
+                    ends: ends[bond],
+                    before: deformed(bond, before),
+                    after: Some(deformed(bond, after)),
+                })
+            }));
+        }
+        Box::new(elements)
+    }
+}
+
+impl<E: Element> ChangedElements for Vec<ChangedElement<E>> {
+    fn n_elements(&self) -> usize {
+        self.len()
+    }
+
+    fn lost_terms(&self) -> Vec<Term> {
+        self.iter().flat_map(|it| it.before.0.terms()).collect()
+    }
+
+    fn gained_terms(&self) -> Vec<Term> {
+        let after = self.iter().filter_map(|it| it.after.as_ref());
+        after.flat_map(|(element, _)| element.terms()).collect()
+    }
+
+    fn unbalanced_force(
+        &self,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+    ) -> Vec<(usize, f64)> {
+        let mut parts = Vec::new();
+        let mut add = |ends: [u32; 2], element: &E, sign: f64| {
+            let deformation = deformation(element, ends, displacement, expansion);
+            element.forces(&deformation, |point, values| {
+                let first = UNKNOWNS * point as usize;
+                parts.extend((first..).zip(values.map(|value| sign * value)));
+            });
+        };
+        for it in self {
+            add(it.ends, &it.before.0, 1.0);
+            if let Some((after, _)) = &it.after {
+                add(it.ends, after, -1.0);
+            }
+        }
+        parts
+    }
+
+    fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
+        let of_element = |it: &ChangedElement<E>| {
+            let mutual = |(element, before): &(E, BondDeformation)| {
+                let now = deformation(element, it.ends, displacement, expansion);
+                element.mutual_energy(before, &now)
+            };
+            mutual(&it.before) - it.after.as_ref().map_or(0.0, mutual)
+        };
+        self.iter().map(of_element).sum()
+    }
+}
+
+/// Deformation of an element without what its temperature gives it.
+fn deformation<E: Element>(
+    element: &E,
+    ends: [u32; 2],
+    displacement: &[f64],
+    expansion: ThermalStrain<'_>,
+) -> BondDeformation {
+    let total = element.deformation(displacement);
+    if expansion.is_none() {
+        total
+    } else {
+        total.less(&element.deformation_in(expansion.of_bond(ends)))
+    }
+}

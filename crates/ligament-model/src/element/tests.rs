@@ -1,0 +1,359 @@
+//! What every element must keep, over a table of all of them.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use super::beam::BeamBond;
+use super::imaginary::{ImaginaryElements, StrainStiffness};
+use super::pair::Pairs;
+use super::pairwise::PairwiseElements;
+use super::spring::SpringBond;
+use super::true_strain::TrueStrainElements;
+use super::*;
+
+/// Points of a square lattice with four a side, which stands turned and off the origin only where elements may.
+const SIDE: usize = 4;
+
+/// A set of elements with its bonds: every pair up to two spacings apart.
+struct Body<E> {
+    positions: Vec<[f64; 2]>,
+    bonds: BondSet,
+    rigidities: Rigidities,
+    elements: E,
+}
+
+fn positions(angle: f64) -> Vec<[f64; 2]> {
+    let (sin, cos) = f64::sin_cos(angle);
+    let place = |number: usize| {
+        let [x, y] = [number % SIDE, number / SIDE].map(|it| 0.35 * it as f64);
+        [2.0 + cos * x - sin * y, -1.0 + sin * x + cos * y]
+    };
+    // Rows and columns have equal coordinates to the last bit.
+    if angle == 0.0 {
+        let at = |it: usize| 0.35 * it as f64;
+        return (0..SIDE * SIDE)
+            .map(|it| [at(it % SIDE), at(it / SIDE)])
+            .collect();
+    }
+    (0..SIDE * SIDE).map(place).collect()
+}
+
+fn bonds(positions: &[[f64; 2]]) -> BondSet {
+    let offset = |[a, b]: [usize; 2]| [0, 1].map(|axis| positions[b][axis] - positions[a][axis]);
+    let pairs = (0..positions.len()).flat_map(|a| (a + 1..positions.len()).map(move |b| [a, b]));
+    let near: Vec<[usize; 2]> = pairs
+        .filter(|&pair| {
+            let [x, y] = offset(pair);
+            x.hypot(y) < 0.8
+        })
+        .collect();
+    let ends: Vec<[u32; 2]> = near.iter().map(|pair| pair.map(|it| it as u32)).collect();
+    let length: Vec<f64> = near
+        .iter()
+        .map(|&pair| offset(pair))
+        .map(|[x, y]| x.hypot(y))
+        .collect();
+    let direction = near.iter().zip(&length);
+    BondSet {
+        incidence: Incidence::new(&ends, positions.len()),
+        direction: direction
+            .map(|(&pair, l)| offset(pair).map(|it| it / l))
+            .collect(),
+        horizon: vec![0.8; ends.len()],
+        length,
+        ends,
+    }
+}
+
+fn body<E>(angle: f64, shear_sign: f64, elements: impl Fn(&BondSet, &[[f64; 2]]) -> E) -> Body<E> {
+    let positions = positions(angle);
+    let bonds = bonds(&positions);
+    let varied = |size: f64| {
+        (0..bonds.len())
+            .map(|it| size * (1.0 + 0.1 * (it % 7) as f64))
+            .collect()
+    };
+    Body {
+        rigidities: Rigidities {
+            axial: varied(5.0),
+            shear: varied(3.0 * shear_sign),
+            rotational: varied(0.2 * shear_sign),
+        },
+        elements: elements(&bonds, &positions),
+        positions,
+        bonds,
+    }
+}
+
+fn lattice(bonds: &BondSet, positions: &[[f64; 2]]) -> ImaginaryElements {
+    let stiffness = StrainStiffness {
+        entries: [5.0, 1.5, 0.3, 4.0, -0.2, 2.0],
+        first_share: 0.5,
+    };
+    ImaginaryElements::new(bonds, positions.to_vec(), vec![stiffness; bonds.len()])
+}
+
+/// What an element promises beside symmetry and translations.
+#[derive(Clone, Copy)]
+struct Promise {
+    /// A rotation of the body costs nothing.
+    turns: bool,
+    /// Forces are the derivative of an energy.
+    energy: bool,
+    /// Forces are linear, and the stiffness is their derivative.
+    linear: bool,
+}
+
+const ALL: Promise = Promise {
+    turns: true,
+    energy: true,
+    linear: true,
+};
+
+/// The table: a row an element, with the check that goes over all its bonds.
+fn for_every_element(mut check: impl Check) {
+    let pairs = |_: &BondSet, _: &[[f64; 2]]| Pairs::<BeamBond>::default();
+    check.check("beam", &body(0.6, 1.0, pairs), ALL);
+    check.check("beam, negative shear", &body(0.6, -1.0, pairs), ALL);
+    let springs = |_: &BondSet, _: &[[f64; 2]]| Pairs::<SpringBond>::default();
+    check.check(
+        "spring",
+        &body(0.6, 1.0, springs),
+        Promise {
+            turns: false,
+            ..ALL
+        },
+    );
+    check.check("central spring", &body(0.6, 0.0, springs), ALL);
+    check.check("imaginary", &body(0.0, 1.0, lattice), ALL);
+    let true_strains = |bonds: &BondSet, positions: &[[f64; 2]]| TrueStrainElements {
+        lattice: lattice(bonds, positions),
+    };
+    let promise = Promise {
+        energy: false,
+        linear: false,
+        ..ALL
+    };
+    check.check("true strain", &body(0.0, 1.0, true_strains), promise);
+    let pairwise = |bonds: &BondSet, positions: &[[f64; 2]]| PairwiseElements {
+        lattice: lattice(bonds, positions),
+        row_factors: vec![[1.2, 0.9, 1.1]; bonds.len()],
+        spacing: vec![0.35; positions.len()],
+    };
+    let promise = Promise {
+        energy: false,
+        ..ALL
+    };
+    check.check("pairwise", &body(0.0, 1.0, pairwise), promise);
+}
+
+trait Check {
+    fn check<E: Elements>(&mut self, name: &str, body: &Body<E>, promise: Promise);
+}
+
+impl<E: Elements> Body<E> {
+    fn element(&self, bond: usize) -> E::Element {
+        let intact = vec![true; self.bonds.len()];
+        self.elements
+            .element(&self.bonds, &self.rigidities, &intact, bond)
+    }
+
+    fn n(&self) -> usize {
+        UNKNOWNS * self.positions.len()
+    }
+
+    /// Some unknowns of all points, of the size of small strains.
+    fn unknowns(&self) -> Vec<f64> {
+        let some = |it: usize| 1e-3 * ((7 * it + 3) % 11) as f64 - 4e-3;
+        (0..self.n()).map(some).collect()
+    }
+
+    /// A rigid motion moves a point by translation + rotation x position, and turns it by the rotation.
+    fn rigid(&self, translation: [f64; 2], rotation: f64) -> Vec<f64> {
+        let at = |p: &[f64; 2]| {
+            let [x, y] = translation;
+            [x - rotation * p[1], y + rotation * p[0], rotation]
+        };
+        self.positions.iter().flat_map(at).collect()
+    }
+}
+
+fn force<E: Element>(element: &E, u: &[f64]) -> Vec<f64> {
+    let mut force = vec![0.0; u.len()];
+    element.forces(&element.deformation(u), |point, values| {
+        for (component, value) in values.into_iter().enumerate() {
+            force[UNKNOWNS * point as usize + component] += value;
+        }
+    });
+    force
+}
+
+fn size(values: &[f64]) -> f64 {
+    values.iter().map(|it| it.abs()).fold(0.0, f64::max)
+}
+
+/// The difference quotient of a function along one unknown.
+fn slope<T>(u: &[f64], at: usize, of: impl Fn(&[f64]) -> T) -> [T; 2] {
+    [-1.0, 1.0].map(|sign| {
+        let mut moved = u.to_vec();
+        moved[at] += sign * STEP;
+        of(&moved)
+    })
+}
+
+const STEP: f64 = 1e-4;
+
+struct RigidMotions;
+
+impl Check for RigidMotions {
+    /// Rounding of forces of size 50 bounds a zero at 1e-12.
+    fn check<E: Elements>(&mut self, name: &str, body: &Body<E>, promise: Promise) {
+        for bond in 0..body.bonds.len() {
+            let element = body.element(bond);
+            let costs = |u: &[f64]| size(&force(&element, u));
+            for translation in [[1.0, 0.0], [0.0, 1.0]] {
+                assert!(costs(&body.rigid(translation, 0.0)) < 1e-12, "{name}");
+            }
+            // True strains take the rotation of a finite angle for a strain of its square.
+            let rotation = if promise.linear { 1.0 } else { 1e-7 };
+            let turned = costs(&body.rigid([0.3, -0.2], rotation));
+            let tolerance = if promise.linear { 1e-12 } else { 1e-11 };
+            assert_eq!(turned < tolerance, promise.turns, "{name}: {turned:e}");
+            assert!(costs(&body.unknowns()) > 1e-3, "the test must see forces");
+        }
+    }
+}
+
+#[test]
+fn rigid_motions_cost_nothing() {
+    for_every_element(RigidMotions);
+}
+
+struct Balance;
+
+impl Check for Balance {
+    fn check<E: Elements>(&mut self, name: &str, body: &Body<E>, _: Promise) {
+        for bond in 0..body.bonds.len() {
+            let found = force(&body.element(bond), &body.unknowns());
+            for component in 0..2 {
+                let of_points = found.iter().skip(component).step_by(UNKNOWNS);
+                let sum: f64 = of_points.sum();
+                assert!(sum.abs() < 1e-14 * found.len() as f64, "{name}: {sum:e}");
+            }
+        }
+    }
+}
+
+/// Forces of every element are in balance; sums of some 0.1 N round to 1e-16.
+#[test]
+fn forces_are_in_balance() {
+    for_every_element(Balance);
+}
+
+struct Derivatives;
+
+impl Check for Derivatives {
+    fn check<E: Elements>(&mut self, name: &str, body: &Body<E>, promise: Promise) {
+        let u = body.unknowns();
+        for bond in (0..body.bonds.len()).step_by(5) {
+            let element = body.element(bond);
+            let found = force(&element, &u);
+            let energy = |u: &[f64]| {
+                let deformation = element.deformation(u);
+                element.mutual_energy(&deformation, &deformation)
+            };
+            let n = body.n();
+            let mut stiffness = vec![vec![0.0; n]; n];
+            element.derivatives(|row, column, value| stiffness[column][row] += value);
+            for (at, column) in stiffness.iter().enumerate() {
+                if promise.energy {
+                    let [backward, forward] = slope(&u, at, energy);
+                    let slope = (forward - backward) / (2.0 * STEP);
+                    assert!((slope - found[at]).abs() < 1e-10, "{name}: force {at}");
+                }
+                if promise.linear {
+                    let [backward, forward] = slope(&u, at, |u| force(&element, u));
+                    let both = forward.iter().zip(&backward);
+                    let slopes =
+                        both.map(|(forward, backward)| (forward - backward) / (2.0 * STEP));
+                    let off: Vec<f64> = slopes.zip(column).map(|(a, b)| a - b).collect();
+                    assert!(size(&off) < 1e-9, "{name}: column {at}");
+                }
+            }
+            if promise.energy && promise.linear {
+                assert_blocks(name, body, &element, &stiffness);
+            }
+        }
+    }
+}
+
+/// The blocks of the assembly are those of the stiffness.
+fn assert_blocks<E: Elements>(
+    name: &str,
+    body: &Body<E>,
+    element: &E::Element,
+    stiffness: &[Vec<f64>],
+) {
+    let mut seen = 0.0_f64;
+    for point in 0..body.positions.len() as u32 {
+        element.upper_blocks(point, |other, block| {
+            for (r, row) in block.iter().enumerate() {
+                for (c, value) in row.iter().enumerate() {
+                    let [row, column] = [(other, r), (point, c)]
+                        .map(|(point, component)| UNKNOWNS * point as usize + component);
+                    assert!((value - stiffness[column][row]).abs() < 1e-11, "{name}");
+                    seen = seen.max(value.abs());
+                }
+            }
+        });
+    }
+    assert!(seen > 1.0, "the test must see blocks");
+}
+
+/// force = d energy / du and stiffness = d force / du by central differences; both are exact for a quadratic energy, so that
+/// only rounding (1e-16 / 1e-4 steps) remains.
+#[test]
+fn forces_and_stiffness_are_derivatives() {
+    for_every_element(Derivatives);
+}
+
+/// Turning a pair and its unknowns together leaves the energy as it is.
+#[test]
+fn energy_does_not_depend_on_the_orientation() {
+    let energies = |angle: f64| {
+        let (sin, cos) = f64::sin_cos(angle - 0.4);
+        let both = |turn: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let beams = body(angle, 1.0, |_, _| Pairs::<BeamBond>::default());
+            let springs = body(angle, 1.0, |_, _| Pairs::<SpringBond>::default());
+            let u = turn(&beams.unknowns());
+            let beam = beams.element(7);
+            let spring = springs.element(7);
+            let [one, other] = [beam.deformation(&u), spring.deformation(&u)];
+            [
+                beam.mutual_energy(&one, &one),
+                spring.mutual_energy(&other, &other),
+            ]
+        };
+        both(&|u| {
+            let of_point = |m: &[f64]| [cos * m[0] - sin * m[1], sin * m[0] + cos * m[1], m[2]];
+            u.chunks(UNKNOWNS).flat_map(of_point).collect()
+        })
+    };
+    let reference = energies(0.4);
+    for turn in [0.3, 1.2, 2.9, -2.0] {
+        for (found, expected) in energies(0.4 + turn).into_iter().zip(reference) {
+            assert!((found / expected - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+/// A spring bond does not know a rotation of the body from a shear, and rotations of its ends do nothing.
+#[test]
+fn a_rotation_shears_a_spring() {
+    let springs = body(0.6, 1.0, |_, _| Pairs::<SpringBond>::default());
+    let element = springs.element(7);
+    let turned = element.deformation(&springs.rigid([0.3, -0.2], 1.0));
+    assert!((turned.shear - 1.0).abs() < 1e-14);
+    let ends: Vec<f64> = (0..springs.n())
+        .map(|it| if it % UNKNOWNS == 2 { 0.7 } else { 0.0 })
+        .collect();
+    assert_eq!(element.deformation(&ends), BondDeformation::default());
+}

@@ -1,0 +1,55 @@
+//! What the preparation of a model finds and an analysis does not change.
+
+/// Fields of points and bonds that an analysis does not change, beside those of the bond system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FixedFields {
+    /// Horizons, shape (n_points), m.
+    pub horizon: Vec<f64>,
+    /// Share of its bonds that pre-cracks cut, shape (n_points).
+    pub precrack_share: Vec<f64>,
+    /// Energy density over the continuum's for uniaxial x, uniaxial y, biaxial and shear strain, shape (4, n_points).
+    pub energy_ratios: [Vec<f64>; 4],
+    /// Omega of each bond, shape (n_bonds).
+    pub domain_factor: Vec<f64>,
+    /// Points whose bonds never fail, shape (n_points).
+    pub no_fail: Vec<bool>,
+    /// Pairs within a horizon that are no bonds, in the order of their ends.
+    pub absent: Vec<AbsentBond>,
+}
+
+/// A pair of points, one in the horizon of the other, that is no bond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AbsentBond {
+    /// Points A < B.
+    pub ends: [u32; 2],
+    /// Bond horizon H, m.
+    pub horizon: f64,
+    /// What separates them.
+    pub absence: Absence,
+}
+
+/// Why two points within a horizon are not bonded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Absence {
+    /// A pre-crack cut the bond.
+    PreCrack,
+    /// A hole lies between them.
+    Hole,
+}
+
+impl Absence {
+    /// The number that stands for the reason in files.
+    pub fn number(self) -> i64 {
+        match self {
+            Self::PreCrack => 1,
+            Self::Hole => 2,
+        }
+    }
+
+    /// The reason that a number in a file stands for; None for a bond.
+    pub fn from_number(number: i64) -> Option<Self> {
+        [Self::PreCrack, Self::Hole]
+            .into_iter()
+            .find(|absence| absence.number() == number)
+    }
+}

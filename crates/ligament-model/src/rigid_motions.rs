@@ -1,0 +1,337 @@
+//! The rigid motions of some points that cost no energy, and what of them degrees of freedom hold.
+
+use crate::element::UNKNOWNS;
+use crate::layout::Component;
+
+/// Below this sine of the angle to what is held already, a degree of freedom holds no further rigid motion.
+const RANK_TOLERANCE: f64 = 1e-6;
+
+/// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
+/// spread over many points, and below what results are read to.
+const BALANCE_TOLERANCE: f64 = 1e-6;
+
+/// A rigid motion: displacements along x and y at the middle, and the angle times the radius.
+type Motion = [f64; UNKNOWNS];
+
+/// The rigid motions of some points, about their middle and scaled by their size: two translations, and the rotation where
+/// it costs no energy either.
+pub(crate) struct RigidMotions<'a> {
+    positions: &'a [[f64; 2]],
+    centre: [f64; 2],
+    radius: f64,
+    turn: Turn,
+}
+
+/// What the rotation of some points as a whole costs and moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// It costs energy: bonds between points without rotations resist it by their shear.
+    Costly,
+    /// It is free and moves the points; their own rotations have no stiffness, so that holding one holds nothing.
+    OfPositions,
+    /// It is free, and the points turn along.
+    OfPointsAlong,
+}
+
+impl<'a> RigidMotions<'a> {
+    /// Those of `points` among `positions`.
+    pub(crate) fn new(positions: &'a [[f64; 2]], points: &[u32], turn: Turn) -> Self {
+        let chosen = || points.iter().map(|&point| positions[point as usize]);
+        let centre =
+            [0, 1].map(|axis| chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
+        let radius = chosen()
+            .map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1]))
+            .fold(0.0, f64::max);
+        Self {
+            positions,
+            centre,
+            radius: if radius > 0.0 { radius } else { 1.0 },
+            turn,
+        }
+    }
+
+    /// How many there are.
+    fn count(&self) -> usize {
+        match self.turn {
+            Turn::Costly => 2,
+            Turn::OfPositions | Turn::OfPointsAlong => 3,
+        }
+    }
+
+    /// How the motions (x, y, rotation) move a degree of freedom, m a m (a rotation: as an angle times the radius).
+    fn row(&self, degree_of_freedom: usize) -> Motion {
+        let position = self.positions[degree_of_freedom / UNKNOWNS];
+        let [x, y] = [0, 1].map(|axis| (position[axis] - self.centre[axis]) / self.radius);
+        let [turn_x, turn_y, turn] = match self.turn {
+            Turn::Costly => [0.0; 3],
+            Turn::OfPositions => [-y, x, 0.0],
+            Turn::OfPointsAlong => [-y, x, 1.0],
+        };
+        match Component::at(degree_of_freedom) {
+            Component::X => [1.0, 0.0, turn_x],
+            Component::Y => [0.0, 1.0, turn_y],
+            Component::Rotation => [0.0, 0.0, turn],
+        }
+    }
+
+    /// What a motion does to a degree of freedom, m or rad.
+    fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
+        let value = dot(self.row(degree_of_freedom), motion);
+        match Component::at(degree_of_freedom) {
+            Component::Rotation => value / self.radius,
+            Component::X | Component::Y => value,
+        }
+    }
+
+    /// Orthonormal directions of the motions that the spanned ones leave, translations first.
+    fn left_by(&self, spanned: &[Motion]) -> Vec<Motion> {
+        let mut all = spanned.to_vec();
+        for motion in 0..self.count() {
+            let mut unit = [0.0; UNKNOWNS];
+            unit[motion] = 1.0;
+            let rest = without(unit, &all);
+            let norm = dot(rest, rest).sqrt();
+            if norm > RANK_TOLERANCE {
+                all.push(rest.map(|value| value / norm));
+            }
+        }
+        all.split_off(spanned.len())
+    }
+
+    /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
+    fn work(&self, motion: Motion, forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
+        forces.fold([0.0; 2], |[work, size], (dof, force)| {
+            let force = match Component::at(dof) {
+                Component::Rotation => force / self.radius,
+                Component::X | Component::Y => force,
+            };
+            [
+                work + force * dot(self.row(dof), motion),
+                size + force.abs(),
+            ]
+        })
+    }
+
+    /// What of a degree of freedom the spanned directions do not hold (the directions are orthonormal).
+    fn remainder(&self, spanned: &[Motion], degree_of_freedom: usize) -> Motion {
+        let row = self.row(degree_of_freedom);
+        let norm = dot(row, row).sqrt();
+        if norm == 0.0 {
+            return row;
+        }
+        without(row.map(|value| value / norm), spanned)
+    }
+
+    /// Adds the direction that a degree of freedom holds, if there is a new one.
+    fn extend(&self, spanned: &mut Vec<Motion>, degree_of_freedom: usize) {
+        let rest = self.remainder(spanned, degree_of_freedom);
+        let norm = dot(rest, rest).sqrt();
+        if norm > RANK_TOLERANCE {
+            spanned.push(rest.map(|value| value / norm));
+        }
+    }
+
+    /// Orthonormal directions of the motions that the fixed degrees of freedom of some points hold.
+    fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<Motion> {
+        let mut spanned = Vec::new();
+        for dof in degrees_of_freedom(points).filter(|&dof| is_fixed(dof)) {
+            self.extend(&mut spanned, dof);
+            if spanned.len() == self.count() {
+                break;
+            }
+        }
+        spanned
+    }
+
+    /// The degree of freedom that holds most of what the spanned directions do not.
+    fn most_independent(
+        &self,
+        spanned: &[Motion],
+        candidates: impl Iterator<Item = usize>,
+    ) -> Option<usize> {
+        let mut best = None;
+        let mut largest = RANK_TOLERANCE * RANK_TOLERANCE;
+        for dof in candidates {
+            let rest = self.remainder(spanned, dof);
+            if dot(rest, rest) > largest {
+                (best, largest) = (Some(dof), dot(rest, rest));
+            }
+        }
+        best
+    }
+
+    /// Of the motions along x, along y and of rotation those that the spanned directions leave free: translations of the
+    /// whole by 1 m, and a rotation by an angle of 1 rad about the place that they hold, or the middle.
+    fn free(&self, spanned: &[Motion]) -> [Option<Motion>; UNKNOWNS] {
+        let mut held = spanned.to_vec();
+        let mut free = [None; UNKNOWNS];
+        for axis in 0..2 {
+            let mut unit = [0.0; UNKNOWNS];
+            unit[axis] = 1.0;
+            if spanned
+                .iter()
+                .all(|direction| direction[axis].abs() < RANK_TOLERANCE)
+            {
+                free[axis] = Some(unit);
+                held.push(unit);
+            }
+        }
+        let turn = without([0.0, 0.0, 1.0], &held);
+        if held.len() < self.count() && turn[2] > RANK_TOLERANCE {
+            free[2] = Some(turn.map(|value| value / turn[2] * self.radius));
+        }
+        free
+    }
+
+    /// The degrees of freedom that hold what the fixed ones leave free of the motions of `points`, in the order in which they
+    /// are found; those that hold most first. `can_hold` tells what has a stiffness.
+    pub(crate) fn holds(
+        &self,
+        points: &[u32],
+        is_fixed: impl Fn(usize) -> bool,
+        can_hold: impl Fn(usize) -> bool,
+    ) -> Vec<usize> {
+        let mut spanned = self.spanned_by(points, &is_fixed);
+        let mut holds = Vec::new();
+        while spanned.len() < self.count() {
+            let candidates =
+                degrees_of_freedom(points).filter(|&dof| can_hold(dof) && !is_fixed(dof));
+            let Some(best) = self.most_independent(&spanned, candidates) else {
+                break;
+            };
+            self.extend(&mut spanned, best);
+            holds.push(best);
+        }
+        holds
+    }
+
+    /// Displacements and rotations of `points` in each of the motions that no fixed degree of freedom prevents, shape
+    /// (motions, degrees of freedom of the points).
+    pub(crate) fn free_shapes(
+        &self,
+        points: &[u32],
+        is_fixed: impl Fn(usize) -> bool,
+    ) -> Vec<Vec<f64>> {
+        let free = self.left_by(&self.spanned_by(points, is_fixed));
+        let shape = |&motion| {
+            let dofs = degrees_of_freedom(points);
+            dofs.map(|dof| self.value(dof, motion)).collect()
+        };
+        free.iter().map(shape).collect()
+    }
+
+    /// The motions of `points` that no fixed degree of freedom prevents, with the work that forces (by degree of freedom, N
+    /// and N m) do on them.
+    pub(crate) fn free_motions(
+        &self,
+        points: &[u32],
+        is_fixed: impl Fn(usize) -> bool,
+        force: impl Fn(usize) -> f64,
+    ) -> Vec<FreeMotion> {
+        let spanned = self.spanned_by(points, is_fixed);
+        let free = Component::ALL.into_iter().zip(self.free(&spanned));
+        let free = free.filter_map(|(component, motion)| Some((component, motion?)));
+        free.map(|(component, motion)| {
+            let forces = degrees_of_freedom(points).map(|dof| (dof, force(dof)));
+            let [load, size] = self.work(motion, forces);
+            let parts = motion.iter().map(|part| part.abs());
+            let length = parts.fold(0.0, f64::max);
+            FreeMotion {
+                component,
+                load,
+                imbalance: if load == 0.0 {
+                    0.0
+                } else {
+                    load.abs() / (size * length)
+                },
+            }
+        })
+        .collect()
+    }
+}
+
+/// A rigid motion that nothing holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreeMotion {
+    /// A translation along an axis, or the rotation.
+    pub component: Component,
+    /// Force of the given loads at load factor 1 along it, N; for the rotation the moment about the place that is held, or
+    /// the middle of the points, N m.
+    pub load: f64,
+    /// Its work relative to the sizes of the loads on the part, 0 to 1.
+    pub imbalance: f64,
+}
+
+impl FreeMotion {
+    /// Whether the loads are in equilibrium along it.
+    pub fn is_balanced(&self) -> bool {
+        self.imbalance <= BALANCE_TOLERANCE
+    }
+}
+
+/// Degrees of freedom of some points, in their order.
+fn degrees_of_freedom(points: &[u32]) -> impl Iterator<Item = usize> {
+    let of_point = |&point: &u32| (0..UNKNOWNS).map(move |c| UNKNOWNS * point as usize + c);
+    points.iter().flat_map(of_point)
+}
+
+/// What of a vector is orthogonal to some orthonormal directions.
+fn without(vector: Motion, directions: &[Motion]) -> Motion {
+    directions.iter().fold(vector, |rest, direction| {
+        let share = dot(rest, *direction);
+        [0, 1, 2].map(|i| rest[i] - share * direction[i])
+    })
+}
+
+fn dot(one: Motion, other: Motion) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of four points; supports given by their degrees of freedom (point, component). No rotation can be held where
+    /// the points have none.
+    fn holds_of_square(turn: Turn, fixed: &[usize]) -> Vec<usize> {
+        let positions = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        let points = [0, 1, 2, 3];
+        let motions = RigidMotions::new(&positions, &points, turn);
+        let can_hold = |dof: usize| turn == Turn::OfPointsAlong || dof % UNKNOWNS < 2;
+        motions.holds(&points, |dof| fixed.contains(&dof), can_hold)
+    }
+
+    /// Three gauges where the rotation is free, two where it costs energy: a third would be a support that nobody asked for.
+    #[test]
+    fn a_free_body_needs_as_many_gauges_as_it_has_free_motions() {
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[]).len(), 3);
+        let two = holds_of_square(Turn::Costly, &[]);
+        assert_eq!(two, [0, 1], "x and y of the first point");
+    }
+
+    /// Supports count for the motions that they hold: x at one point leaves y, and the rotation where that is free; x at two
+    /// heights holds the rotation as well, which is one support too many where it needs none.
+    #[test]
+    fn supports_take_the_place_of_gauges() {
+        assert_eq!(holds_of_square(Turn::Costly, &[0]), [1]);
+        assert_eq!(holds_of_square(Turn::Costly, &[0, 9]), [1]);
+        assert_eq!(holds_of_square(Turn::Costly, &[0, 4]), [0; 0]);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0]).len(), 2);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 9]).len(), 1);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 4, 9]), [0; 0]);
+    }
+
+    /// A held rotation of a point holds no translation, and nothing at all where the body does not turn freely.
+    #[test]
+    fn a_held_rotation_of_a_point_is_no_translation() {
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[2]).len(), 2);
+        assert_eq!(holds_of_square(Turn::Costly, &[2]), [0, 1]);
+    }
+
+    /// Where rotations of points have no stiffness, a clamped point still lets the body turn about it.
+    #[test]
+    fn a_held_rotation_without_stiffness_holds_nothing() {
+        assert_eq!(holds_of_square(Turn::OfPositions, &[0, 1, 2]).len(), 1);
+        assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 1, 2]).len(), 0);
+    }
+}

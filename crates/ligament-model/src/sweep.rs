@@ -1,0 +1,210 @@
+//! Deformations, internal forces and energies of the bonds.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::element::{BondDeformation, Element, Elements, UNKNOWNS};
+use crate::system::{BondsLeft, Typed};
+use crate::thermal::ThermalStrain;
+
+/// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
+/// too. Each part adds to forces of its own at all points, so more parts cost memory.
+const PARTS: usize = 4;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 2048;
+
+/// What a sweep over all bonds gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BondSweep {
+    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    pub deformations: Vec<BondDeformation>,
+    /// Internal forces of the intact bonds.
+    pub internal: InternalForces,
+    /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
+    pub stored_energy: f64,
+    /// What they would store if what the temperature gives them at load factor 1 were their deformation, J.
+    pub expansion_energy: f64,
+}
+
+impl BondSweep {
+    /// Energy 1/2 u^T K u that the motions of the points alone would store at a load factor lambda, J: with the deformations
+    /// beyond the expansion, B u - lambda e, the stored energy is 1/2 (B u - lambda e) C (B u - lambda e).
+    ///
+    /// A stable body has a positive one. Its stored energy need not be: where bonds have negative stiffnesses, expansions that
+    /// do not fit together may store less than nothing.
+    pub fn energy_of_motion(&self, load_factor: f64) -> f64 {
+        self.stored_energy
+            + load_factor * (load_factor * self.expansion_energy - self.internal.thermal)
+    }
+}
+
+/// Internal forces and the sizes that their residual is compared with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InternalForces {
+    /// Sum of the bonds' end forces K u at each degree of freedom, shape (3 n_points), N and N m.
+    pub values: Vec<f64>,
+    /// Largest sum of |end forces| that meet at a point along one axis, N.
+    pub force_scale: f64,
+    /// Largest sum of |end moments| that meet at a point, N m.
+    pub moment_scale: f64,
+    /// -sum over the bonds of force . thermal deformation, for the one at load factor 1: what does work while it grows, J.
+    pub thermal: f64,
+}
+
+impl<E: Elements> Typed<'_, E> {
+    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    pub(crate) fn deformations(
+        self,
+        intact: &[bool],
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+    ) -> Vec<BondDeformation> {
+        let ends = &self.system.bonds.ends;
+        let mut deformations = vec![BondDeformation::default(); ends.len()];
+        deformations
+            .par_chunks_mut(TASK)
+            .enumerate()
+            .for_each(|(task, deformations)| {
+                for (bond, deformation) in (task * TASK..).zip(deformations) {
+                    let element = self.whole(intact, bond);
+                    *deformation = element.deformation(displacement);
+                    if !expansion.is_none() {
+                        let thermal = expansion.of_bond(ends[bond]);
+                        *deformation = deformation.less(&element.deformation_in(thermal));
+                    }
+                }
+            });
+        deformations
+    }
+
+    /// Forces and energy of bonds with given deformations (n_bonds).
+    ///
+    /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
+    /// after each other.
+    pub(crate) fn forces(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: Vec<BondDeformation>,
+        expansion: ThermalStrain<'_>,
+    ) -> BondSweep {
+        let n_bonds = deformations.len();
+        let parts: Vec<Part> = (0..PARTS)
+            .into_par_iter()
+            .map(|part| {
+                let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+                Part::new(self, bonds, &deformations, expansion, of_part)
+            })
+            .collect();
+        let sums: Vec<PointForces> = (0..self.system.cloud.len())
+            .into_par_iter()
+            .with_min_len(TASK)
+            .map(|point| {
+                let of_parts = parts.iter().map(|part| part.forces[point]);
+                of_parts.fold(PointForces::default(), PointForces::plus)
+            })
+            .collect();
+        let largest = |component: usize| {
+            let sizes = sums.iter().map(|forces| forces.size[component]);
+            sizes.fold(0.0, f64::max)
+        };
+        BondSweep {
+            internal: InternalForces {
+                force_scale: largest(0).max(largest(1)),
+                moment_scale: largest(2),
+                values: sums.iter().flat_map(|forces| forces.sum).collect(),
+                thermal: parts.iter().map(|part| part.thermal).sum(),
+            },
+            stored_energy: parts.iter().map(|part| part.energy).sum(),
+            expansion_energy: parts.iter().map(|part| part.expansion_energy).sum(),
+            deformations,
+        }
+    }
+}
+
+/// What the bonds of one part give.
+struct Part {
+    forces: Vec<PointForces>,
+    energy: f64,
+    thermal: f64,
+    expansion_energy: f64,
+}
+
+/// The end forces that meet at a point.
+#[derive(Debug, Clone, Copy, Default)]
+struct PointForces {
+    sum: [f64; UNKNOWNS],
+    /// Sum of their sizes.
+    size: [f64; UNKNOWNS],
+}
+
+impl PointForces {
+    fn add(&mut self, end_force: [f64; UNKNOWNS]) {
+        for (component, value) in end_force.into_iter().enumerate() {
+            self.sum[component] += value;
+            self.size[component] += value.abs();
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            sum: [0, 1, 2].map(|component| self.sum[component] + other.sum[component]),
+            size: [0, 1, 2].map(|component| self.size[component] + other.size[component]),
+        }
+    }
+}
+
+impl Part {
+    fn new<E: Elements>(
+        typed: Typed<'_, E>,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        expansion: ThermalStrain<'_>,
+        of_part: Range<usize>,
+    ) -> Self {
+        let mut forces = vec![PointForces::default(); typed.system.cloud.len()];
+        let mut energy = 0.0;
+        for bond in of_part.clone() {
+            let Some(element) = typed.left(bonds, bond) else {
+                continue;
+            };
+            let deformation = &deformations[bond];
+            energy += element.mutual_energy(deformation, deformation);
+            element.forces(deformation, |point, force| {
+                forces[point as usize].add(force);
+            });
+        }
+        let mut part = Self {
+            forces,
+            energy,
+            thermal: 0.0,
+            expansion_energy: 0.0,
+        };
+        if !expansion.is_none() {
+            part.add_expansion(typed, bonds, deformations, expansion, of_part);
+        }
+        part
+    }
+
+    /// Adds what the temperature does to the bonds of the part.
+    fn add_expansion<E: Elements>(
+        &mut self,
+        typed: Typed<'_, E>,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        expansion: ThermalStrain<'_>,
+        of_part: Range<usize>,
+    ) {
+        let at_full_load = expansion.at_full_load();
+        for bond in of_part {
+            let Some(element) = typed.left(bonds, bond) else {
+                continue;
+            };
+            let thermal =
+                element.deformation_in(at_full_load.of_bond(typed.system.bonds.ends[bond]));
+            self.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
+            self.expansion_energy += element.mutual_energy(&thermal, &thermal);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! The family of one point of a case, beside that of a lattice.
+
+use std::io::Write;
+
+use ligament_model::yielding::{PrincipalStretches, lattice};
+
+use super::console;
+use super::diagrams::{self, Comparison};
+use super::error::YieldError;
+use super::of_case::{criteria, model, poisson};
+use super::request::{Place, Request};
+use super::subject::{Strain, Subject};
+use ligament::run::on_threads;
+use ligament_case::case::CaseFile;
+use ligament_case::model::Model;
+use ligament_case::summary::heading;
+
+/// Diagrams of one point.
+pub(super) fn draw(
+    request: &Request,
+    case: &CaseFile,
+    place: Place,
+    screen: &mut (dyn Write + Send),
+) -> anyhow::Result<()> {
+    on_threads(case.threads(), || {
+        let model = model(case)?;
+        let point = find(&model, place)?;
+        let poisson = poisson(request, case, &model)?[point as usize];
+        let label = model.body().label(point);
+        let mut comparisons = Vec::new();
+        for (criterion, criteria) in criteria(request, case, &model)? {
+            let subject = Subject::of_point(label.clone(), &model.system, &criteria, point);
+            comparisons.push(Comparison {
+                criterion,
+                subjects: vec![subject],
+            });
+        }
+        // With limits that are the same for all bonds a lattice is a fair neighbour.
+        for (comparison, combination) in comparisons.iter_mut().zip(&request.combinations) {
+            let ratio = lattice::ratio_of_size(comparison.subjects[0].size as f64);
+            let strengths = request.strengths(poisson);
+            let mut lattice = Subject::of_lattice(ratio, combination, &strengths)?;
+            lattice.name = format!("lattice m = {ratio:.2}");
+            comparison.subjects.push(lattice);
+        }
+        let strains = Strain::of_the_figures(poisson);
+        let yields = |it: &Comparison| {
+            let family = it.subjects[0].family();
+            let paths = diagrams::PATHS.iter();
+            let mut paths = paths.map(|&[first, second]| PrincipalStretches::new(first, second));
+            paths.any(|path| family.theoretical_utilisation(path) > 0.0)
+        };
+        if !comparisons.iter().any(yields) {
+            return Err(YieldError::NeverYields { of: label }.into());
+        }
+        comparisons.retain(yields);
+        diagrams::write(&request.folder()?, &comparisons, &strains)?;
+        writeln!(screen, "{}", heading(&case.case.title))?;
+        writeln!(screen, "family of {}\n", model.body().place(point))?;
+        for comparison in &comparisons {
+            console::tell(screen, comparison)?;
+        }
+        Ok(())
+    })?
+}
+
+fn find(model: &Model, place: Place) -> Result<u32, YieldError> {
+    let (body, cloud) = (model.body(), &model.system.cloud);
+    match place {
+        Place::At(at) => {
+            let point = cloud.nearest_point(at);
+            let [x, y] = body.positions()[point as usize];
+            let horizon = model.fixed.horizon[point as usize];
+            if (x - at[0]).hypot(y - at[1]) <= horizon {
+                return Ok(point);
+            }
+            let nearest = body.place(point);
+            Err(YieldError::NotInBody {
+                at,
+                nearest,
+                horizon,
+            })
+        }
+        Place::Tag(tag) => {
+            let points = || 0..cloud.len() as u32;
+            let tags = || points().map(|point| body.tag(point));
+            points()
+                .find(|&point| body.tag(point) == tag)
+                .ok_or_else(|| YieldError::NoPoint {
+                    tagged: body.tagged(),
+                    tag,
+                    lowest: tags().min().unwrap_or(0),
+                    highest: tags().max().unwrap_or(0),
+                })
+        }
+    }
+}

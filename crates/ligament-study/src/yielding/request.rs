@@ -1,0 +1,83 @@
+//! What is looked at, and where it is written.
+
+use std::path::PathBuf;
+
+use ligament_case::case::CaseFile;
+use ligament_model::failure::Calibration;
+use ligament_output::folder::ResultFolder;
+
+use super::criteria::{Combination, Strengths};
+use super::error::{RATIOS, YieldError};
+
+/// The file by which a folder is known to hold yield domains.
+pub const SUMMARY: &str = "yield.csv";
+
+/// A request to `ligament yield`: the subject, and where to write.
+#[derive(Debug)]
+pub struct Request {
+    /// The families.
+    pub of: Families,
+    /// Criteria with the same limits for all bonds; none for those of the figures, or of the case.
+    pub combinations: Vec<Combination>,
+    /// Poisson's ratio in the plane; none for 0, or that of the case.
+    pub poisson: Option<f64>,
+    /// Compressive over tensile strength.
+    pub ratio: f64,
+    /// How cohesion and friction come from the strengths.
+    pub calibration: Calibration,
+    /// Folder of the results.
+    pub out: PathBuf,
+    /// Whether earlier results there may be replaced.
+    pub force: bool,
+}
+
+/// Whose bonds.
+#[derive(Debug)]
+pub enum Families {
+    /// Lattices with horizons of so many spacings.
+    Lattices(Vec<f64>),
+    /// One point of a case.
+    Point(Box<CaseFile>, Place),
+    /// All points of a case.
+    Field(Box<CaseFile>),
+}
+
+/// A point of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// The one nearest to a position.
+    At([f64; 2]),
+    /// The one of this tag.
+    Tag(u64),
+}
+
+impl Request {
+    pub(super) fn check(&self) -> Result<(), YieldError> {
+        if let Families::Lattices(ratios) = &self.of
+            && let Some(&ratio) = ratios.iter().find(|ratio| !RATIOS.contains(ratio))
+        {
+            return Err(YieldError::Ratio { ratio });
+        }
+        if let Some(poisson) = self.poisson.filter(|it| it.is_nan() || it.abs() >= 1.0) {
+            return Err(YieldError::Poisson { poisson });
+        }
+        let ratio = self.ratio;
+        if !(ratio > 0.0 && ratio.is_finite()) {
+            return Err(YieldError::Strengths { ratio });
+        }
+        Ok(())
+    }
+
+    pub(super) fn strengths(&self, poisson: f64) -> Strengths {
+        Strengths {
+            poisson,
+            ratio: self.ratio,
+            calibration: self.calibration,
+        }
+    }
+
+    /// The folder, new or empty.
+    pub(super) fn folder(&self) -> Result<ResultFolder, ligament_output::Error> {
+        ResultFolder::create_marked(&self.out, SUMMARY, self.force)
+    }
+}

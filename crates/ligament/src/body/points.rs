@@ -1,0 +1,194 @@
+//! A body from arrays: positions, volumes and named groups of points.
+
+use std::collections::BTreeMap;
+
+use ligament_model::{BodyGrid, Canvas, PointCloud};
+use thiserror::Error;
+
+use super::{Body, OffOutline, Origin};
+
+/// A body of points that are given one by one, each with the area that it stands for. Its groups are sets of points; they have
+/// no length and no outline, so that forces are spread over their points by volume.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Points {
+    positions: Vec<[f64; 2]>,
+    areas: Vec<f64>,
+    groups: BTreeMap<String, Vec<u32>>,
+}
+
+/// Why arrays are no body.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PointsError {
+    /// Arrays of different lengths, or none at all.
+    #[error(
+        "{positions} positions and {areas} areas: every point needs one of each, and there must be a point"
+    )]
+    Lengths {
+        /// Number of positions.
+        positions: usize,
+        /// Number of areas.
+        areas: usize,
+    },
+    /// A position or an area that is no number, or an area that is not positive.
+    #[error(
+        "point {point} has the position {position:?} and the area {area:?}: positions must be finite, areas greater than 0"
+    )]
+    NoSuchPoint {
+        /// Index of the point.
+        point: usize,
+        /// Position of the point, m.
+        position: [f64; 2],
+        /// Area of the point, m^2.
+        area: f64,
+    },
+    /// A group without points, or with a point that there is not.
+    #[error("group `{group}` {}: it takes indices below {n_points}, one or more", match found {
+        Some(found) => format!("has the point {found}"),
+        None => "is empty".to_owned(),
+    })]
+    Group {
+        /// The group.
+        group: String,
+        /// The index that is too large; none where the group is empty.
+        found: Option<u32>,
+        /// Number of points.
+        n_points: usize,
+    },
+}
+
+impl Points {
+    /// Points at `positions` (n_points, m), each with the area (n_points, m^2) that it stands for.
+    ///
+    /// # Errors
+    ///
+    /// If the arrays have different lengths or no element, or a position or an area is none.
+    pub fn new(positions: Vec<[f64; 2]>, areas: Vec<f64>) -> Result<Self, PointsError> {
+        if positions.len() != areas.len() || positions.is_empty() {
+            return Err(PointsError::Lengths {
+                positions: positions.len(),
+                areas: areas.len(),
+            });
+        }
+        let is_point = |(position, area): (&[f64; 2], &f64)| {
+            position.iter().all(|it| it.is_finite()) && *area > 0.0 && area.is_finite()
+        };
+        let wrong = (positions.iter().zip(&areas)).position(|it| !is_point(it));
+        match wrong {
+            Some(point) => Err(PointsError::NoSuchPoint {
+                point,
+                position: positions[point],
+                area: areas[point],
+            }),
+            None => Ok(Self {
+                positions,
+                areas,
+                groups: BTreeMap::new(),
+            }),
+        }
+    }
+
+    /// The body with a further group of points, by their indices.
+    ///
+    /// # Errors
+    ///
+    /// If the group is empty or has a point that there is not.
+    pub fn with_group(
+        mut self,
+        name: &str,
+        points: impl IntoIterator<Item = u32>,
+    ) -> Result<Self, PointsError> {
+        let mut points: Vec<u32> = points.into_iter().collect();
+        points.sort_unstable();
+        points.dedup();
+        let n_points = self.positions.len();
+        let last = points.last().copied();
+        if last.is_none_or(|last| last as usize >= n_points) {
+            return Err(PointsError::Group {
+                group: name.to_owned(),
+                found: last,
+                n_points,
+            });
+        }
+        self.groups.insert(name.to_owned(), points);
+        Ok(self)
+    }
+}
+
+impl Body for Points {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Points
+    }
+
+    fn positions(&self) -> &[[f64; 2]] {
+        &self.positions
+    }
+
+    fn tagged(&self) -> &'static str {
+        "point"
+    }
+
+    fn tag(&self, point: u32) -> u64 {
+        u64::from(point)
+    }
+
+    /// Number of cells: each point is a cell of its own.
+    fn n_cells(&self) -> usize {
+        self.positions.len()
+    }
+
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
+        let volumes: Vec<f64> = self.areas.iter().map(|area| area * thickness).collect();
+        PointCloud::from_points(
+            &self.positions,
+            &volumes,
+            thickness,
+            material_of_cell,
+            n_materials,
+        )
+    }
+
+    fn group_kind(&self) -> &'static str {
+        "group of points"
+    }
+
+    fn group_names(&self) -> Vec<String> {
+        self.groups.keys().cloned().collect()
+    }
+
+    fn points_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.groups.get(group).cloned()
+    }
+
+    fn cells_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.points_of(group)
+    }
+
+    fn lengths_of(&self, _: &str) -> Vec<(u32, f64)> {
+        Vec::new()
+    }
+
+    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+        Ok(Vec::new())
+    }
+
+    /// No point: arrays do not say where the body ends.
+    fn rim(&self) -> Vec<bool> {
+        vec![false; self.positions.len()]
+    }
+
+    /// A square of its area around each point.
+    fn grid(&self) -> BodyGrid {
+        let square = |([x, y], area): (&[f64; 2], &f64)| {
+            let half = 0.5 * area.sqrt();
+            [[-half, -half], [half, -half], [half, half], [-half, half]]
+                .map(|[right, up]| [x + right, y + up])
+        };
+        let squares = self.positions.iter().zip(&self.areas).map(square);
+        BodyGrid {
+            positions: self.positions.clone(),
+            tags: (0..self.positions.len() as i64).collect(),
+            tagged: self.tagged(),
+            canvas: Canvas::Around(squares.collect()),
+        }
+    }
+}

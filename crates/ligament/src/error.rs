@@ -1,0 +1,264 @@
+//! What can be wrong with a setup, where, and what to do about it.
+
+use std::fmt;
+
+use ligament_analysis::modal::ModalError;
+use ligament_model::failure::{NoLimit, Unfit};
+use rayon::ThreadPoolBuildError;
+use thiserror::Error;
+
+use crate::body::OffOutline;
+use crate::suggestion::hint;
+
+/// Why a computation could not begin. How it went is in its outcome.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A field of the setup is wrong.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The equations of a loading cannot be set up.
+    #[error(transparent)]
+    Equations(#[from] ligament_analysis::SetupError),
+    /// The equations of natural modes cannot be set up or solved.
+    #[error(transparent)]
+    Modes(#[from] ModalError),
+    /// The threads could not be started.
+    #[error(transparent)]
+    Threads(#[from] ThreadPoolBuildError),
+}
+
+/// The error of a field of a setup that is wrong.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{field}: {fault}")]
+pub struct SetupError {
+    /// Place of the field in the setup.
+    pub field: Field,
+    /// Fault of the field, with what to do about it.
+    pub fault: Box<Fault>,
+}
+
+/// A field of [`Setup`](crate::Setup): `loads[1].place`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Field {
+    /// Name of the field: `loads`.
+    pub name: &'static str,
+    /// Index in it, where it is a list.
+    pub index: Option<usize>,
+    /// Part of it or of its element: `place`.
+    pub part: Option<&'static str>,
+}
+
+/// Fault of a field of a setup.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Fault {
+    /// A name that the body does not have.
+    #[error(
+        "no {what} is called `{found}`{}",
+        hint(found, candidates, "there are", '`')
+    )]
+    UnknownName {
+        /// What the name should be of, and where: `physical group in the mesh`.
+        what: &'static str,
+        /// The name as given.
+        found: String,
+        /// Names that there are.
+        candidates: Vec<String>,
+    },
+    /// A value lies outside of what makes sense.
+    #[error("must be {expected}, found {found}")]
+    OutOfRange {
+        /// The condition, in words.
+        expected: &'static str,
+        /// The value as given.
+        found: String,
+    },
+    /// A name that is given twice.
+    #[error("`{name}` is already the name of {first}: give one of the two another name")]
+    NameTwice {
+        /// The name.
+        name: String,
+        /// The field that has it first.
+        first: Field,
+    },
+    /// A material lacks what another field needs.
+    #[error("missing {property}: it is required {reason}")]
+    Missing {
+        /// The field of the material: `density`.
+        property: &'static str,
+        /// The setting that needs the property.
+        reason: String,
+    },
+    /// A criterion does not go together with itself, with a material or with the analysis.
+    #[error(transparent)]
+    Unfit(Unfit),
+    /// A criterion leaves bonds without a limit, or nothing after it.
+    #[error(transparent)]
+    NoLimit(NoLimit),
+    /// Points without a neighbour, which no correction gives a stiffness.
+    #[error(
+        "{count} of {n_points} points have no neighbour in their horizon (the first is {first}): they need a larger horizon, or \
+         must go"
+    )]
+    LonePoints {
+        /// Number of such points.
+        count: usize,
+        /// Number of points.
+        n_points: usize,
+        /// The first of them, in words.
+        first: String,
+    },
+    /// A rectangle without a point.
+    #[error("there is no point of the body in this box")]
+    EmptyBox,
+    /// A group of a material that has no cells.
+    #[error("`{group}` has no cells: a material needs a physical surface")]
+    NoCells {
+        /// The group.
+        group: String,
+    },
+    /// Two materials for a cell.
+    #[error("cells of this material belong to material `{other}` as well")]
+    CellsTwice {
+        /// The other material.
+        other: String,
+    },
+    /// Cells without a material.
+    #[error("{missing} of {n_cells} cells belong to the group of no material")]
+    CellsWithout {
+        /// Number of such cells.
+        missing: usize,
+        /// Number of cells.
+        n_cells: usize,
+    },
+    /// Two values for a component of a point.
+    #[error(
+        "component {component} of {place} is prescribed twice: as {first:?} by an earlier support or load, as {second:?} here"
+    )]
+    PrescribedTwice {
+        /// The component.
+        component: &'static str,
+        /// The point, in words.
+        place: String,
+        /// The earlier value.
+        first: f64,
+        /// The value here.
+        second: f64,
+    },
+    /// No load, and no point whose temperature changes.
+    #[error("there is no load and no point whose temperature changes: nothing would happen")]
+    NothingHappens,
+    /// A first load of zero.
+    #[error(
+        "the first load must be other than zero: it is the axis of the force-displacement curve"
+    )]
+    ZeroControl,
+    /// A load that is zero at all of its points.
+    #[error("the load does nothing: its profile is zero at every point that it acts on")]
+    ZeroProfile,
+    /// A force per length on points without a length.
+    #[error(
+        "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: this group has no length"
+    )]
+    NoLength,
+    /// A pressure on points without an outline.
+    #[error(
+        "a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: this group has no \
+         part of the outline"
+    )]
+    NoOutline,
+    /// A pressure on an edge inside of the body.
+    #[error(transparent)]
+    OffOutline(OffOutline),
+    /// A couple on points that nothing keeps from turning.
+    #[error(
+        "the couple acts on {points} points that no bond keeps from turning (Poisson's ratio makes the shear stiffness of their \
+         bonds zero, or the bonds have no rotations): apply it as a pair of forces"
+    )]
+    IdleCouple {
+        /// Number of such points.
+        points: usize,
+    },
+    /// Two samples of a temperature at a point.
+    #[error("{place} has sample {first} already: sample {second} must go")]
+    SampledTwice {
+        /// The point, in words.
+        place: String,
+        /// Index of the first sample.
+        first: usize,
+        /// Index of the second sample.
+        second: usize,
+    },
+    /// Points to which a table or a field gives no temperature, though it holds there.
+    #[error("{points} points get no temperature: {reason}; the first is {first}")]
+    NoTemperature {
+        /// Number of such points.
+        points: usize,
+        /// Reason why the points get no temperature.
+        reason: &'static str,
+        /// The first of them, in words.
+        first: String,
+    },
+    /// A field of the mesh that is no temperature at one time.
+    #[error("{0}")]
+    NoSuchField(String),
+    /// The setup is for another analysis than the one that is asked for.
+    #[error("it says {found}, and {wanted} was asked for: set it, or ask for the other")]
+    OtherAnalysis {
+        /// The analysis of the setup.
+        found: &'static str,
+        /// What was asked for.
+        wanted: &'static str,
+    },
+    /// Choices that do not go together.
+    #[error("{0}")]
+    Contradiction(&'static str),
+}
+
+impl Field {
+    /// A field as a whole.
+    pub const fn whole(name: &'static str) -> Self {
+        Self {
+            name,
+            index: None,
+            part: None,
+        }
+    }
+
+    /// An element of a list.
+    pub const fn element(name: &'static str, index: usize) -> Self {
+        Self {
+            name,
+            index: Some(index),
+            part: None,
+        }
+    }
+
+    /// A part of this field.
+    pub const fn part(self, part: &'static str) -> Self {
+        Self {
+            part: Some(part),
+            ..self
+        }
+    }
+
+    /// The error of a fault of this field.
+    pub(crate) fn error(self, fault: Fault) -> SetupError {
+        SetupError {
+            field: self,
+            fault: Box::new(fault),
+        }
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name)?;
+        if let Some(index) = self.index {
+            write!(formatter, "[{index}]")?;
+        }
+        match self.part {
+            Some(part) => write!(formatter, ".{part}"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! Supports and loads of a setup on the points of its body.
+
+use ligament_analysis::{
+    BoundaryError, COMPONENTS, Component, Control, ControlKind, ProportionalLoading, Unknowns,
+};
+use ligament_model::{BondSystem, PointCloud};
+
+use super::places::Places;
+use super::temperature::{Heating, heating};
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Action, Load, Place, Profile, Setup};
+
+/// Supports and loads on the points.
+pub(super) fn boundary(
+    setup: &Setup,
+    cloud: &PointCloud,
+) -> Result<ProportionalLoading, SetupError> {
+    let places = Places { setup, cloud };
+    let heating = heating(&places)?;
+    let mut boundary = ProportionalLoading::new(cloud.len(), places.control(heating.as_ref())?);
+    if let Some(Heating { change, strain }) = heating {
+        boundary.temperature_change = change;
+        boundary.thermal_strain = strain;
+    }
+    for (index, support) in setup.supports.iter().enumerate() {
+        let field = Field::element("supports", index);
+        let points = places.points(field, &support.place)?;
+        for component in support.components() {
+            let at_rest = vec![1.0; points.len()];
+            places.prescribe(&mut boundary, field, (&points, &at_rest), (component, 0.0))?;
+        }
+        boundary.report_group(&support.name(index), points, [0.0; COMPONENTS]);
+    }
+    for (index, load) in setup.loads.iter().enumerate() {
+        let field = Field::element("loads", index);
+        let points = places.points(field, &load.place)?;
+        let factors = places.factors(field, load.profile.as_ref(), &points)?;
+        if let Action::Displacement(displacement) = &load.action {
+            for given in displacement.components() {
+                places.prescribe(&mut boundary, field, (&points, &factors), given)?;
+            }
+        }
+        let mut total = [0.0; COMPONENTS];
+        for (point, force) in places.forces(field, load, &points)?.at_points {
+            for component in Component::ALL {
+                let value = force[component.index()];
+                boundary.add_force(point, component, value);
+                total[component.index()] += value;
+            }
+        }
+        boundary.report_group(&load.name, points, total);
+    }
+    Ok(boundary)
+}
+
+/// Refuses couples on points that no bond keeps from turning: they would act on nothing.
+pub(super) fn couples_have_stiffness(
+    setup: &Setup,
+    boundary: &ProportionalLoading,
+    system: &BondSystem,
+) -> Result<(), SetupError> {
+    let is_couple = |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
+    let Some(load) = setup.loads.iter().position(is_couple) else {
+        return Ok(());
+    };
+    let unknowns = Unknowns::all_but(system, |dof| boundary.prescribed[dof].is_some());
+    let is_idle = |dof: usize| {
+        boundary.force[dof] != 0.0
+            && boundary.prescribed[dof].is_none()
+            && unknowns.number(dof).is_none()
+    };
+    let rotations =
+        (0..boundary.force.len()).filter(|&dof| Component::at(dof) == Component::Rotation);
+    match rotations.filter(|&dof| is_idle(dof)).count() {
+        0 => Ok(()),
+        points => {
+            let field = Field::element("loads", load).part("action");
+            Err(field.error(Fault::IdleCouple { points }))
+        }
+    }
+}
+
+/// Forces and couples of a load at load factor 1, N and N m.
+#[derive(Default)]
+struct Given {
+    /// Shares of the points of the load.
+    at_points: Vec<(u32, [f64; COMPONENTS])>,
+    /// Size before the profile: of the sum over the points, or the pressure, Pa.
+    size: f64,
+}
+
+impl Places<'_> {
+    /// Prescribes a component times a factor for each point.
+    fn prescribe(
+        &self,
+        boundary: &mut ProportionalLoading,
+        field: Field,
+        (points, factors): (&[u32], &[f64]),
+        (component, value): (Component, f64),
+    ) -> Result<(), SetupError> {
+        let mut each = points.iter().zip(factors);
+        let done = each.try_for_each(|(&point, factor)| {
+            boundary.prescribe(&[point], component, factor * value)
+        });
+        done.map_err(|error| {
+            let BoundaryError::Conflict {
+                point,
+                component,
+                first,
+                second,
+            } = error;
+            let place = self.setup.body.label(point);
+            field.part("displacement").error(Fault::PrescribedTwice {
+                component,
+                place,
+                first,
+                second,
+            })
+        })
+    }
+
+    /// The first load is the axis of the force-displacement curve; the temperature where there is none.
+    fn control(&self, heating: Option<&Heating>) -> Result<Control, SetupError> {
+        let field = Field::element("loads", 0);
+        let Some(load) = self.setup.loads.first() else {
+            let changes = heating.map_or(&[][..], |it| &it.change);
+            let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
+            if magnitude == 0.0 {
+                return Err(Field::whole("temperatures").error(Fault::NothingHappens));
+            }
+            return Ok(Control {
+                kind: ControlKind::Temperature,
+                points: Vec::new(),
+                shape: Vec::new(),
+                magnitude,
+            });
+        };
+        let points = self.points(field, &load.place)?;
+        let factors = self.factors(field, load.profile.as_ref(), &points)?;
+        let given = self.forces(field, load, &points)?;
+        let motion = match load.action {
+            Action::Displacement(it) => {
+                let [x, y, rotation] = [it.x, it.y, it.rotation].map(|it| it.unwrap_or(0.0));
+                let rotation = if x == 0.0 && y == 0.0 { rotation } else { 0.0 };
+                Some([x, y, rotation])
+            }
+            _ => None,
+        };
+        let magnitude = motion.map_or(given.size, norm);
+        if magnitude == 0.0 {
+            return Err(field.error(Fault::ZeroControl));
+        }
+        let (kind, (points, shape)) = match motion {
+            Some(motion) => {
+                let direction = motion.map(|value| value / magnitude);
+                let shape = factors
+                    .iter()
+                    .map(|factor| direction.map(|cosine| factor * cosine));
+                (ControlKind::Displacement, (points, shape.collect()))
+            }
+            None => {
+                let at_points = given.at_points.into_iter();
+                let shape = at_points
+                    .map(|(point, force)| (point, force.map(|value| value / magnitude)))
+                    .unzip();
+                (ControlKind::Force, shape)
+            }
+        };
+        Ok(Control {
+            kind,
+            points,
+            shape,
+            magnitude,
+        })
+    }
+
+    /// Factors of a profile at the points; 1 without one.
+    fn factors(
+        &self,
+        field: Field,
+        profile: Option<&Profile>,
+        points: &[u32],
+    ) -> Result<Vec<f64>, SetupError> {
+        let Some(profile) = profile else {
+            return Ok(vec![1.0; points.len()]);
+        };
+        let factor = |&point: &u32| profile.at(self.setup.body.positions()[point as usize]);
+        let factors: Vec<f64> = points.iter().map(factor).collect();
+        if factors.iter().all(|&factor| factor == 0.0) {
+            return Err(field.part("profile").error(Fault::ZeroProfile));
+        }
+        Ok(factors)
+    }
+
+    /// Forces and couples of a load on its points; none where it prescribes a displacement.
+    ///
+    /// A total force is spread over a group that has a length by the length that each point stands for, over other places
+    /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each
+    /// point's share is then multiplied by the profile.
+    fn forces(&self, field: Field, load: &Load, points: &[u32]) -> Result<Given, SetupError> {
+        let curve = match &load.place {
+            Place::Group(group) => self.setup.body.lengths_of(group),
+            _ => Vec::new(),
+        };
+        let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
+        let volumes: Vec<(u32, f64)> = points.iter().map(volume).collect();
+        let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+        let (weights, density) = match &load.action {
+            Action::Displacement(_) => return Ok(Given::default()),
+            Action::Pressure(pressure) => return self.pressures(field, load, *pressure),
+            Action::BodyForce(force) => (volumes, in_plane(force)),
+            Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
+            Action::ForcePerLength(_) if curve.is_empty() => {
+                return Err(field.part("place").error(Fault::NoLength));
+            }
+            Action::ForcePerLength(force) => (curve, in_plane(force)),
+            Action::Force(force) => {
+                let weights = if curve.is_empty() { volumes } else { curve };
+                let total = size(&weights);
+                (weights, in_plane(force).map(|value| value / total))
+            }
+            Action::Moment(couple) => {
+                let total = size(&volumes);
+                (volumes, [0.0, 0.0, couple / total])
+            }
+        };
+        let total = size(&weights);
+        let loaded: Vec<u32> = weights.iter().map(|(point, _)| *point).collect();
+        let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
+        let at_points = weights.iter().zip(factors);
+        let share = |(&(point, weight), factor): (&(u32, f64), f64)| {
+            (point, density.map(|value| factor * (value * weight)))
+        };
+        Ok(Given {
+            at_points: at_points.map(share).collect(),
+            size: norm(density.map(|value| value * total)),
+        })
+    }
+
+    /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward
+    /// normal n, or at the cell of a lattice whose face it is; n and L are those of the body at rest (a dead load). Each point's
+    /// share is then multiplied by the profile.
+    fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
+        let place = field.part("place");
+        let normals = match &load.place {
+            Place::Group(group) => self.setup.body.outline_of(group),
+            _ => Ok(Vec::new()),
+        };
+        let normals = normals.map_err(|error| place.error(Fault::OffOutline(error)))?;
+        if normals.is_empty() {
+            return Err(place.error(Fault::NoOutline));
+        }
+        let loaded: Vec<u32> = normals.iter().map(|(point, _)| *point).collect();
+        let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
+        let per_length = -pressure * self.cloud.thickness;
+        let force = |((point, [x, y]), factor): ((u32, [f64; 2]), f64)| {
+            let share = factor * per_length;
+            (point, [share * x, share * y, 0.0])
+        };
+        Ok(Given {
+            at_points: normals.into_iter().zip(factors).map(force).collect(),
+            size: pressure.abs(),
+        })
+    }
+}
+
+/// A force in the plane, without a couple.
+fn in_plane([x, y]: &[f64; 2]) -> [f64; COMPONENTS] {
+    [*x, *y, 0.0]
+}
+
+fn norm(vector: [f64; COMPONENTS]) -> f64 {
+    vector.iter().map(|value| value * value).sum::<f64>().sqrt()
+}

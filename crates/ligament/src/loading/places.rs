@@ -1,0 +1,91 @@
+//! Places of a setup looked up in its body: groups, boxes, positions.
+
+use ligament_model::PointCloud;
+
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Place, Setup};
+
+/// A setup and the points of its body, to look places up in.
+#[derive(Clone, Copy)]
+pub(super) struct Places<'a> {
+    pub(super) setup: &'a Setup,
+    pub(super) cloud: &'a PointCloud,
+}
+
+impl Places<'_> {
+    /// Points of the place of a field, ascending.
+    pub(super) fn points(&self, field: Field, place: &Place) -> Result<Vec<u32>, SetupError> {
+        let field = field.part("place");
+        match place {
+            Place::Everywhere => Ok((0..self.cloud.len() as u32).collect()),
+            Place::Group(group) => {
+                let points = self.setup.body.points_of(group);
+                points.ok_or_else(|| field.error(unknown_group(self.setup, group)))
+            }
+            Place::Box([lower, upper]) => {
+                let points = self.cloud.points_in_box(*lower, *upper);
+                if points.is_empty() {
+                    return Err(field.error(Fault::EmptyBox));
+                }
+                Ok(points)
+            }
+            Place::At(position) => Ok(vec![self.cloud.nearest_point(*position)]),
+        }
+    }
+}
+
+/// Marks the points whose bonds never break, shape (n_points).
+pub fn no_fail(setup: &Setup, cloud: &PointCloud) -> Result<Vec<bool>, SetupError> {
+    let places = Places { setup, cloud };
+    let mut marked = vec![false; cloud.len()];
+    for (index, place) in setup.no_fail.iter().enumerate() {
+        for point in places.points(Field::element("no_fail", index), place)? {
+            marked[point as usize] = true;
+        }
+    }
+    Ok(marked)
+}
+
+/// Index of the material of each cell, shape (n_cells): every cell must have exactly one.
+pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
+    let n_cells = setup.body.n_cells();
+    let mut material_of_cell = vec![None; n_cells];
+    for (index, region) in setup.materials.iter().enumerate() {
+        let field = Field::element("materials", index);
+        let cells = match &region.group {
+            None => (0..n_cells as u32).collect(),
+            Some(group) => cells_of_group(setup, field.part("group"), group)?,
+        };
+        for cell in cells {
+            let before: Option<u32> = material_of_cell[cell as usize].replace(index as u32);
+            if let Some(first) = before.filter(|&first| first != index as u32) {
+                let other = setup.materials[first as usize].material.name.clone();
+                return Err(field.error(Fault::CellsTwice { other }));
+            }
+        }
+    }
+    let covered: Vec<u32> = material_of_cell.iter().copied().flatten().collect();
+    if covered.len() < n_cells {
+        let missing = n_cells - covered.len();
+        return Err(Field::whole("materials").error(Fault::CellsWithout { missing, n_cells }));
+    }
+    Ok(covered)
+}
+
+fn cells_of_group(setup: &Setup, field: Field, group: &str) -> Result<Vec<u32>, SetupError> {
+    let cells = setup.body.cells_of(group);
+    let cells = cells.ok_or_else(|| field.error(unknown_group(setup, group)))?;
+    if cells.is_empty() {
+        let group = group.to_owned();
+        return Err(field.error(Fault::NoCells { group }));
+    }
+    Ok(cells)
+}
+
+fn unknown_group(setup: &Setup, name: &str) -> Fault {
+    Fault::UnknownName {
+        what: setup.body.group_kind(),
+        found: name.to_owned(),
+        candidates: setup.body.group_names(),
+    }
+}

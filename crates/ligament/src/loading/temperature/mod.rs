@@ -1,0 +1,211 @@
+//! Changes of temperature on the points of a body, and the strains that they make.
+
+mod field;
+mod table;
+
+use ligament_model::{Elasticity, Material};
+
+use super::places::Places;
+use crate::error::{Fault, Field, SetupError};
+use crate::formulation::constants;
+use crate::setup::{Place, Setup, Temperature, TemperatureChange};
+
+/// A body that is heated or cooled, at load factor 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Heating {
+    /// Change of the temperature of each point, shape (n_points), K.
+    pub(super) change: Vec<f64>,
+    /// Strain (eps_xx, eps_yy, gamma_xy) that each point would have without stress, shape (n_points, 3).
+    pub(super) strain: Vec<[f64; 3]>,
+}
+
+/// What one section says of the points.
+enum Change {
+    /// One change everywhere, K.
+    Uniform(f64),
+    /// A value for each point (n_points) that has one, K; and why others have none.
+    Each(Vec<Option<f64>>, &'static str),
+}
+
+/// The heating of a setup; none without a temperature.
+///
+/// A temperature holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
+/// one holds. A point with cells of several groups has the mean by its volume in them.
+pub(super) fn heating(places: &Places<'_>) -> Result<Option<Heating>, SetupError> {
+    let (sections, cloud) = (&places.setup.temperatures, places.cloud);
+    if sections.is_empty() {
+        return Ok(None);
+    }
+    let reach = Reach::over(places, sections)?;
+    let changes = sections.iter().enumerate();
+    let changes = changes.map(|(index, section)| places.change(index, section));
+    let changes: Vec<Change> = changes.collect::<Result<_, _>>()?;
+    let mut missing = Missing::default();
+    let mut change = vec![0.0; cloud.len()];
+    for (point, total) in change.iter_mut().enumerate() {
+        for (section, share) in reach.at(point) {
+            *total += share
+                * match &changes[section] {
+                    Change::Uniform(value) => *value,
+                    Change::Each(values, _) => {
+                        values[point].unwrap_or_else(|| missing.add(section, point as u32))
+                    }
+                };
+        }
+    }
+    missing.refuse(places, &changes)?;
+    let strain = thermal_strain(places, &change)?;
+    Ok(Some(Heating { change, strain }))
+}
+
+/// The section that holds at each point or cell.
+struct Reach {
+    /// Number of sections.
+    n_sections: usize,
+    /// Share of each section in the cells of each point, shape (n_points, n_sections + 1); the first is that of none.
+    shares: Vec<f64>,
+    /// The last section that reaches a point by itself, counted from 1, shape (n_points); 0 where none does.
+    of_point: Vec<u32>,
+}
+
+impl Reach {
+    fn over(places: &Places<'_>, sections: &[Temperature]) -> Result<Self, SetupError> {
+        let (body, cloud) = (&places.setup.body, places.cloud);
+        let mut of_cell = vec![0; body.n_cells()];
+        let mut of_point = vec![0; cloud.len()];
+        for (index, section) in sections.iter().enumerate() {
+            let number = index as u32 + 1;
+            let points = places.points(Field::element("temperatures", index), &section.place)?;
+            let cells = match &section.place {
+                Place::Everywhere => Some((0..body.n_cells() as u32).collect()),
+                Place::Group(group) => body.cells_of(group).filter(|it| !it.is_empty()),
+                Place::Box(_) | Place::At(_) => None,
+            };
+            match cells {
+                Some(cells) => cells.iter().for_each(|&it| of_cell[it as usize] = number),
+                None => points.iter().for_each(|&it| of_point[it as usize] = number),
+            }
+        }
+        // The volumes of the cells at a point are what a cloud with a material for each section counts.
+        let counted = body.cloud(cloud.thickness, &of_cell, sections.len() + 1);
+        Ok(Self {
+            n_sections: sections.len(),
+            shares: counted.material_shares,
+            of_point,
+        })
+    }
+
+    /// The sections that hold at a point, each with its share, which sum to at most one.
+    fn at(&self, point: usize) -> impl Iterator<Item = (usize, f64)> {
+        let width = self.n_sections + 1;
+        let shares = &self.shares[point * width..(point + 1) * width];
+        let by_itself = self.of_point[point] as usize;
+        let holds = move |(number, &share): (usize, &f64)| {
+            let number = number.max(by_itself);
+            (number > 0 && share > 0.0).then(|| (number - 1, share))
+        };
+        shares.iter().enumerate().filter_map(holds)
+    }
+}
+
+impl Places<'_> {
+    fn change(&self, index: usize, section: &Temperature) -> Result<Change, SetupError> {
+        let field = Field::element("temperatures", index);
+        let body = &*self.setup.body;
+        Ok(match &section.change {
+            TemperatureChange::Uniform(change) => Change::Uniform(*change),
+            TemperatureChange::Table(samples) => {
+                let values = table::at_points(samples, body, self.cloud);
+                let values = values.map_err(|fault| field.part("change").error(fault))?;
+                Change::Each(values, table::MISSING)
+            }
+            TemperatureChange::Field {
+                name,
+                time_step,
+                reference,
+            } => {
+                let found = field::find(body, name, *time_step);
+                let found = found.map_err(|(part, fault)| field.part(part).error(fault))?;
+                let change = |value: &Option<f64>| value.map(|value| value - reference);
+                let values = found.values.iter().map(change).collect();
+                Change::Each(values, "the field has no value")
+            }
+        })
+    }
+}
+
+/// Points that a section says nothing of, though it holds there.
+#[derive(Default)]
+struct Missing {
+    /// The section, its first such point, and their number.
+    first: Option<(usize, u32, usize)>,
+}
+
+impl Missing {
+    fn add(&mut self, section: usize, point: u32) -> f64 {
+        let (first, _, count) = self.first.get_or_insert((section, point, 0));
+        *count += usize::from(*first == section);
+        0.0
+    }
+
+    fn refuse(&self, places: &Places<'_>, changes: &[Change]) -> Result<(), SetupError> {
+        let Some((section, point, count)) = self.first else {
+            return Ok(());
+        };
+        let Change::Each(_, reason) = changes[section] else {
+            return Ok(());
+        };
+        let fault = Fault::NoTemperature {
+            points: count,
+            reason,
+            first: places.setup.body.place(point),
+        };
+        let field = Field::element("temperatures", section).part("change");
+        Err(field.error(fault))
+    }
+}
+
+/// Strains of the points (n_points): the mean of their materials by volume.
+fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, SetupError> {
+    let (setup, cloud) = (places.setup, places.cloud);
+    let per_kelvin: Vec<Option<[f64; 3]>> = (setup.materials.iter())
+        .map(|it| free_strain(setup, &it.material))
+        .collect();
+    let at_point = |(point, &change): (usize, &f64)| {
+        let mut strain = [0.0; 3];
+        if change == 0.0 {
+            return Ok(strain);
+        }
+        for (index, &share) in cloud.shares(point).iter().enumerate() {
+            if share == 0.0 {
+                continue;
+            }
+            let Some(per_kelvin) = per_kelvin[index] else {
+                let reason = format!(
+                    "(in 1/K) because the temperature of {} changes, which has this material",
+                    setup.body.place(point as u32)
+                );
+                let fault = Fault::Missing {
+                    property: "expansion",
+                    reason,
+                };
+                return Err(Field::element("materials", index)
+                    .part("expansion")
+                    .error(fault));
+            };
+            for (total, per_kelvin) in strain.iter_mut().zip(per_kelvin) {
+                *total += share * per_kelvin * change;
+            }
+        }
+        Ok(strain)
+    };
+    change.iter().enumerate().map(at_point).collect()
+}
+
+/// Strain of a material for one kelvin, with the Poisson's ratio that the law makes of it; none without a coefficient.
+fn free_strain(setup: &Setup, material: &Material) -> Option<[f64; 3]> {
+    let plane = setup.plane();
+    let elasticity = constants(material, &setup.law, plane);
+    let elasticity = elasticity.map_or(material.elasticity, Elasticity::Isotropic);
+    Some(material.expansion?.free_strain(&elasticity, plane))
+}

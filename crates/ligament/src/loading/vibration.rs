@@ -1,0 +1,61 @@
+//! What an analysis of natural modes makes of its model.
+
+use std::sync::Arc;
+
+use ligament_analysis::modal::ModalProblem;
+use ligament_analysis::solver::SolverSettings;
+use ligament_analysis::{Component, Supports};
+use ligament_model::{BondSystem, LumpedMass, PointCloud};
+
+use super::places::Places;
+use crate::error::{Field, SetupError};
+use crate::setup::Setup;
+
+/// Supports and masses of a model.
+#[derive(Debug)]
+pub struct Vibration {
+    /// Supports.
+    pub supports: Arc<Supports>,
+    /// Masses of the points.
+    pub mass: Arc<LumpedMass>,
+    /// How the equations are solved.
+    pub solver: SolverSettings,
+}
+
+impl Vibration {
+    /// Supports and masses of the setup on the points of a model.
+    ///
+    /// # Errors
+    ///
+    /// If a name of the setup is not in the body.
+    pub fn new(setup: &Setup, cloud: &PointCloud) -> Result<Self, SetupError> {
+        let materials = setup.materials.iter();
+        let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
+        Ok(Self {
+            supports: Arc::new(supports(&Places { setup, cloud })?),
+            mass: Arc::new(LumpedMass::new(cloud, &densities)),
+            solver: setup.solver,
+        })
+    }
+
+    /// The problem that it makes of the bonds.
+    pub fn problem(&self, system: &Arc<BondSystem>) -> ModalProblem {
+        ModalProblem {
+            system: system.clone(),
+            mass: self.mass.clone(),
+            supports: self.supports.clone(),
+            solver: self.solver,
+        }
+    }
+}
+
+/// The supports on the points.
+fn supports(places: &Places<'_>) -> Result<Supports, SetupError> {
+    let mut supports = Supports::none(places.cloud.len());
+    for (index, support) in places.setup.supports.iter().enumerate() {
+        let points = places.points(Field::element("supports", index), &support.place)?;
+        let components: Vec<Component> = support.components().collect();
+        supports.hold(&support.name(index), points, &components);
+    }
+    Ok(supports)
+}

@@ -1,0 +1,246 @@
+//! The method, first page: from a mesh or a lattice to the discrete model. The second is [`crate::run`].
+
+use std::sync::Arc;
+
+use ligament_model::bonds::hole::bonds_across;
+use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
+use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
+use ligament_model::failure::Criteria;
+use ligament_model::{
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, Horizons, PointCloud,
+};
+
+use crate::body::Body;
+use crate::error::{Fault, Field, SetupError};
+use crate::formulation;
+use crate::loading;
+use crate::setup::{CorrectionDomain, Setup};
+use crate::stage::{Finding, StageWatcher, stage};
+use crate::warning::{self, Warning};
+
+/// The discrete model: all that comes before the first equation.
+#[derive(Debug)]
+pub struct Model {
+    /// Setup that the model was built from.
+    pub setup: Setup,
+    /// Points and corrected bonds.
+    pub system: Arc<BondSystem>,
+    /// Fields that an analysis does not change.
+    pub fixed: FixedFields,
+    /// Report on the domain correction, where there was one.
+    pub correction: Option<CorrectionReport>,
+    /// Smallest and largest Omega.
+    pub correction_range: (f64, f64),
+    /// Failure criteria of the bonds.
+    pub criteria: Arc<Criteria>,
+    /// Number of pairs of points that would be bonded but for a hole between them.
+    pub across_holes: usize,
+    /// Number of bonds that pre-cracks cut.
+    pub cut_bonds: usize,
+    /// Number of points whose bonds never break.
+    pub no_fail_points: usize,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
+}
+
+impl Model {
+    /// Builds the model of a setup, on the threads of the caller.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong.
+    pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+        setup.check()?;
+        let body = &*setup.body;
+        let material_of_cell = loading::material_of_cell(&setup)?;
+        let (thickness, n_materials) = (setup.thickness(), setup.materials.len());
+        let cloud = stage(watcher, "points", || {
+            body.cloud(thickness, &material_of_cell, n_materials)
+        });
+        let horizons = setup.horizon.of_points(&cloud);
+        let (bonds, mut absent) = stage(watcher, "bonds", || {
+            around_holes(BondSet::search(&cloud, &horizons), body, &cloud)
+        });
+        let across_holes = absent.len();
+        require_neighbours(body, &bonds)?;
+        watcher.found(&Finding::Bonds {
+            points: cloud.len(),
+            bonds: bonds.len(),
+        });
+        let precracks = &setup.precracks;
+        let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
+            let is_cut = cut_bonds(precracks, &bonds, &cloud);
+            let touched = count_touched_bonds(precracks, &bonds, &cloud, &is_cut);
+            let precrack_share = precrack_share(&bonds, &is_cut);
+            (is_cut, touched, precrack_share)
+        });
+        absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
+        absent.sort_unstable_by_key(|it| it.ends);
+        let Corrected {
+            bonds,
+            stiffness,
+            correction,
+            energy_ratios,
+        } = stage(watcher, "correction", || {
+            correct(&setup, &cloud, &horizons, bonds, &is_cut)
+        });
+        watcher.found(&Finding::Correction(correction.report.as_ref()));
+
+        let no_fail = loading::no_fail(&setup, &cloud)?;
+        let fixed = FixedFields {
+            horizon: horizons.radius,
+            precrack_share,
+            energy_ratios,
+            domain_factor: correction.domain_factor.clone(),
+            no_fail,
+            absent,
+        };
+        let system = stage(watcher, "rigidities", || {
+            bond_system(&setup, cloud, bonds, stiffness, &correction)
+        });
+        let criteria = stage(watcher, "criteria", || {
+            formulation::criteria(&setup, &system, &fixed.no_fail)
+        })?;
+        let spacing = &system.cloud.spacing;
+        Ok(Self {
+            warnings: warning::of_model(
+                &setup,
+                spacing,
+                correction.report.as_ref(),
+                &fixed,
+                touched,
+            ),
+            correction_range: correction.domain_factor_range(),
+            correction: correction.report,
+            across_holes,
+            cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
+            no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
+            setup,
+            system: Arc::new(system),
+            fixed,
+            criteria: Arc::new(criteria),
+        })
+    }
+
+    /// The body.
+    pub fn body(&self) -> &dyn Body {
+        &*self.setup.body
+    }
+}
+
+/// Points and corrected bonds with the rigidities of their elements.
+fn bond_system(
+    setup: &Setup,
+    cloud: PointCloud,
+    bonds: BondSet,
+    stiffness: BondStiffness,
+    correction: &Correction,
+) -> BondSystem {
+    let element = setup.law.element();
+    let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
+    BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
+}
+
+/// The bonds without those across holes of the body, and those.
+fn around_holes(bonds: BondSet, body: &dyn Body, cloud: &PointCloud) -> (BondSet, Vec<AbsentBond>) {
+    if body.holes().is_empty() {
+        return (bonds, Vec::new());
+    }
+    let crosses = bonds_across(body.holes(), &bonds, cloud);
+    let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
+    let absent = absent_bonds(&bonds, &crosses, Absence::Hole);
+    (bonds.retained(&keep), absent)
+}
+
+/// The bonds for which `is_absent` (n_bonds) is true, as what is none.
+fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<AbsentBond> {
+    (bonds.ends.iter().zip(&bonds.horizon))
+        .zip(is_absent)
+        .filter(|(_, is_absent)| **is_absent)
+        .map(|((&ends, &horizon), _)| AbsentBond {
+            ends,
+            horizon,
+            absence,
+        })
+        .collect()
+}
+
+/// The error of points that have no neighbour at all: no correction gives them a stiffness.
+fn require_neighbours(body: &dyn Body, bonds: &BondSet) -> Result<(), SetupError> {
+    let lone = bonds.lone_points();
+    let Some(&first) = lone.first() else {
+        return Ok(());
+    };
+    let fault = Fault::LonePoints {
+        count: lone.len(),
+        n_points: bonds.incidence.n_points(),
+        first: body.place(first),
+    };
+    Err(Field::whole("horizon").error(fault))
+}
+
+/// Bonds that pre-cracks leave, with their stiffness and correction.
+struct Corrected {
+    bonds: BondSet,
+    stiffness: BondStiffness,
+    correction: Correction,
+    energy_ratios: [Vec<f64>; 4],
+}
+
+/// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
+/// way round if the setup says so.
+fn correct(
+    setup: &Setup,
+    cloud: &PointCloud,
+    horizons: &Horizons,
+    bonds: BondSet,
+    is_cut: &[bool],
+) -> Corrected {
+    let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
+    let any_is_cut = is_cut.contains(&true);
+    let cut_first = setup.correction.domain == CorrectionDomain::Cracked;
+    let bonds = if cut_first && any_is_cut {
+        bonds.retained(&survives)
+    } else {
+        bonds
+    };
+    let alpha = formulation::alpha(setup, &bonds, cloud);
+    let stiffness = formulation::stiffness(setup, &bonds, cloud, &alpha);
+    let correction = formulation::correction(setup, &bonds, cloud, horizons, &stiffness, alpha);
+    let (materials, plane) = (setup.materials(), setup.plane());
+    let continuum = Continuum {
+        materials: &materials,
+        plane,
+    };
+    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
+    let corrected = Corrected {
+        bonds,
+        stiffness,
+        correction,
+        energy_ratios,
+    };
+    if cut_first || !any_is_cut {
+        return corrected;
+    }
+    Corrected {
+        bonds: corrected.bonds.retained(&survives),
+        stiffness: corrected.stiffness.retained(&survives),
+        correction: corrected.correction.retained(&survives),
+        energy_ratios: corrected.energy_ratios,
+    }
+}
+
+/// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
+fn precrack_share(bonds: &BondSet, is_cut: &[bool]) -> Vec<f64> {
+    let n_points = bonds.incidence.n_points();
+    if !is_cut.contains(&true) {
+        return vec![0.0; n_points];
+    }
+    (0..n_points as u32)
+        .map(|point| {
+            let family = bonds.incidence.at(point);
+            let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
+            cut as f64 / family.len().max(1) as f64
+        })
+        .collect()
+}

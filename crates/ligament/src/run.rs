@@ -1,0 +1,121 @@
+//! The method, second page: from the discrete model to a broken body, or to its modes. The first is [`crate::model`].
+
+use std::sync::Arc;
+
+use ligament_analysis::Observer;
+use ligament_analysis::driver::{self, Outcome, Problem};
+use ligament_analysis::history::{ObserverError, StepRecord, View};
+use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
+use ligament_analysis::probe::Probe;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+
+use crate::error::{Error, Fault, Field};
+use crate::loading::{Loading, Vibration};
+use crate::model::Model;
+use crate::setup::{Analysis, Setup};
+
+/// What a setup of loads comes to.
+#[derive(Debug)]
+pub struct Solution {
+    /// The discrete model.
+    pub model: Model,
+    /// Probes; their values stand in the records of the outcome, in this order.
+    pub probes: Arc<[Probe]>,
+    /// Outcome of the analysis: history, last state, and why it ended.
+    pub outcome: Outcome,
+}
+
+impl Setup {
+    /// Builds the model and follows the loads on the threads of the setup: the elastic solution, or the breaking of bonds up to the
+    /// end of the loading or of the body.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong, or the equations cannot be set up. How the analysis ends is in the outcome.
+    pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
+        on_threads(self.threads, || {
+            let model = Model::build(self, &mut ())?;
+            let loading = Loading::new(&model.setup, &model.system)?;
+            let problem = loading.problem(&model.system, &model.criteria);
+            let outcome = follow(&problem, &model.setup.analysis, observer)?;
+            Ok(Solution {
+                model,
+                probes: loading.probes,
+                outcome,
+            })
+        })?
+    }
+
+    /// Builds the model and finds its natural modes on the threads of the setup.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong or its analysis is another, or the equations cannot be set up or solved.
+    pub fn modes(self) -> Result<ModalOutcome, Error> {
+        let Analysis::Modal(settings) = self.analysis else {
+            return Err(other_analysis(&self.analysis, "natural modes"));
+        };
+        on_threads(self.threads, || {
+            let model = Model::build(self, &mut ())?;
+            let vibration = Vibration::new(&model.setup, &model.system.cloud)?;
+            let analysis = ModalAnalysis::new(&vibration.problem(&model.system), settings)?;
+            Ok(analysis.find()?)
+        })?
+    }
+}
+
+/// Solves a problem, or follows its loading up to failure.
+///
+/// # Errors
+///
+/// If the analysis is of natural modes, or the equations cannot be set up.
+pub fn follow(
+    problem: &Problem,
+    analysis: &Analysis,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    Ok(match analysis {
+        Analysis::Elastic { energy_tolerance } => {
+            driver::elastic::run(problem, *energy_tolerance, observer)?
+        }
+        Analysis::Stepped(settings) => driver::stepped::run(problem, settings, observer)?,
+        Analysis::Event(settings) => driver::event::run(problem, settings, observer)?,
+        Analysis::Modal(_) => return Err(other_analysis(analysis, "the answer to loads")),
+    })
+}
+
+fn other_analysis(found: &Analysis, wanted: &'static str) -> Error {
+    let fault = Fault::OtherAnalysis {
+        found: found.name(),
+        wanted,
+    };
+    Field::whole("analysis").error(fault).into()
+}
+
+/// Does some work on so many threads; on those of the caller without a number.
+///
+/// # Errors
+///
+/// If the threads cannot be started.
+pub fn on_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, ThreadPoolBuildError> {
+    match threads {
+        None => Ok(work()),
+        Some(count) => {
+            let pool = ThreadPoolBuilder::new().num_threads(count);
+            Ok(pool.build()?.install(work))
+        }
+    }
+}
+
+/// An observer that keeps nothing: the outcome has the history.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unobserved;
+
+impl Observer for Unobserved {
+    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,78 @@
+//! What is computed: an elastic solution, the breaking of bonds, or natural modes.
+
+use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
+use ligament_analysis::driver::StopRules;
+use ligament_analysis::driver::event::EventSettings;
+use ligament_analysis::driver::stepped::SteppedSettings;
+use ligament_analysis::modal::ModalSettings;
+
+/// Relative change of energy below which an elastic solution is in equilibrium (NHPD's value).
+pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
+
+/// Bonds closer than this (relative) to the worst one break together with it.
+const TIE_TOLERANCE: f64 = 1e-8;
+
+/// What is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Analysis {
+    /// One elastic solution at load factor 1.
+    Elastic {
+        /// Relative change of energy below which it is in equilibrium.
+        energy_tolerance: f64,
+    },
+    /// The breaking of bonds under load steps: in each, bonds break until none is beyond its limit.
+    Stepped(SteppedSettings),
+    /// The exact path from breakage to breakage, which may snap back, up to load factor 1.
+    Event(EventSettings),
+    /// Natural frequencies and modes.
+    Modal(ModalSettings),
+}
+
+impl Default for Analysis {
+    fn default() -> Self {
+        Self::Elastic {
+            energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
+        }
+    }
+}
+
+impl Analysis {
+    /// Name of the analysis, as results call it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Elastic { .. } => "static",
+            Self::Stepped(_) | Self::Event(_) => "fracture",
+            Self::Modal(_) => "modal",
+        }
+    }
+
+    /// Whether bonds may break.
+    pub fn is_fracture(&self) -> bool {
+        matches!(self, Self::Stepped(_) | Self::Event(_))
+    }
+}
+
+/// Settings of an analysis with these load factors, five bonds at most breaking between two solutions.
+pub fn stepped(load_factors: Vec<f64>) -> SteppedSettings {
+    SteppedSettings {
+        load_factors,
+        refine_first_break: 0,
+        rule: BreakingRule {
+            order: BreakingOrder::Excess,
+            bonds_per_iteration: 5,
+            tie_tolerance: TIE_TOLERANCE,
+        },
+        energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
+        round_limit: 10_000,
+        stop: StopRules::NONE,
+    }
+}
+
+/// Settings of an analysis of the exact path, without a reason to stop before load factor 1.
+pub fn event() -> EventSettings {
+    EventSettings {
+        tie_tolerance: TIE_TOLERANCE,
+        energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
+        stop: StopRules::NONE,
+    }
+}

@@ -1,0 +1,108 @@
+//! The corrections of the bonds: factors alpha and Omega.
+
+use ligament_model::correction::{StopRule, Sweeps};
+
+use super::law::{Calibration, Law};
+
+/// Number of bonds above which a model takes the stop rule that does not depend on its size, unless the setup names a rule.
+const LARGE_MODEL: usize = 1_000_000;
+
+/// The corrections of the bonds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Correction {
+    /// Factor alpha of each bond.
+    pub alpha: Alpha,
+    /// What surfaces take from the families, given back by a factor Omega of each bond.
+    pub surface: Surface,
+    /// Body that the correction sees.
+    pub domain: CorrectionDomain,
+}
+
+/// The factor alpha of a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Alpha {
+    /// One.
+    None,
+    /// Share of the cell inside the horizon.
+    PartialVolume,
+    /// NHPD's factor by length.
+    Length,
+}
+
+/// The correction of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Surface {
+    /// No correction.
+    None,
+    /// By the volumes of the families.
+    Volume,
+    /// NHPD's iterative domain correction.
+    Domain(Iteration),
+}
+
+/// How the domain correction is iterated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Rule that says when the iteration has converged; without one the sum over all bonds decides, or in models of more
+    /// than a million bonds their mean.
+    pub stop: Option<StopRule>,
+    /// Sweeps at most.
+    pub max_sweeps: usize,
+}
+
+/// The body that the correction sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CorrectionDomain {
+    /// Before the pre-cracks cut bonds.
+    #[default]
+    Whole,
+    /// After the pre-cracks cut bonds.
+    Cracked,
+}
+
+impl Default for Iteration {
+    fn default() -> Self {
+        Self {
+            stop: None,
+            max_sweeps: 500,
+        }
+    }
+}
+
+impl Iteration {
+    /// The paper's rule: change of a sweep summed over all bonds, which grows with the size of the model.
+    pub const SUM: StopRule = StopRule::Sum(1e-3);
+
+    /// Mean change per bond, which makes the energies of a large model as right as the sum does those of a small one.
+    pub const MEAN: StopRule = StopRule::Mean(1e-7);
+
+    /// Stop rule and limit for a model of so many bonds.
+    pub fn sweeps(&self, n_bonds: usize) -> Sweeps {
+        let by_size = if n_bonds > LARGE_MODEL {
+            Self::MEAN
+        } else {
+            Self::SUM
+        };
+        Sweeps {
+            stop: self.stop.unwrap_or(by_size),
+            limit: self.max_sweeps,
+        }
+    }
+}
+
+impl Correction {
+    /// The corrections that the paper of a law takes with it.
+    pub fn of_paper(law: &Law) -> Self {
+        let (alpha, surface) = match (law, law.calibration()) {
+            (Law::Nhpd, _) => (Alpha::Length, Surface::Domain(Iteration::default())),
+            (Law::MbbPd { .. }, _) => (Alpha::None, Surface::None),
+            (_, Some(Calibration::Discrete)) => (Alpha::PartialVolume, Surface::None),
+            _ => (Alpha::PartialVolume, Surface::Volume),
+        };
+        Self {
+            alpha,
+            surface,
+            domain: CorrectionDomain::default(),
+        }
+    }
+}

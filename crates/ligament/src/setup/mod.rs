@@ -1,0 +1,162 @@
+//! The setup: everything that a computation is told, as typed values.
+
+mod analysis;
+mod check;
+mod conditions;
+mod correction;
+mod law;
+mod probe;
+mod temperature;
+
+use std::sync::Arc;
+
+use ligament_analysis::SolverSettings;
+use ligament_model::bonds::precrack::PreCrack;
+use ligament_model::failure::Choice;
+use ligament_model::{Horizons, Material, Plane, PointCloud};
+
+use crate::body::Body;
+
+pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, stepped};
+pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, Support};
+pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
+pub use law::{Calibration, Form, Law, Strains};
+pub use probe::{Probe, Reading};
+pub use temperature::{Sample, Temperature, TemperatureChange};
+
+/// Description of a computation: body, section, materials, law, corrections, supports, loads and the analysis.
+///
+/// Lengths are in metres, forces in newtons, all else in SI units. Positions are in the coordinates of the body.
+/// [`Setup::new`] fills in what need not be said; every field can be set afterwards.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// Points with their groups: from a mesh, a lattice or arrays.
+    pub body: Arc<dyn Body>,
+    /// Section of the body: what a point of the plane stands for across it.
+    pub section: Section,
+    /// Materials: one without a group for the whole body, or one for each of some groups.
+    pub materials: Vec<MaterialRegion>,
+    /// Bond law.
+    pub law: Law,
+    /// Horizon of the points.
+    pub horizon: Horizon,
+    /// Corrections of the bonds.
+    pub correction: Correction,
+    /// Cracks that are there from the start.
+    pub precracks: Vec<PreCrack>,
+    /// Parts of the body where bonds never fail.
+    pub no_fail: Vec<Place>,
+    /// Supports of the body; there need be none.
+    pub supports: Vec<Support>,
+    /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
+    pub loads: Vec<Load>,
+    /// Changes of temperature at load factor 1; where several reach, the last holds.
+    pub temperatures: Vec<Temperature>,
+    /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
+    pub criteria: Vec<Choice>,
+    /// Quantities that the history records beside displacement and load.
+    pub probes: Vec<Probe>,
+    /// Kind of analysis.
+    pub analysis: Analysis,
+    /// Solver of the equations.
+    pub solver: SolverSettings,
+    /// Number of threads; without it the threads of the caller.
+    pub threads: Option<usize>,
+}
+
+/// Section of the body: what a point of the plane stands for across it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Section {
+    /// A plate or a slice of a long body.
+    Plane {
+        /// Plane stress or plane strain.
+        state: Plane,
+        /// Thickness, m.
+        thickness: f64,
+    },
+}
+
+/// A material and the part of the body that it fills.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialRegion {
+    /// Group of the body; without it the material fills the whole body.
+    pub group: Option<String>,
+    /// Elastic constants, strengths, density and expansion.
+    pub material: Material,
+}
+
+/// Horizon of the points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Horizon {
+    /// The distance of each point to its nearest neighbour times this factor, at least 1; 3 is usual.
+    Factor(f64),
+    /// One length for all points, m.
+    Length(f64),
+}
+
+impl Setup {
+    /// The elastic analysis of a body of one material in plane stress with a thickness of 1 m, horizon factor 3 and the
+    /// correction of the law's paper; nothing holds it and nothing loads it yet.
+    pub fn new(body: impl Body + 'static, material: Material, law: Law) -> Self {
+        Self {
+            body: Arc::new(body),
+            section: Section::Plane {
+                state: Plane::Stress,
+                thickness: 1.0,
+            },
+            materials: vec![MaterialRegion {
+                group: None,
+                material,
+            }],
+            law,
+            horizon: Horizon::Factor(3.0),
+            correction: Correction::of_paper(&law),
+            precracks: Vec::new(),
+            no_fail: Vec::new(),
+            supports: Vec::new(),
+            loads: Vec::new(),
+            temperatures: Vec::new(),
+            criteria: Vec::new(),
+            probes: Vec::new(),
+            analysis: Analysis::default(),
+            solver: SolverSettings::default(),
+            threads: None,
+        }
+    }
+
+    /// Materials in their order, which indices of materials refer to.
+    pub fn materials(&self) -> Vec<Material> {
+        let regions = self.materials.iter();
+        regions.map(|region| region.material.clone()).collect()
+    }
+
+    /// State of the plane.
+    pub fn plane(&self) -> Plane {
+        let Section::Plane { state, .. } = self.section;
+        state
+    }
+
+    /// Thickness of the body, m.
+    pub fn thickness(&self) -> f64 {
+        let Section::Plane { thickness, .. } = self.section;
+        thickness
+    }
+}
+
+impl Horizon {
+    /// Horizons of the points of a cloud.
+    pub fn of_points(self, cloud: &PointCloud) -> Horizons {
+        match self {
+            Self::Factor(factor) => Horizons::from_spacing(&cloud.spacing, factor),
+            Self::Length(length) => Horizons::unified(length, cloud.len()),
+        }
+    }
+
+    /// Horizon of a point at this distance from its nearest neighbour, m.
+    pub fn at_spacing(self, spacing: f64) -> f64 {
+        match self {
+            Self::Factor(factor) => factor * spacing,
+            Self::Length(length) => length,
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! What a user should know about a model before trusting its results.
+
+use ligament_model::correction::CorrectionReport;
+use ligament_model::failure::Measure;
+use ligament_model::{ElementKind, FixedFields, Isotropic};
+use thiserror::Error;
+
+use crate::body::Body;
+use crate::setup::{Horizon, Setup};
+
+/// Below this the domain correction is not known to have a fixed point.
+const SMALLEST_SAFE_FACTOR: f64 = 2.0;
+
+/// Relative error of a point's energy under uniaxial strain above which a warning names the point.
+const ENERGY_TOLERANCE: f64 = 1e-4;
+
+/// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
+const POISSON_TOLERANCE: f64 = 1e-3;
+
+/// Something that a user should know about a model before trusting its results.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Warning {
+    /// Something about the body.
+    #[error("{0}")]
+    Body(String),
+    /// Horizons for which the domain correction may not converge.
+    #[error(
+        "{} less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no fixed point, and peak loads then depend on the \
+         number of sweeps",
+        match is_given {
+            true => format!("model.horizon_factor = {factor} is"),
+            false => format!("the horizon is {factor:.4} times the distance to the nearest point for some points,"),
+        }
+    )]
+    SmallHorizon {
+        /// Horizon over the distance to the nearest point, the smallest one.
+        factor: f64,
+        /// Whether the setup gives this factor.
+        is_given: bool,
+    },
+    /// A domain correction that did not converge.
+    #[error(
+        "the domain correction did not converge in {sweeps} sweeps (last change {last_change:.2e}): {off} of {n_points} points have \
+         energies off by more than {ENERGY_TOLERANCE}, the worst by {error:.1e} ({worst} at {:.4}, {:.4}); more \
+         correction.max_sweeps may help", position[0], position[1]
+    )]
+    NotConverged {
+        /// Number of sweeps.
+        sweeps: usize,
+        /// Change of the last sweep.
+        last_change: f64,
+        /// Number of points whose energy is off.
+        off: usize,
+        /// Number of points.
+        n_points: usize,
+        /// Largest error of the energy.
+        error: f64,
+        /// The point with the largest error, in words.
+        worst: String,
+        /// Position of the point, m.
+        position: [f64; 2],
+    },
+    /// Bonds that only touch an end of a pre-crack.
+    #[error(
+        "{bonds} bonds only touch an end of a pre-crack and stay whole: if the crack begins at the outline, let it begin a little \
+         outside, or give it `ends = \"included\"`"
+    )]
+    Touched {
+        /// Number of such bonds.
+        bonds: usize,
+    },
+    /// A Poisson's ratio that the law does not use.
+    #[error(
+        "Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}"
+    )]
+    PoissonNotUsed {
+        /// Poisson's ratio of the material.
+        poisson: f64,
+        /// Poisson's ratio of central forces.
+        limit: f64,
+    },
+    /// A Poisson's ratio that makes shear stiffness negative.
+    #[error(
+        "Poisson's ratio {poisson} is greater than {limit:.4}: {}, the stability of the intact model is checked",
+        match turns {
+            true => "shear and rotational stiffness of the bonds are negative",
+            false => "the shear stiffness of the bonds is negative",
+        }
+    )]
+    NegativeShear {
+        /// Poisson's ratio of the material.
+        poisson: f64,
+        /// Poisson's ratio of central forces.
+        limit: f64,
+        /// Whether bonds resist rotations too.
+        turns: bool,
+    },
+    /// A criterion that takes the rotation of the body for sliding.
+    #[error(
+        "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so that where the body turns its rotation counts \
+         as sliding of the bonds; \"mppd\" tells them apart"
+    )]
+    RotationAsSliding {
+        /// The criterion.
+        criterion: &'static str,
+        /// The law.
+        law: &'static str,
+    },
+    /// A criterion of energy where shear gives energy back, so that bonds nearly along a crack have none to reach a limit with.
+    #[error(
+        "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
+         those nearly along a crack never fail; \"critical-stretch\" breaks them"
+    )]
+    EnergyGivenBack {
+        /// Poisson's ratio of the material.
+        poisson: f64,
+        /// Poisson's ratio of central forces.
+        limit: f64,
+    },
+}
+
+/// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction,
+/// pre-cracks (`touched`: bonds that only touch an end of one) and the materials.
+pub(crate) fn of_model(
+    setup: &Setup,
+    spacing: &[f64],
+    correction: Option<&CorrectionReport>,
+    fixed: &FixedFields,
+    touched: usize,
+) -> Vec<Warning> {
+    let body = &*setup.body;
+    let mut warnings: Vec<Warning> = body.remarks().into_iter().map(Warning::Body).collect();
+    if correction.is_some() {
+        warnings.extend(small_horizon(setup, spacing, fixed));
+    }
+    if let Some(correction) = correction.filter(|report| !report.converged) {
+        warnings.push(not_converged(body, correction, fixed));
+    }
+    if touched > 0 {
+        warnings.push(Warning::Touched { bonds: touched });
+    }
+    let materials = setup.materials.iter();
+    let constants: Vec<Isotropic> = materials
+        .filter_map(|it| it.material.elasticity.isotropic())
+        .collect();
+    warnings.extend(constants.iter().filter_map(|it| of_poisson(setup, it)));
+    warnings.extend(rotation_as_sliding(setup));
+    warnings.extend(
+        constants
+            .iter()
+            .filter_map(|it| energy_given_back(setup, it)),
+    );
+    warnings
+}
+
+fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<Warning> {
+    let (factor, is_given) = match setup.horizon {
+        Horizon::Factor(factor) => (factor, true),
+        Horizon::Length(_) => {
+            let factors = fixed.horizon.iter().zip(spacing);
+            let factors = factors.map(|(horizon, nearest)| horizon / nearest);
+            (factors.fold(f64::INFINITY, f64::min), false)
+        }
+    };
+    (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
+}
+
+fn not_converged(body: &dyn Body, correction: &CorrectionReport, fixed: &FixedFields) -> Warning {
+    let [x, y, ..] = &fixed.energy_ratios;
+    let error = |point: usize| (x[point] - 1.0).abs().max((y[point] - 1.0).abs());
+    let off = (0..x.len())
+        .filter(|&point| error(point) > ENERGY_TOLERANCE)
+        .count();
+    let worst = (0..x.len())
+        .max_by(|&i, &j| error(i).total_cmp(&error(j)))
+        .unwrap_or_default();
+    Warning::NotConverged {
+        sweeps: correction.sweeps,
+        last_change: correction.last_change,
+        off,
+        n_points: x.len(),
+        error: error(worst),
+        worst: body.label(worst as u32),
+        position: body.positions()[worst],
+    }
+}
+
+/// The shear of a bond between points without rotations is that of the body and its rotation together.
+fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
+    let law = &setup.law;
+    if law.element() != ElementKind::Spring {
+        return None;
+    }
+    let sees_rotations = |measure: &Measure| match measure {
+        Measure::Sliding | Measure::Friction => true,
+        // Without a shear stiffness there is no energy of shear.
+        Measure::Energy => !law.fixes_poisson(),
+        _ => false,
+    };
+    let mut kinds = setup.criteria.iter().map(|it| it.kind);
+    let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
+    kind.map(|kind| Warning::RotationAsSliding {
+        criterion: kind.word,
+        law: law.name(),
+    })
+}
+
+fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+    let mut kinds = setup.criteria.iter();
+    let looks_at_energy = kinds.any(|it| it.kind.measures.contains(&Measure::Energy));
+    let (poisson, limit) = poisson_and_limit(setup, material);
+    let gives_energy = poisson > limit && !setup.law.fixes_poisson();
+    (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })
+}
+
+fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+    let (poisson, limit) = poisson_and_limit(setup, material);
+    if setup.law.fixes_poisson() {
+        let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
+        return differs.then_some(Warning::PoissonNotUsed { poisson, limit });
+    }
+    let turns = match setup.law.element() {
+        ElementKind::Beam => true,
+        ElementKind::Spring => false,
+        ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => return None,
+    };
+    (poisson > limit).then_some(Warning::NegativeShear {
+        poisson,
+        limit,
+        turns,
+    })
+}
+
+fn poisson_and_limit(setup: &Setup, material: &Isotropic) -> (f64, f64) {
+    let limit = Isotropic::central_force_poisson(setup.plane());
+    (material.poisson, limit)
+}
