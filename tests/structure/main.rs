@@ -28,7 +28,6 @@ const STILL_LARGE: &[&str] = &[
     "case.rs::from_document",
     "diagrams.rs::loci",
     "fields.rs::draw_fields",
-    "model.rs::model_of",
     "modes.rs::find_modes",
     "of_case.rs::field_here",
     "outlines.rs::curve_to",
@@ -43,7 +42,6 @@ const STILL_LARGE: &[&str] = &[
 const STILL_IN_CIRCLES: &[&[&str]] = &[
     &["assembly.rs", "imaginary.rs"],
     &["connectivity.rs", "rigid_motions.rs"],
-    &["body/mod.rs", "lattice.rs", "mesh.rs"],
     &[
         "case.rs",
         "body_section.rs",
@@ -61,13 +59,6 @@ const STILL_IN_CIRCLES: &[&[&str]] = &[
         "region.rs",
         "schema.rs",
         "temperature.rs",
-    ],
-    &[
-        "failure.rs",
-        "resolve/mod.rs",
-        "boundary.rs",
-        "modal.rs",
-        "temperature/mod.rs",
     ],
     &["model.rs", "model.rs"],
     &["check/mod.rs", "modal.rs"],
