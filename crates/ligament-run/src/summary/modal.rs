@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
 use serde::Serialize;
 
-use crate::model::Model;
 use crate::stages::Stage;
 use crate::summary::{ModelSummary, SolverSummary, StabilitySummary, heading};
+use ligament::Model;
 use ligament_case::case::CaseFile;
 
 /// All numbers of a modal analysis.

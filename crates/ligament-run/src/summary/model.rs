@@ -4,7 +4,7 @@ use ligament_model::ElementKind;
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
-use crate::model::Model;
+use ligament::Model;
 use ligament_case::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
 
 /// The numbers of a model.

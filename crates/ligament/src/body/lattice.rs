@@ -6,7 +6,7 @@ use ligament_model::cloud::lattice::Face;
 use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
-use super::{Body, OffOutline, Origin};
+use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
 #[derive(Debug)]

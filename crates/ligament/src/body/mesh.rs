@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ligament_mesh::{Group, Mesh, NodeField};
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
-use super::{Body, OffOutline, Origin};
+use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at each node of a mesh, by the names of its physical groups.
 #[derive(Debug)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 use thiserror::Error;
 
-use super::{Body, OffOutline, Origin};
+use super::interface::{Body, OffOutline, Origin};
 
 /// A body of points that are given one by one, each with the area that it stands for. Its groups are sets of points; they have
 /// no length and no outline, so that forces are spread over their points by volume.
