@@ -1,8 +1,5 @@
 //! Checks on single values that several sections share.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 
@@ -11,16 +8,6 @@ pub type Point = [f64; 2];
 
 /// Keyword of the schema for a range in words, where these say more than its bounds.
 pub(super) const RANGE: &str = "x-range";
-
-/// A direction in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-}
 
 /// Fails at `table.key` unless the condition holds; `expected` is the condition in words.
 pub fn require(
