@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::ordered_box;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require, require_column_name, require_positive};
 use super::word::Word;
 use ligament_model::Plane;

@@ -8,7 +8,7 @@ use super::conditions::{Displacement, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Place, no_place, place};
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require, require_column_name};
 use super::word::Word;
 use ligament::setup::Axis;

@@ -1,6 +1,8 @@
 //! What the law MBB-PD asks of the other sections of a case.
 
 use super::analysis::Analysis;
+use super::body_section::BodySection;
+use super::checked::Case;
 use super::correction::Surface;
 use super::fault::KeyFault;
 use super::fracture::StressField;
@@ -8,7 +10,6 @@ use super::key_path::KeyPath;
 use super::model::Law;
 use super::probe::Reading;
 use super::word::Word;
-use super::{BodySection, Case};
 use ligament::setup::{Alpha, Form, Strains};
 
 /// The fault of a criterion that looks at what bonds of the law do not have.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::not_exactly_one;
 use super::word::Word;
 use ligament::setup::{Calibration, Form, Strains};

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require};
 use super::word::Word;
 use ligament_model::bonds::precrack::Ends;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require, require_column_name};
 use super::word::Word;
 use ligament::setup::Axis;

@@ -9,6 +9,13 @@ pub type Point = [f64; 2];
 /// Keyword of the schema for a range in words, where these say more than its bounds.
 pub(super) const RANGE: &str = "x-range";
 
+/// That exactly one of the keys is there, as a value of `oneOf`.
+pub(super) fn exactly_one(keys: &[&str]) -> serde_json::Value {
+    keys.iter()
+        .map(|key| serde_json::json!({ "required": [key] }))
+        .collect()
+}
+
 /// Fails at `table.key` unless the condition holds; `expected` is the condition in words.
 pub fn require(
     holds: bool,
