@@ -9,7 +9,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 11] = [
+const ARROWS: [(&str, &[&str]); 12] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
@@ -29,6 +29,15 @@ const ARROWS: [(&str, &[&str]); 11] = [
             "ligament-analysis",
             "ligament-mesh",
             "ligament-model",
+        ],
+    ),
+    (
+        "ligament-run",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-model",
             "ligament-output",
         ],
     ),
@@ -43,6 +52,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-run",
         ],
     ),
     (
@@ -55,6 +65,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-run",
             "ligament-study",
         ],
     ),
@@ -68,6 +79,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-run",
             "ligament-study",
             "ligament-verify",
         ],
@@ -78,25 +90,30 @@ const ARROWS: [(&str, &[&str]); 11] = [
 const RESERVED: [(&str, &[&str]); 11] = [
     ("clap", &["ligament-cli"]),
     ("clap_complete", &["ligament-cli"]),
-    ("indicatif", &["ligament-case", "ligament-study"]),
+    ("indicatif", &["ligament-run", "ligament-study"]),
     (
         "anyhow",
         &[
             "ligament-case",
             "ligament-cli",
             "ligament-plot",
+            "ligament-run",
             "ligament-study",
             "ligament-verify",
         ],
     ),
     ("schemars", &["ligament-case"]),
-    ("serde", &["ligament-case", "ligament-study"]),
+    (
+        "serde",
+        &["ligament-case", "ligament-run", "ligament-study"],
+    ),
     (
         "serde_json",
         &[
             "ligament-case",
             "ligament-cli",
             "ligament-plot",
+            "ligament-run",
             "ligament-study",
         ],
     ),
@@ -107,17 +124,18 @@ const RESERVED: [(&str, &[&str]); 11] = [
 ];
 
 /// Crates that touch files.
-const WITH_FILES: [&str; 6] = [
+const WITH_FILES: [&str; 7] = [
     "ligament-case",
     "ligament-cli",
     "ligament-output",
     "ligament-plot",
+    "ligament-run",
     "ligament-study",
     "ligament-verify",
 ];
 
 /// Crates that write to the terminal.
-const TALKING: [&str; 3] = ["ligament-case", "ligament-cli", "ligament-study"];
+const TALKING: [&str; 3] = ["ligament-cli", "ligament-run", "ligament-study"];
 
 /// Parts of which no crate holds more than one, so that no room of the house grows over the others.
 const PARTS: usize = 4;

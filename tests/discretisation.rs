@@ -4,11 +4,11 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_case::model::Model;
 use ligament_mesh::Mesh;
 use ligament_model::BondSet;
 use ligament_model::Horizons;
 use ligament_model::PointCloud;
+use ligament_run::model::Model;
 use verification::bench::Bench;
 use verification::meshes;
 use verification::numbers::deviation;

@@ -295,9 +295,9 @@ fn frictional_bars_yield_as_calibrated() {
 /// the reason.
 #[test]
 fn two_points_without_a_friction_angle_are_refused() {
-    use ligament_case::model::build_model;
-    use ligament_case::progress::{Progress, ProgressMode};
-    use ligament_case::stages::Stages;
+    use ligament_run::model::build_model;
+    use ligament_run::progress::{Progress, ProgressMode};
+    use ligament_run::stages::Stages;
     let settings = [
         "fracture.criterion.0.kind=frictional",
         "fracture.criterion.0.calibration=two-point",

@@ -4,10 +4,10 @@
 
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_case::progress::ProgressMode;
-use ligament_case::run;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
+use ligament_run::progress::ProgressMode;
+use ligament_run::run;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
 use verification::numbers::{deviation, relative_error};

@@ -5,9 +5,9 @@ use ligament_analysis::gauges::FreeBody;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, gauges};
-use ligament_case::progress::ProgressMode;
 use ligament_cli::check::{Extent, check};
 use ligament_model::thermal::ThermalStrain;
+use ligament_run::progress::ProgressMode;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
 use verification::numbers::{component, deviation, largest, relative_error};
@@ -399,7 +399,7 @@ fn loads_that_do_nothing_are_refused() {
         let case = bench::case(&format!("{PLATE}{load}\n"), &settings);
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out");
-        let run = ligament_case::run::run(&case, &out, false, ProgressMode::Quiet)
+        let run = ligament_run::run::run(&case, &out, false, ProgressMode::Quiet)
             .unwrap_err()
             .to_string();
         let checked = check(&case, Extent::Model, None, &mut Vec::new())

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use ligament::Body;
-use ligament_case::model::Model;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_model::Canvas as Drawn;
+use ligament_run::model::Model;
 use verification::meshes;
 
 use crate::expected::{Expected, Place};

@@ -4,8 +4,8 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::{ControlKind, fields};
 use ligament_case::case::{Control, StressField};
-use ligament_case::model::Model;
 use ligament_model::Absence;
+use ligament_run::model::Model;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};

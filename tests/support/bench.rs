@@ -11,12 +11,12 @@ use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, S
 use ligament_analysis::probe::Probe;
 use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
-use ligament_case::model::{Model, build_model};
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::run::{self, Report};
-use ligament_case::stages::Stages;
-use ligament_case::summary::Summary;
 use ligament_mesh::Mesh;
+use ligament_run::model::{Model, build_model};
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::run::{self, Report};
+use ligament_run::stages::Stages;
+use ligament_run::summary::Summary;
 use tempfile::TempDir;
 
 use crate::meshes;

@@ -7,11 +7,11 @@ use ligament::setup::Analysis;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
 use ligament_analysis::{Supports, Unknowns};
 use ligament_case::case::CaseFile;
-use ligament_case::model::{Model, build_model};
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::stages::Stages;
 use ligament_mesh::Mesh;
 use ligament_model::LumpedMass;
+use ligament_run::model::{Model, build_model};
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::Stages;
 use tempfile::TempDir;
 
 use crate::bench::{case, mesh_setting};

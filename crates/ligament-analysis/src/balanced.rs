@@ -66,12 +66,12 @@ impl Balanced {
     }
 }
 
-/// How many negative eigenvalues the stiffness has, and how many it should have.
+/// Numbers of negative eigenvalues that the stiffness has, and that it should have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stability {
     /// Negative eigenvalues of the stiffness.
     pub negative: usize,
-    /// Those of its rotation block: an intact model that is stable has no others.
+    /// Negative eigenvalues of the rotation block: the stiffness of a stable intact model has no others.
     pub expected: usize,
 }
 
@@ -112,7 +112,7 @@ pub enum Unbalanced {
     /// The energy of the motions is negative: the stored one, unless the temperature changes.
     #[error("the stiffness lost stability: negative strain energy {energy:.3e} J")]
     NegativeEnergy {
-        /// That energy, J.
+        /// The energy of the motions, J.
         energy: f64,
     },
     /// The matrix could not be factorised.

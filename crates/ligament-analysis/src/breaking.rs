@@ -9,7 +9,7 @@ use rayon::prelude::*;
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
-/// What orders the bonds that are beyond their limits.
+/// Quantity that orders the bonds that are beyond their limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BreakingOrder {
     /// Excess of measure over limit, s - s_0 (the paper's).
@@ -18,10 +18,10 @@ pub enum BreakingOrder {
     Ratio,
 }
 
-/// How bonds are picked.
+/// Rule by which the bonds to break are picked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BreakingRule {
-    /// What orders them.
+    /// Quantity that orders the bonds.
     pub order: BreakingOrder,
     /// Number o of bonds that break before the next equilibrium (NHPD recommends 10 at most).
     pub bonds_per_iteration: usize,

@@ -78,7 +78,7 @@ pub fn point_damage_by(
             return 0.0;
         }
         let such = (0..criteria.list.len()).filter(|&criterion| fails_so(criterion));
-        such.map(|criterion| state.softening.of(criteria, criterion, bond).force)
+        such.map(|criterion| state.softening.bond(criteria, criterion, bond).force)
             .fold(1.0, f64::min)
     };
     let (mut lost, mut all) = (0.0, 0.0);

@@ -15,13 +15,13 @@ use crate::unknowns::Unknowns;
 /// A connected part of the intact body that can move rigidly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreeBody {
-    /// Number of its points.
+    /// Number of points of the part.
     pub points: usize,
-    /// Whether it is the whole body.
+    /// Whether the part is the whole body.
     pub is_whole: bool,
-    /// Its first point.
+    /// First point of the part.
     pub first: u32,
-    /// Its free motions.
+    /// Free motions of the part.
     pub motions: Vec<FreeMotion>,
     /// Degrees of freedom (of 3 n_points) held as gauges, ascending.
     pub gauges: Vec<usize>,

@@ -50,7 +50,7 @@ pub struct StepRecord {
     pub at_rest: bool,
     /// Negative eigenvalues of the stiffness; 0 where it is positive definite.
     pub negative_eigenvalues: usize,
-    /// What each group of the boundary exerts on the body: force along x and y, and the moments on its points.
+    /// Forces along x and y that each group of the boundary exerts on the body, and the moments on its points.
     pub group_forces: Vec<[f64; COMPONENTS]>,
     /// Values of the probes.
     pub probes: Vec<f64>,
@@ -85,9 +85,9 @@ pub struct BreakRecord {
     pub reaction: f64,
     /// Bond.
     pub bond: u32,
-    /// Number of the criterion by which it broke.
+    /// Number of the criterion by which the bond broke.
     pub criterion: usize,
-    /// Its measure over the limit, s/s_0 for most, when the bond broke.
+    /// Measure of the criterion over the limit when the bond broke, s/s_0 for most criteria.
     pub ratio: f64,
     /// Deformation of the bond then.
     pub deformation: BondDeformation,
@@ -146,7 +146,7 @@ pub enum Notice {
 pub struct View<'a> {
     /// The system.
     pub system: &'a dyn Bonds,
-    /// Its state.
+    /// State of the system.
     pub state: &'a State,
     /// Deformations and forces.
     pub balanced: &'a Balanced,

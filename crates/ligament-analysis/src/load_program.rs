@@ -90,7 +90,7 @@ pub struct Control {
     pub kind: ControlKind,
     /// Points of the load.
     pub points: Vec<u32>,
-    /// What each of them takes of a load of size one, in (x, y, rotation).
+    /// Share of each point in a load of size one, in (x, y, rotation).
     pub shape: Vec<[f64; COMPONENTS]>,
     /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa),
     /// before a profile.

@@ -13,7 +13,7 @@ use crate::unknowns::{COMPONENTS, Component};
 pub struct Probe {
     /// Name of the column.
     pub name: String,
-    /// What it reads.
+    /// Quantity that the probe reads.
     pub reading: Reading,
 }
 

@@ -8,19 +8,19 @@ use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
-/// How far bonds are past their limits; empty where no bond softens.
+/// State of bonds past their limits; empty where no bond softens.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Softening {
     /// Largest e/e_0 of states of equilibrium, shape (n_bonds) for each criterion; empty for those that do not soften.
     pub largest: Vec<Vec<f64>>,
-    /// The same with the iterate that equilibrium is sought from.
+    /// Largest e/e_0 with the iterate that equilibrium is sought from, shape (n_bonds) for each criterion.
     trial: Vec<Vec<f64>>,
-    /// What is left of the stiffness, for the deformations of the iterate, shape (n_bonds).
+    /// Remaining stiffness for the deformations of the iterate, shape (n_bonds).
     pub remaining: Vec<Remaining>,
 }
 
 impl Softening {
-    /// That of sound bonds.
+    /// The state of sound bonds.
     pub fn of_sound_bonds(criteria: &Criteria, n_bonds: usize) -> Self {
         if !criteria.soften() {
             return Self::default();
@@ -88,7 +88,7 @@ impl Softening {
     }
 
     /// The bond under a criterion that softens, by its extreme in equilibrium; sound for one that does not.
-    pub fn of(&self, criteria: &Criteria, criterion: usize, bond: usize) -> Softened {
+    pub fn bond(&self, criteria: &Criteria, criterion: usize, bond: usize) -> Softened {
         match self.largest.get(criterion).and_then(|it| it.get(bond)) {
             None => Softened::SOUND,
             Some(&largest) => criteria.list[criterion].after.at(bond, largest),

@@ -14,7 +14,7 @@ pub struct SolverSettings {
     pub factorisation: Option<FactorKind>,
     /// Order of elimination; open: nested dissection from [`POINTS_FOR_DISSECTION`] on, minimum degree below.
     pub ordering: Option<Ordering>,
-    /// What happens to the factor when bonds break; open: it is changed in place.
+    /// Treatment of the factor when bonds break; open: it is changed in place.
     pub update: Option<Update>,
     /// Bonds broken, counted from the start, after which the factor is made anew: 0, so many, twice as many, and so on.
     ///
@@ -32,12 +32,12 @@ pub enum Ordering {
     MinimumDegree,
 }
 
-/// What happens to the factor when bonds break.
+/// Treatment of the factor when bonds break.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Update {
-    /// It is changed in place.
+    /// The factor is changed in place.
     Incremental,
-    /// It is made anew.
+    /// The factor is made anew.
     Refactor,
 }
 
@@ -50,7 +50,7 @@ pub struct SolverChoice {
     pub unsymmetric: bool,
     /// Order of elimination.
     pub ordering: Ordering,
-    /// What happens to the factor when bonds break.
+    /// Treatment of the factor when bonds break.
     pub update: Update,
     /// Bonds broken after which the factor is made anew, see [`SolverSettings::rebuild_every`].
     pub rebuild_every: usize,

@@ -13,11 +13,11 @@ pub struct State {
     pub load_factor: f64,
     /// Displacements and rotations, shape (3 n_points), m and rad.
     pub displacement: Vec<f64>,
-    /// Which bonds are unbroken, shape (n_bonds).
+    /// For each bond, whether it is unbroken, shape (n_bonds).
     pub intact: Vec<bool>,
     /// Criterion by which each broken bond broke, shape (n_bonds).
     pub broken_by: Vec<Option<u8>>,
-    /// How far unbroken bonds are past their limits; empty where no bond softens.
+    /// State of unbroken bonds past their limits; empty where no bond softens.
     pub softening: Softening,
     /// Energy that each bond has taken for good, shape (n_bonds), J.
     pub dissipated: Vec<f64>,
@@ -45,7 +45,7 @@ impl State {
         self.intact.iter().filter(|intact| !**intact).count()
     }
 
-    /// What is left of the bonds.
+    /// The bonds that are left, with their remaining stiffness.
     pub fn bonds(&self) -> BondsLeft<'_> {
         BondsLeft {
             intact: &self.intact,

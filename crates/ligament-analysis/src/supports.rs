@@ -5,7 +5,7 @@ use crate::unknowns::{COMPONENTS, Component};
 /// Degrees of freedom held at zero, and the groups of points that hold them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
-    /// Which degrees of freedom are held, shape (3 n_points).
+    /// For each degree of freedom, whether it is held, shape (3 n_points).
     pub held: Vec<bool>,
     /// The supported groups.
     pub groups: Vec<SupportGroup>,
@@ -14,7 +14,7 @@ pub struct Supports {
 /// A supported set of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SupportGroup {
-    /// Its name.
+    /// Name of the group.
     pub name: String,
     /// Points, ascending.
     pub points: Vec<u32>,

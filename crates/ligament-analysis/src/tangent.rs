@@ -40,7 +40,7 @@ pub(crate) trait TangentSolver {
     /// The correction for forces that nothing balances, zero where the state is held. The solver must be ready.
     fn solve(&mut self, state: &State, force: Vec<f64>, costs: &mut Costs) -> Vec<f64>;
 
-    /// Whether what the solver has of K went through changes, and with them through rounding.
+    /// Whether the solver's form of K went through changes, and with them through rounding.
     fn is_changed(&self) -> bool;
 
     /// Makes the solver start anew from the bonds the next time.

@@ -16,6 +16,7 @@ pub mod fault;
 pub mod file;
 mod fracture;
 pub mod key_path;
+pub mod keys;
 mod lattice_section;
 mod load;
 mod material;
@@ -30,7 +31,6 @@ mod resolved;
 mod schema;
 mod solver;
 mod temperature;
-pub mod units;
 pub mod values;
 mod word;
 
@@ -189,7 +189,7 @@ impl Case {
             return Err(missing_section("load"));
         }
         let modal = match analysis {
-            Analysis::Modal => Some(raw.modal.unwrap_or_default().check(&section("modal"))?),
+            Analysis::Modal => Some(raw.modal.unwrap_or_default().complete()),
             Analysis::Static | Analysis::Fracture => None,
         };
         let mut number = 0;
@@ -218,7 +218,7 @@ impl Case {
             })?,
             no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
             probes: each("probe", raw.probe, probe::RawProbe::check)?,
-            solver: raw.solver.check(&section("solver"))?,
+            solver: raw.solver.complete(),
             output: raw
                 .output
                 .unwrap_or_default()

@@ -74,7 +74,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Whether some bond has a negative stiffness against shear.
     fn some_negative_shear(&self) -> bool;
 
-    /// Which degrees of freedom some bond resists, shape (n_degrees_of_freedom).
+    /// For each degree of freedom, whether some bond resists it, shape (n_degrees_of_freedom).
     fn resisted(&self) -> Vec<bool>;
 
     /// Largest stiffness of a point.

@@ -30,3 +30,20 @@ pub struct Material {
     /// Thermal expansion.
     pub expansion: Option<Expansion>,
 }
+
+impl Material {
+    /// An isotropic material with Young's modulus (Pa) and Poisson's ratio, without a name, strengths or any other property.
+    pub fn isotropic(young: f64, poisson: f64) -> Self {
+        Self {
+            name: String::new(),
+            elasticity: Elasticity::Isotropic(Isotropic { young, poisson }),
+            tensile_strength: None,
+            compressive_strength: None,
+            fracture_energy: None,
+            fracture_energy_sliding: None,
+            mixed_mode_exponent: None,
+            density: None,
+            expansion: None,
+        }
+    }
+}

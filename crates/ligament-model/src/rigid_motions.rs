@@ -22,19 +22,19 @@ pub(crate) struct RigidMotions<'a> {
     turn: Turn,
 }
 
-/// What the rotation of some points as a whole costs and moves.
+/// Cost and effect of rotating some points as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// It costs energy: bonds between points without rotations resist it by their shear.
+    /// A rotation that costs energy: bonds between points without rotations resist it by their shear.
     Costly,
-    /// It is free and moves the points; their own rotations have no stiffness, so that holding one holds nothing.
+    /// A free rotation that moves the points; their own rotations have no stiffness, so that holding one holds nothing.
     OfPositions,
-    /// It is free, and the points turn along.
+    /// A free rotation along which the points turn as well.
     OfPointsAlong,
 }
 
 impl<'a> RigidMotions<'a> {
-    /// Those of `points` among `positions`.
+    /// The rigid motions of `points` among `positions`.
     pub(crate) fn new(positions: &'a [[f64; 2]], points: &[u32], turn: Turn) -> Self {
         let chosen = || points.iter().map(|&point| positions[point as usize]);
         let centre =
@@ -255,15 +255,15 @@ impl<'a> RigidMotions<'a> {
 pub struct FreeMotion {
     /// A translation along an axis, or the rotation.
     pub component: Component,
-    /// Force of the given loads at load factor 1 along it, N; for the rotation the moment about the place that is held, or
-    /// the middle of the points, N m.
+    /// Force of the given loads at load factor 1 along the motion, N; for the rotation the moment about the place that is
+    /// held, or the middle of the points, N m.
     pub load: f64,
-    /// Its work relative to the sizes of the loads on the part, 0 to 1.
+    /// Work of the loads along the motion, relative to the sizes of the loads on the part, 0 to 1.
     pub imbalance: f64,
 }
 
 impl FreeMotion {
-    /// Whether the loads are in equilibrium along it.
+    /// Whether the loads are in equilibrium along the motion.
     pub fn is_balanced(&self) -> bool {
         self.imbalance <= BALANCE_TOLERANCE
     }

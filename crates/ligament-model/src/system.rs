@@ -44,7 +44,7 @@ pub enum Kinematics {
 }
 
 impl Kinematics {
-    /// Which elements the bonds have.
+    /// Kind of the bonds' elements.
     pub fn kind(&self) -> ElementKind {
         match self {
             Self::Beam(_) => ElementKind::Beam,
@@ -137,12 +137,12 @@ impl BondSystem {
     }
 }
 
-/// Which bonds are left, and how much of their stiffness.
+/// The bonds that are left, with their remaining stiffness.
 #[derive(Debug, Clone, Copy)]
 pub struct BondsLeft<'a> {
-    /// Which are unbroken, shape (n_bonds).
+    /// For each bond, whether it is unbroken, shape (n_bonds).
     pub intact: &'a [bool],
-    /// What is left of their stiffness, shape (n_bonds); empty where that is all of it.
+    /// Remaining stiffness, shape (n_bonds); empty where it is whole.
     pub remaining: &'a [Remaining],
 }
 

@@ -12,8 +12,8 @@ use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, stored_mesh, template};
-use ligament_case::model::Model;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
+use ligament_run::model::Model;
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
 /// The experiment.

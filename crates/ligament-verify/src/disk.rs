@@ -8,8 +8,8 @@ use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
 use super::trial::{StoredMesh, Template, stored_mesh, template};
-use ligament_case::summary::DROP;
 use ligament_plot::plots::{Colour, Plot, Series};
+use ligament_run::summary::DROP;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {

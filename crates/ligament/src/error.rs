@@ -27,13 +27,13 @@ pub enum Error {
     Threads(#[from] ThreadPoolBuildError),
 }
 
-/// A field of a setup that is wrong, and why.
+/// The error of a field of a setup that is wrong.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{field}: {fault}")]
 pub struct SetupError {
-    /// The field.
+    /// Place of the field in the setup.
     pub field: Field,
-    /// What is wrong with it, and what to do about it.
+    /// Fault of the field, with what to do about it.
     pub fault: Box<Fault>,
 }
 
@@ -48,7 +48,7 @@ pub struct Field {
     pub part: Option<&'static str>,
 }
 
-/// What is wrong with a field.
+/// Fault of a field of a setup.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Fault {
     /// A name that the body does not have.
@@ -85,7 +85,7 @@ pub enum Fault {
     Missing {
         /// The field of the material: `density`.
         property: &'static str,
-        /// What needs it.
+        /// The setting that needs the property.
         reason: String,
     },
     /// A criterion does not go together with itself, with a material or with the analysis.
@@ -193,7 +193,7 @@ pub enum Fault {
     NoTemperature {
         /// Number of such points.
         points: usize,
-        /// Why they get none.
+        /// Reason why the points get no temperature.
         reason: &'static str,
         /// The first of them, in words.
         first: String,

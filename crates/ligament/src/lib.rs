@@ -1,4 +1,41 @@
 //! Peridynamics in memory: a typed setup in, a broken body out.
+//!
+//! A body is a set of points, each bonded to the others within its horizon. Forces go through the bonds, and cracks are bonds
+//! that broke. A computation goes three steps:
+//!
+//! | step | value | page |
+//! |---|---|---|
+//! | say what to compute | [`Setup`]: body, section, materials, law, corrections, supports, loads, criteria, analysis | [`setup`] |
+//! | make bonds of it | [`Model`]: points, corrected bonds, limits, warnings | [`model`] |
+//! | solve | [`Solution`](run::Solution): history, last state, why it ended; or natural modes | [`run`] |
+//!
+//! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
+//! into stiffness, [`loading`] supports and loads into what acts on the points. What is wrong with a setup is a
+//! [`SetupError`] that names the field, and what a user should know of a model is a [`Warning`].
+//!
+//! ```
+//! use ligament::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // A plate of 30 by 10 points, 10 mm apart.
+//! let position = |k: u32| [k % 30, k / 30].map(|it| 0.01 * f64::from(it));
+//! let points = Points::new((0..300).map(position).collect(), vec![1e-4; 300])?
+//!     .with_group("left", (0..300).filter(|k| k % 30 == 0))?
+//!     .with_group("right", (0..300).filter(|k| k % 30 == 29))?;
+//! let mut setup = Setup::new(points, Material::isotropic(210e9, 0.25), Law::Nhpd);
+//! setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
+//! setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0]))];
+//!
+//! let solution = setup.solve(&mut Unobserved)?;
+//! let last = solution.outcome.history.last().ok_or("no solution")?;
+//! assert!(last.displacement > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Whoever wants to see what happens on the way gives an [`Observer`](ligament_analysis::Observer) in the place of
+//! [`Unobserved`](run::Unobserved); whoever wants the model first calls [`Model::build`]. Nothing is printed and no file is
+//! read or written here.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -9,6 +46,7 @@ pub mod error;
 pub mod formulation;
 pub mod loading;
 pub mod model;
+pub mod prelude;
 pub mod run;
 pub mod setup;
 pub mod stage;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::precrack::{count_touched_bonds, cut_bonds};
+use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::{
@@ -21,17 +21,17 @@ use crate::warning::{self, Warning};
 /// The discrete model: all that comes before the first equation.
 #[derive(Debug)]
 pub struct Model {
-    /// What it was built from.
+    /// Setup that the model was built from.
     pub setup: Setup,
     /// Points and corrected bonds.
     pub system: Arc<BondSystem>,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
-    /// How the domain correction went, where there was one.
+    /// Report on the domain correction, where there was one.
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
-    /// When its bonds fail.
+    /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// Number of pairs of points that would be bonded but for a hole between them.
     pub across_holes: usize,
@@ -53,10 +53,7 @@ impl Model {
         setup.check()?;
         let body = &*setup.body;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let (thickness, n_materials) = (setup.thickness(), setup.materials.len());
-        let cloud = stage(watcher, "points", || {
-            body.cloud(thickness, &material_of_cell, n_materials)
-        });
+        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell));
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             around_holes(BondSet::search(&cloud, &horizons), body, &cloud)
@@ -67,12 +64,8 @@ impl Model {
             points: cloud.len(),
             bonds: bonds.len(),
         });
-        let precracks = &setup.precracks;
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
-            let is_cut = cut_bonds(precracks, &bonds, &cloud);
-            let touched = count_touched_bonds(precracks, &bonds, &cloud, &is_cut);
-            let precrack_share = precrack_share(&bonds, &is_cut);
-            (is_cut, touched, precrack_share)
+            precracked(&setup.precracks, &bonds, &cloud)
         });
         absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
         absent.sort_unstable_by_key(|it| it.ends);
@@ -101,15 +94,10 @@ impl Model {
         let criteria = stage(watcher, "criteria", || {
             formulation::criteria(&setup, &system, &fixed.no_fail)
         })?;
-        let spacing = &system.cloud.spacing;
+        let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
+        let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
         Ok(Self {
-            warnings: warning::of_model(
-                &setup,
-                spacing,
-                correction.report.as_ref(),
-                &fixed,
-                touched,
-            ),
+            warnings,
             correction_range: correction.domain_factor_range(),
             correction: correction.report,
             across_holes,
@@ -126,6 +114,25 @@ impl Model {
     pub fn body(&self) -> &dyn Body {
         &*self.setup.body
     }
+}
+
+/// The points of the body, with the index of the material of each cell (n_cells).
+fn points(setup: &Setup, material_of_cell: &[u32]) -> PointCloud {
+    let n_materials = setup.materials.len();
+    (setup.body).cloud(setup.thickness(), material_of_cell, n_materials)
+}
+
+/// Which bonds pre-cracks cut (n_bonds), how many only touch an end of one, and the share of its bonds that each point loses
+/// (n_points).
+fn precracked(
+    precracks: &[PreCrack],
+    bonds: &BondSet,
+    cloud: &PointCloud,
+) -> (Vec<bool>, usize, Vec<f64>) {
+    let is_cut = cut_bonds(precracks, bonds, cloud);
+    let touched = count_touched_bonds(precracks, bonds, cloud, &is_cut);
+    let share = precrack_share(bonds, &is_cut);
+    (is_cut, touched, share)
 }
 
 /// Points and corrected bonds with the rigidities of their elements.

@@ -21,7 +21,7 @@ pub struct Solution {
     pub model: Model,
     /// Probes; their values stand in the records of the outcome, in this order.
     pub probes: Arc<[Probe]>,
-    /// How the analysis went: history, last state, why it ended.
+    /// Outcome of the analysis: history, last state, and why it ended.
     pub outcome: Outcome,
 }
 

@@ -2,7 +2,7 @@
 
 use ligament_model::correction::CorrectionReport;
 
-/// Whoever is told which stage of a computation begins and ends; `()` if nobody need know.
+/// Watcher of the stages of a computation; `()` if nobody need know.
 pub trait StageWatcher {
     /// Tells that a stage begins: `points`, `bonds`, `correction`.
     fn begins(&mut self, _stage: &'static str) {}

@@ -3,11 +3,11 @@
 /// Units of the axes of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Units {
-    /// Of the displacement.
+    /// Unit of the displacement.
     pub displacement: &'static str,
-    /// Of the force.
+    /// Unit of the force.
     pub force: &'static str,
-    /// Of their quotient.
+    /// Unit of the stiffness, force over displacement.
     pub stiffness: &'static str,
 }
 

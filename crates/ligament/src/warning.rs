@@ -11,13 +11,13 @@ use crate::setup::{Horizon, Setup};
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
 
-/// A point whose energy under uniaxial strain is off by more than this is told of.
+/// Relative error of a point's energy under uniaxial strain above which a warning names the point.
 const ENERGY_TOLERANCE: f64 = 1e-4;
 
 /// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
 
-/// What a user should know about a model before trusting its results.
+/// Something that a user should know about a model before trusting its results.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Warning {
     /// Something about the body.
@@ -57,7 +57,7 @@ pub enum Warning {
         error: f64,
         /// The point with the largest error, in words.
         worst: String,
-        /// Its position, m.
+        /// Position of the point, m.
         position: [f64; 2],
     },
     /// Bonds that only touch an end of a pre-crack.

@@ -21,7 +21,7 @@ pub struct Connectivity {
 /// Two searches from the ends of a bond towards each other.
 #[derive(Debug, Clone)]
 struct Search {
-    /// Which search reached each point, shape (n_points); [`NEITHER`] everywhere between two broken bonds.
+    /// Number of the search that reached each point, shape (n_points); [`NEITHER`] everywhere between two broken bonds.
     reached_by: Vec<u8>,
     /// Points that each search reached, in that order.
     reached: [Vec<u32>; 2],
@@ -119,7 +119,7 @@ impl Search {
         part
     }
 
-    /// Which search came to an end; none if they met.
+    /// The search that came to an end; None if the two met.
     fn ended(&mut self, topology: Topology<'_>, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
         for (side, end) in ends.into_iter().enumerate() {
             self.reach(side, end);

@@ -38,14 +38,14 @@ pub(super) fn break_bond(problem: &Problem, state: &mut State, record: &BreakRec
     state.broken_by[bond] = u8::try_from(criterion).ok();
 }
 
-/// What the criteria that soften took from a bond; all of it from the one that is at its `end`.
+/// Energy that the criteria that soften took from a bond; from the criterion whose `end` it reached, all of it.
 fn by_softening(problem: &Problem, state: &State, bond: usize, end: Option<usize>) -> f64 {
     let of = |criterion: usize| {
         let law = &problem.criteria.list[criterion];
         let taken = if end == Some(criterion) {
             law.after.total_dissipated(bond)
         } else {
-            let softened = state.softening.of(&problem.criteria, criterion, bond);
+            let softened = state.softening.bond(&problem.criteria, criterion, bond);
             softened.dissipated
         };
         // A bond that never fails takes nothing, however far its limit is.

@@ -20,7 +20,7 @@ use crate::history::{Observer, Termination};
 use crate::problem::Problem;
 use crate::unknowns::COMPONENTS;
 
-/// How to follow the path and when to stop; it ends at load factor one anyway.
+/// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventSettings {
     /// Bonds whose s/s_0 is within this relative distance of the largest break together with it.
@@ -84,9 +84,9 @@ struct Goal {
     load_factor: f64,
     /// s/s_0 of the first bonds to break, there.
     ratio: f64,
-    /// They, if it is their critical load.
+    /// The first bonds to break, if the load factor is their critical one.
     bonds: Vec<u32>,
-    /// Why the run ends there, if it does.
+    /// The reason why the run ends there, if it does.
     end: Option<Termination>,
 }
 
@@ -145,7 +145,7 @@ impl Following<'_> {
         }
     }
 
-    /// How far to go along the line of an equilibrium: to the critical load, or to what ends the run before it.
+    /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
     fn goal(&mut self, line: &Balanced) -> Goal {
         let start = Instant::now();
         let FirstToBreak { ratio, bonds } = first_to_break(

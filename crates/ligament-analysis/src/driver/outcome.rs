@@ -15,7 +15,7 @@ pub struct Outcome {
     pub rows: Rows,
     /// The last state.
     pub state: State,
-    /// Why it ended.
+    /// The reason why the run ended.
     pub termination: Termination,
     /// Force over displacement of the control load before the first breakage, N/m.
     pub elastic_stiffness: f64,
@@ -43,7 +43,7 @@ pub enum Rows {
 pub struct LoadPoint {
     /// Displacement of the control load, m.
     pub displacement: f64,
-    /// Its force, N.
+    /// Force of the control load, N.
     pub reaction: f64,
     /// Load factor.
     pub load_factor: f64,

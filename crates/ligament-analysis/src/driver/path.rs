@@ -233,7 +233,7 @@ impl<'a> Path<'a> {
         reaction <= NO_LOAD * self.peak
     }
 
-    /// What ends the run wherever it is.
+    /// The rule that ends the run wherever it is, if one does.
     pub(super) fn interruption(&self) -> Option<Termination> {
         let seconds = self.started.elapsed().as_secs_f64();
         if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.broken >= bonds) {

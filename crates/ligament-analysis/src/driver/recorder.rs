@@ -24,7 +24,7 @@ pub(super) struct Energies {
     pub(super) released: f64,
     /// Degrees of freedom that something moves or loads.
     loaded: Vec<u32>,
-    /// Their forces and displacements in the last state.
+    /// Forces and displacements of the loaded degrees of freedom in the last state.
     last_loaded: Vec<Loaded>,
     /// Load factor and [`InternalForces::thermal`] in the last state.
     thermal: (f64, f64),
@@ -40,7 +40,7 @@ struct Loaded {
 }
 
 impl Energies {
-    /// Those of the unloaded body.
+    /// The energies of the unloaded body.
     pub(super) fn unloaded(problem: &Problem) -> Self {
         let loaded = problem.loads.loaded_degrees_of_freedom();
         Self {
@@ -151,7 +151,7 @@ pub(super) fn step_record(
     }
 }
 
-/// What each group exerts on the body: the reactions at its points and its own given forces.
+/// Forces and moment that each group exerts on the body: the reactions at its points and its own given forces.
 fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<[f64; COMPONENTS]> {
     let groups = problem.loads.groups().iter();
     groups

@@ -98,7 +98,7 @@ impl Start {
     }
 }
 
-/// Inertia of the intact stiffness where it may be indefinite; told to the observer where it is not as it should be.
+/// Inertia of the intact stiffness where it may be indefinite; the observer gets a notice where it is not as it should be.
 fn stability(
     problem: &Problem,
     equilibrium: &Equilibrium,

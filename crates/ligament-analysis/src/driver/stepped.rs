@@ -22,7 +22,7 @@ pub struct SteppedSettings {
     pub load_factors: Vec<f64>,
     /// Divide what is left of the first breakage's step, after a step that ends exactly there, into so many; 0: off.
     pub refine_first_break: usize,
-    /// Which bonds break in a round.
+    /// Rule by which the bonds that break in a round are picked.
     pub rule: BreakingRule,
     /// Relative change of the energy that ends Newton-Raphson (NHPD eq. 21).
     pub energy_tolerance: f64,
@@ -93,12 +93,12 @@ struct Stepping<'a> {
     path: Path<'a>,
     settings: &'a SteppedSettings,
     last_step: usize,
-    /// That of the step before.
+    /// Load factor of the step before.
     load_factor_before: f64,
 }
 
 impl Stepping<'_> {
-    /// One load step; tells why the run ends, if it does.
+    /// Does one load step, and gives the reason why the run ends, if it does.
     ///
     /// Where breakages leave no equilibrium, the step shows the last one before them.
     fn load_step(

@@ -28,7 +28,7 @@ const SHIFT: f64 = 1e-11;
 /// first bending mode of a beam a thousand points long.
 const RIGID: f64 = 1e-14;
 
-/// Eigenvalues closer than this (relative) are not told apart by a count.
+/// Relative distance of eigenvalues below which a count cannot separate them.
 const CLUSTER: f64 = 1e-5;
 
 /// Searches for modes that a count says are missing.

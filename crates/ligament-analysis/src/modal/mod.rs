@@ -35,15 +35,15 @@ pub use participation::Moving;
 pub struct ModalProblem {
     /// The bond system.
     pub system: Arc<dyn Bonds>,
-    /// Masses of its points.
+    /// Masses of the points.
     pub mass: Arc<LumpedMass>,
-    /// What holds it.
+    /// Supports of the body.
     pub supports: Arc<Supports>,
     /// How the equations are solved.
     pub solver: SolverSettings,
 }
 
-/// Which modes, and how.
+/// Settings of a search for modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModalSettings {
     /// Number of modes, rigid ones included, lowest first.
@@ -59,7 +59,7 @@ pub struct ModalSettings {
 pub struct ModalOutcome {
     /// The modes, lowest first.
     pub modes: Vec<Mode>,
-    /// What became of the rotations.
+    /// Inertia of the rotations that was chosen.
     pub rotations: Rotations,
     /// Rigid motions that supports and connectivity leave.
     pub rigid_motions: usize,
@@ -73,7 +73,7 @@ pub struct ModalOutcome {
     pub notices: Vec<ModalNotice>,
     /// What the equations cost.
     pub costs: Costs,
-    /// How they were solved.
+    /// Solver that was chosen for the equations.
     pub solver: SolverChoice,
 }
 
@@ -94,7 +94,7 @@ pub enum ModalNotice {
     Unstable {
         /// Negative eigenvalues of the stiffness.
         negative: usize,
-        /// Those of its rotation block.
+        /// Negative eigenvalues of the rotation block.
         expected: usize,
     },
     /// There are more or fewer modes without energy than rigid motions.
@@ -138,13 +138,13 @@ pub enum ModalNotice {
     Residual {
         /// Number of the mode, from 1.
         mode: usize,
-        /// Its residual.
+        /// Residual of the mode.
         residual: f64,
     },
     /// The count of the eigenvalues tells of modes that were not found.
     #[error("{missing} modes below the highest were not found")]
     Missing {
-        /// Their number.
+        /// Number of the missing modes.
         missing: usize,
     },
 }

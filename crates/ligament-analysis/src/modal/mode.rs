@@ -1,21 +1,21 @@
 //! A natural mode.
 
-/// Residual of a mode above which the user is told.
+/// Residual of a mode above which the user gets a notice.
 pub const RESIDUAL_TOLERANCE: f64 = 1e-8;
 
-/// What becomes of the rotations of the points.
+/// Inertia of the rotations of the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotations {
-    /// They have the inertia J_i.
+    /// Rotations have the inertia J_i.
     Inertia,
-    /// They have none and follow the displacements.
+    /// Rotations have no inertia and follow the displacements.
     Massless,
 }
 
 /// A natural mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Whether it is a rigid motion.
+    /// Kind of the mode: a rigid motion or not.
     pub kind: ModeKind,
     /// omega^2, 1/s^2.
     pub eigenvalue: f64,

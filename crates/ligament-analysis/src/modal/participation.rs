@@ -10,7 +10,7 @@ use super::masses::{Masses, inner};
 pub struct Moving {
     /// Mass of the whole body, kg.
     pub total: f64,
-    /// Its centre, as in the mesh file, m.
+    /// Centre of the mass, as in the mesh file, m.
     pub centre: Vec<f64>,
     /// Mass that moves along x and along y, kg, and inertia about the centre, kg m^2: of all that is not held. The effective
     /// masses of all modes add up to these.

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::{require, require_positive};
 
 /// Modes at most: each keeps three vectors of the search in memory.
 pub const MOST_MODES: u32 = 1000;
@@ -60,18 +59,12 @@ pub(super) struct RawModal {
 }
 
 impl RawModal {
-    pub(super) fn check(self, key: &KeyPath) -> Result<Modal, KeyFault> {
-        let modes = self.modes.unwrap_or(10);
-        let fits = (1..=MOST_MODES).contains(&modes);
-        let expected = format!("1 to {MOST_MODES}");
-        require(fits, || key.child("modes"), &expected, modes)?;
-        let tolerance = self.tolerance.unwrap_or(1e-10);
-        require_positive(key, "tolerance", tolerance)?;
-        Ok(Modal {
-            modes,
+    pub(super) fn complete(self) -> Modal {
+        Modal {
+            modes: self.modes.unwrap_or(10),
             rotations: self.rotations,
-            tolerance,
-        })
+            tolerance: self.tolerance.unwrap_or(1e-10),
+        }
     }
 }
 

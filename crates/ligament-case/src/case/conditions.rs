@@ -48,10 +48,10 @@ impl Displacement {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("minProperties" = 1))]
 pub struct Vector {
-    /// Along x; N, N/m (`force_per_length`) or N/m^3 (`body_force`).
+    /// Along x, in the unit of the force.
     #[serde(default)]
     pub x: f64,
-    /// Along y; N, N/m (`force_per_length`) or N/m^3 (`body_force`).
+    /// Along y, in the unit of the force.
     #[serde(default)]
     pub y: f64,
 }

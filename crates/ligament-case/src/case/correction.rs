@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::model::{Calibration, Law, ModelSection};
-use super::values::{require, require_at_least_one, require_positive};
+use super::values::require;
 
 /// The corrections of the bonds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -145,8 +145,7 @@ impl RawCorrection {
         // A tolerance alone is the paper's, which is one for the sum.
         let with_tolerance = self.tolerance.map(|_| CorrectionRule::Sum);
         let rule = self.rule.or(with_tolerance).unwrap_or_default();
-        if let Some(tolerance) = self.tolerance {
-            require_positive(key, "tolerance", tolerance)?;
+        if self.tolerance.is_some() {
             require(
                 rule != CorrectionRule::Auto,
                 || key.child("rule"),
@@ -154,12 +153,10 @@ impl RawCorrection {
                 "\"auto\"",
             )?;
         }
-        let max_sweeps = self.max_sweeps.unwrap_or(500);
-        require_at_least_one(key, "max_sweeps", max_sweeps)?;
         Ok(Iteration {
             rule,
             tolerance: self.tolerance.or(rule.default_tolerance()),
-            max_sweeps,
+            max_sweeps: self.max_sweeps.unwrap_or(500),
         })
     }
 

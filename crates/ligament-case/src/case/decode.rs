@@ -12,7 +12,6 @@ use serde::forward_to_deserialize_any;
 use super::document::{Entry, Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::units::unit_of;
 
 /// Longer strings are cut in error messages.
 const LONGEST_QUOTE: usize = 40;
@@ -35,7 +34,7 @@ impl DecodeError {
         self
     }
 
-    /// Completes what only the whole path tells: the table's title, the key's unit.
+    /// Completes what only the whole path tells: the table's title.
     fn finish(mut self, root: &KeyPath) -> KeyFault {
         let mut key = root.clone();
         key.0.extend(self.inner_first.into_iter().rev());
@@ -44,11 +43,10 @@ impl DecodeError {
             Fault::MissingKey {
                 key: missing,
                 table,
-                unit,
+                ..
             } => {
                 *table = key.table_title();
                 key = key.child(missing);
-                *unit = unit_of(&key);
             }
             Fault::WrongType {
                 expected, found, ..
@@ -57,7 +55,6 @@ impl DecodeError {
                     section: key.to_string(),
                 };
             }
-            Fault::WrongType { unit, .. } => *unit = unit_of(&key),
             _ => {}
         }
         KeyFault {

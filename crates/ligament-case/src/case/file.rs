@@ -6,6 +6,7 @@ use super::Case;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
+use super::keys::{check_ranges, unit_of};
 use super::{overrides, resolved};
 
 /// A case with the text it was read from, so that faults found later can still be located.
@@ -66,7 +67,8 @@ impl CaseFile {
             })?;
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        let case = Case::from_document(&document, folder).map_err(|fault| {
+        let case = check_ranges(&document).and_then(|()| Case::from_document(&document, folder));
+        let case = case.map_err(|fault| {
             Source {
                 path,
                 text: &text,
@@ -162,7 +164,10 @@ impl CaseFile {
 
 impl Source<'_> {
     /// The error of a fault, with its place.
-    pub fn error(&self, KeyFault { key, fault }: KeyFault) -> CaseError {
+    pub fn error(&self, KeyFault { key, mut fault }: KeyFault) -> CaseError {
+        if let Fault::MissingKey { unit, .. } | Fault::WrongType { unit, .. } = &mut fault {
+            *unit = unit_of(&key);
+        }
         let origin = match &fault {
             // An unknown key is wrong itself; anything else is wrong about the value.
             Fault::UnknownKey { .. } => self.document.key_origin_of(&key),

@@ -12,7 +12,7 @@ use super::criterion::{self, RawCriterion};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::model::Law;
-use super::values::{require, require_at_least_one, require_positive};
+use super::values::{require, require_at_least_one};
 
 /// How bonds break while the load rises.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -188,30 +188,6 @@ impl Default for Stop {
     }
 }
 
-impl Stop {
-    fn check(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        if let Some(share) = self.load_fraction {
-            let holds = share > 0.0 && share < 1.0;
-            require(
-                holds,
-                || key.child("load_fraction"),
-                "greater than 0 and less than 1",
-                share,
-            )?;
-        }
-        if let Some(displacement) = self.displacement {
-            require_positive(key, "displacement", displacement)?;
-        }
-        if let Some(bonds) = self.bonds {
-            require(bonds >= 1, || key.child("bonds"), "at least 1", bonds)?;
-        }
-        if let Some(wall_time) = self.wall_time {
-            require_positive(key, "wall_time", wall_time)?;
-        }
-        Ok(())
-    }
-}
-
 #[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum ControlName {
@@ -265,17 +241,13 @@ impl RawFracture {
                 Control::Event
             }
         };
-        let fracture = Fracture {
+        Ok(Fracture {
             criteria: criteria(self.criterion, &key.child("criterion"), &control, law)?,
             control,
             tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
             energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
             stop: self.stop,
-        };
-        require_positive(key, "tie_tolerance", fracture.tie_tolerance)?;
-        require_positive(key, "energy_tolerance", fracture.energy_tolerance)?;
-        fracture.stop.check(&key.child("stop"))?;
-        Ok(fracture)
+        })
     }
 
     fn stepping(&self, key: &KeyPath) -> Result<Stepping, KeyFault> {
@@ -295,8 +267,6 @@ impl RawFracture {
             refine_first_break: self.refine_first_break.unwrap_or(0),
         };
         stepping.steps.check(key)?;
-        require_at_least_one(key, "bonds_per_iteration", stepping.bonds_per_iteration)?;
-        require_at_least_one(key, "max_iterations", stepping.max_iterations)?;
         Ok(stepping)
     }
 

@@ -14,9 +14,7 @@ use super::key_path::KeyPath;
 use super::mesh_section::Plane;
 use super::region::ordered_box;
 use super::schema::exactly_one;
-use super::values::{
-    Point, not_exactly_one, require, require_at_least_one, require_column_name, require_positive,
-};
+use super::values::{Point, not_exactly_one, require, require_column_name, require_positive};
 
 /// Cells of a lattice at most.
 pub const MOST_CELLS: u64 = 50_000_000;
@@ -188,7 +186,6 @@ impl RawLattice {
             cells,
         )?;
         let thickness = self.thickness.unwrap_or(1.0);
-        require_positive(key, "thickness", thickness)?;
         let volume = spacing[0] * spacing[1] * thickness;
         require(
             spacing.iter().all(|side| *side > 0.0) && volume.is_normal(),
@@ -292,7 +289,6 @@ impl RawSet {
         ];
         let side = |name: &str, count: Option<u32>, most: u32, set: fn(u32) -> CellSet| {
             count.map(|count| {
-                require_at_least_one(key, name, count)?;
                 let expected = format!("{most} or less, as the lattice has");
                 require(count <= most, || key.child(name), &expected, count)?;
                 Ok(set(count))

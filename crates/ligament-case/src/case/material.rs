@@ -15,7 +15,7 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::Plane;
 use super::model::Law;
-use super::values::{require, require_positive, require_unique};
+use super::values::require_unique;
 use elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
 pub use elasticity::{Anisotropic, Elasticity, Orthotropic};
 pub(super) use tables::schema;
@@ -72,30 +72,9 @@ impl Material {
     fn check(self) -> Result<Self, KeyFault> {
         let key = self.key_path();
         match &self.elasticity {
-            Elasticity::Isotropic { young, poisson } => {
-                require_positive(&key, "young", *young)?;
-                require(
-                    *poisson > -1.0 && *poisson < 0.5,
-                    || key.child("poisson"),
-                    "greater than -1 and less than 0.5",
-                    poisson,
-                )?;
-            }
+            Elasticity::Isotropic { .. } => {}
             Elasticity::Orthotropic(constants) => constants.check(&key)?,
             Elasticity::Anisotropic(constants) => constants.check(&key)?,
-        }
-        let positive = [
-            ("tensile_strength", self.tensile_strength),
-            ("compressive_strength", self.compressive_strength),
-            ("fracture_energy", self.fracture_energy),
-            ("fracture_energy_sliding", self.fracture_energy_sliding),
-            ("mixed_mode_exponent", self.mixed_mode_exponent),
-            ("density", self.density),
-        ];
-        for (name, value) in positive {
-            if let Some(value) = value {
-                require_positive(&key, name, value)?;
-            }
         }
         Ok(self)
     }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{require, require_positive};
+use super::values::require;
 
 /// The meshed body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -54,12 +54,10 @@ impl RawMesh {
             "a path",
             &self.file,
         )?;
-        let thickness = self.thickness.unwrap_or(1.0);
-        require_positive(key, "thickness", thickness)?;
         let file = absolute(&folder.join(self.file));
         Ok(MeshSection {
             file,
-            thickness,
+            thickness: self.thickness.unwrap_or(1.0),
             plane: self.plane.unwrap_or_default(),
         })
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::schema::exactly_one;
-use super::values::{not_exactly_one, require, require_positive};
+use super::values::not_exactly_one;
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -201,17 +201,6 @@ impl RawModel {
                 ("horizon", horizon.is_some()),
             ];
             return Err(not_exactly_one(key, &keys));
-        }
-        if let Some(factor) = factor {
-            require(
-                factor >= 1.0,
-                || key.child("horizon_factor"),
-                "at least 1",
-                factor,
-            )?;
-        }
-        if let Some(horizon) = horizon {
-            require_positive(key, "horizon", horizon)?;
         }
         let law = self.law;
         Ok(ModelSection {

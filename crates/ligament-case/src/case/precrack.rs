@@ -8,8 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::schema::exactly_one;
-use super::units::unit_of;
-use super::values::{Point, not_exactly_one, require, require_positive};
+use super::values::{Point, not_exactly_one, require};
 
 /// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
 /// axis lie on a crack along it.
@@ -178,14 +177,13 @@ fn checked_straight(
         let fault = Fault::MissingKey {
             key: name.to_owned(),
             table: key.parent().table_title(),
-            unit: unit_of(&key),
+            unit: None,
         };
         KeyFault::new(key, fault)
     };
     let centre = centre.ok_or_else(|| missing("centre"))?;
     let length = length.ok_or_else(|| missing("length"))?;
     let angle = angle.ok_or_else(|| missing("angle"))?;
-    require_positive(key, "length", length)?;
     let [start, end] = straight(centre, length, angle);
     require(
         start != end,

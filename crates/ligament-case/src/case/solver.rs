@@ -8,10 +8,6 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::fault::KeyFault;
-use super::key_path::KeyPath;
-use super::values::{require, require_at_least_one};
-
 /// Threads at most: with thousands of them waking up takes the time of the work, and the program seems to hang.
 pub const MOST_THREADS: u32 = 1024;
 
@@ -95,7 +91,7 @@ struct Keys {
 pub(super) struct RawSolver(Keys);
 
 impl RawSolver {
-    pub(super) fn check(self, key: &KeyPath) -> Result<Solver, KeyFault> {
+    pub(super) fn complete(self) -> Solver {
         let Keys {
             factorisation,
             ordering,
@@ -103,21 +99,13 @@ impl RawSolver {
             rebuild_every,
             threads,
         } = self.0;
-        if let Some(count) = rebuild_every {
-            require_at_least_one(key, "rebuild_every", count)?;
-        }
-        if let Some(count) = threads {
-            let expected = format!("1 to {MOST_THREADS}");
-            let fits = (1..=MOST_THREADS).contains(&count);
-            require(fits, || key.child("threads"), &expected, count)?;
-        }
-        Ok(Solver {
+        Solver {
             factorisation,
             ordering,
             update,
             rebuild_every,
             threads,
-        })
+        }
     }
 }
 

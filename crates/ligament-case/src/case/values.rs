@@ -9,6 +9,9 @@ use super::key_path::KeyPath;
 /// A point in the plane, m.
 pub type Point = [f64; 2];
 
+/// Keyword of the schema for a range in words, where these say more than its bounds.
+pub(super) const RANGE: &str = "x-range";
+
 /// A direction in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

@@ -6,7 +6,7 @@ use ligament::formulation::constants;
 use ligament_model::failure::{Criterion, Measure};
 
 use ligament_case::case::CaseFile;
-use ligament_case::model::Model;
+use ligament_run::model::Model;
 
 /// Writes the criteria with their limits over the bonds.
 pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {

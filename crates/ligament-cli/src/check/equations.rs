@@ -10,8 +10,8 @@ use ligament_analysis::solver::{
 use ligament_analysis::stiffness::Stiffness;
 
 use ligament_case::case::{self, CaseFile, Factorisation};
-use ligament_case::memory;
-use ligament_case::model::Model;
+use ligament_run::memory;
+use ligament_run::model::Model;
 
 /// An ordering with what it costs.
 struct Analysis {

@@ -21,12 +21,12 @@ use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_case::case::{CaseFile, Control, Steps};
-use ligament_case::gauges::words;
-use ligament_case::model::{Model, build_model};
-use ligament_case::progress::{Progress, ProgressMode};
 use ligament_case::setup::materials;
-use ligament_case::stages::{Stage, Stages};
-use ligament_case::summary::{
+use ligament_run::gauges::words;
+use ligament_run::model::{Model, build_model};
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::{Stage, Stages};
+use ligament_run::summary::{
     Spread, correction_line, family, formulation_line, heading, temperature_change,
 };
 

@@ -7,8 +7,8 @@ use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::{Extent, equations, write_group, write_model};
 use ligament_case::case::CaseFile;
-use ligament_case::model::Model;
-use ligament_case::stages::Stages;
+use ligament_run::model::Model;
+use ligament_run::stages::Stages;
 
 /// Checks supports, masses and equations.
 pub(super) fn check(

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::case_args::CaseArgs;
-use ligament_case::progress::ProgressMode;
-use ligament_case::run::run;
+use ligament_run::progress::ProgressMode;
+use ligament_run::run::run;
 use ligament_study::sweep::take_leash;
 
 pub(super) const EXAMPLES: &str = "\

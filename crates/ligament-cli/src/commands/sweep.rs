@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use ligament_case::progress::ProgressMode;
+use ligament_run::progress::ProgressMode;
 use ligament_study::sweep::folder::Shard;
 use ligament_study::sweep::{Request, Settings, Task, sweep};
 

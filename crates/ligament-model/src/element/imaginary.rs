@@ -38,20 +38,20 @@ pub type SymmetricEntries = [f64; 6];
 /// Stiffness of a bond over its strains (S_xx, S_yy, S_xy): a density, N/m^6, or with the volumes of its ends the matrix D, J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrainStiffness {
-    /// Its entries.
+    /// Entries of the matrix.
     pub entries: SymmetricEntries,
     /// Share of the energy of the bond that belongs to its first end; the rest belongs to the second.
     pub first_share: f64,
 }
 
-/// What the elements of a lattice are made of.
+/// The elements of a lattice, ready to be asked for with the intact bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImaginaryElements {
     /// Stiffness D of each bond, shape (n_bonds), J.
     pub stiffness: Vec<StrainStiffness>,
     /// Positions whose differences the strains have in their denominators, shape (n_points), m.
     pub positions: Vec<[f64; 2]>,
-    /// Which bonds support which.
+    /// The bonds that support the element of each bond.
     pub surroundings: Surroundings,
     /// The bonds whose elements couple each point, ascending.
     pub couplings: Incidence,
@@ -60,11 +60,12 @@ pub struct ImaginaryElements {
 }
 
 impl ImaginaryElements {
-    /// Those of bonds on a square lattice, with stiffnesses D (n_bonds) and positions (n_points).
+    /// The elements of bonds on a square lattice, with stiffnesses D (n_bonds) and positions (n_points).
     pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>, stiffness: Vec<StrainStiffness>) -> Self {
-        let surroundings = Surroundings::of(bonds);
+        let surroundings = Surroundings::from_bonds(bonds);
         let whole = vec![true; bonds.len()];
-        let gradient = |bond: usize| Gradient::of(bonds, &surroundings, &positions, &whole, bond);
+        let gradient =
+            |bond: usize| Gradient::for_bond(bonds, &surroundings, &positions, &whole, bond);
         let of_bonds = (0..bonds.len()).flat_map(|bond| {
             let gradient = gradient(bond);
             let points = gradient.points.into_iter().take(gradient.count);
@@ -102,7 +103,7 @@ impl Elements for ImaginaryElements {
         intact: &[bool],
         bond: usize,
     ) -> ImaginaryElement {
-        let gradient = Gradient::of(bonds, &self.surroundings, &self.positions, intact, bond);
+        let gradient = Gradient::for_bond(bonds, &self.surroundings, &self.positions, intact, bond);
         let is_supported = gradient.count > 0;
         ImaginaryElement {
             gradient,
@@ -171,9 +172,10 @@ pub enum BondClass {
 }
 
 impl BondClass {
-    /// That of a bond with these direction cosines: rows and columns of a lattice have equal coordinates to the last bit.
+    /// The class of a bond with these direction cosines: rows and columns of a lattice have equal coordinates to the last
+    /// bit.
     #[inline]
-    pub fn of(direction: [f64; 2]) -> Self {
+    pub fn from_direction(direction: [f64; 2]) -> Self {
         match direction {
             [_, 0.0] => Self::Horizontal,
             [0.0, _] => Self::Vertical,
@@ -208,10 +210,10 @@ impl Gradient {
         by_y: [0.0; POINTS],
     };
 
-    /// That of a bond while the bonds marked in `intact` (n_bonds) are unbroken; [`Gradient::NONE`] where one of the derivatives has
-    /// no support.
+    /// The gradient of a bond while the bonds marked in `intact` (n_bonds) are unbroken; [`Gradient::NONE`] where one of the
+    /// derivatives has no support.
     #[inline]
-    fn of(
+    fn for_bond(
         bonds: &BondSet,
         surroundings: &Surroundings,
         positions: &[[f64; 2]],
@@ -219,7 +221,7 @@ impl Gradient {
         bond: usize,
     ) -> Self {
         let mut gradient = Self::NONE;
-        for quotient in Quotients::of(bonds, surroundings, intact, bond).iter() {
+        for quotient in Quotients::for_bond(bonds, surroundings, intact, bond).iter() {
             gradient.add(quotient, positions);
         }
         gradient
@@ -253,7 +255,7 @@ impl Gradient {
         })
     }
 
-    /// Its points.
+    /// Points of the gradient.
     fn points(&self) -> &[u32] {
         &self.points[..self.count]
     }

@@ -23,18 +23,18 @@ use crate::bonds::{BondSet, Incidence};
 /// Components of a point: displacement along x, along y, rotation.
 pub const UNKNOWNS: usize = 3;
 
-/// Which kinematics the bonds of a body have.
+/// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementKind {
-    /// With rotations of the points: [`BeamBond`].
+    /// Bonds between points with rotations: [`BeamBond`].
     Beam,
-    /// Without: [`SpringBond`].
+    /// Bonds between points without rotations: [`SpringBond`].
     Spring,
-    /// Without, and with points beside its ends: [`ImaginaryElement`].
+    /// Bonds without rotations that couple points beside their ends: [`ImaginaryElement`].
     Imaginary,
-    /// The same with true strains: [`TrueStrainElement`].
+    /// Imaginary elements with true strains: [`TrueStrainElement`].
     TrueStrain,
-    /// The same with forces on its ends alone: [`PairwiseElement`].
+    /// Imaginary elements with forces on the two ends alone: [`PairwiseElement`].
     Pairwise,
 }
 
@@ -72,7 +72,7 @@ pub struct BondDeformation {
 }
 
 impl BondDeformation {
-    /// That of an imaginary element with the strains (S_xx, S_yy, S_xy).
+    /// The deformation of an imaginary element with the strains (S_xx, S_yy, S_xy).
     #[inline]
     pub fn of_strain([xx, yy, xy]: [f64; 3]) -> Self {
         Self {
@@ -88,7 +88,7 @@ impl BondDeformation {
         [self.stretch, self.rotation, self.shear]
     }
 
-    /// Its components in the order of [`ElementKind::strain_names`].
+    /// Components of the deformation in the order of [`ElementKind::strain_names`].
     #[inline]
     pub fn components(&self) -> [f64; 3] {
         [self.stretch, self.shear, self.rotation]

@@ -44,7 +44,11 @@ impl Elements for PairwiseElements {
             ends: bonds.ends[bond],
             offset,
             row_factors: self.row_factors[bond],
-            of_rows: of_rows(offset, spacing, BondClass::of(bonds.direction[bond])),
+            of_rows: of_rows(
+                offset,
+                spacing,
+                BondClass::from_direction(bonds.direction[bond]),
+            ),
         }
     }
 

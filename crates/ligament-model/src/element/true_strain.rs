@@ -40,7 +40,7 @@ impl Elements for TrueStrainElements {
         intact: &[bool],
         bond: usize,
     ) -> TrueStrainElement {
-        let quotients = Quotients::of(bonds, &self.lattice.surroundings, intact, bond);
+        let quotients = Quotients::for_bond(bonds, &self.lattice.surroundings, intact, bond);
         let mut distances = [0.0; 4];
         for (distance, quotient) in distances.iter_mut().zip(quotients.iter()) {
             *distance = quotient.distance(&self.lattice.positions);

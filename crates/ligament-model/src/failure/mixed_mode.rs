@@ -73,7 +73,7 @@ fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limit
     let other_axis = [BondClass::Vertical, BondClass::Horizontal][axis];
     let mut limit = basis.weakest(&stretches);
     for (limit, &direction) in limit.iter_mut().zip(&bonds.direction) {
-        if BondClass::of(direction) == other_axis {
+        if BondClass::from_direction(direction) == other_axis {
             *limit = f64::INFINITY;
         }
     }

@@ -35,7 +35,7 @@ impl<E: Elements> Typed<'_, E> {
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
     ) -> Vec<Tractions> {
-        let squares = Squares::of(&self.system.cloud);
+        let squares = Squares::from_cloud(&self.system.cloud);
         let on_planes = |normal| self.through_planes(bonds, deformations, &squares, normal);
         let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
         let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
@@ -159,7 +159,7 @@ struct Squares {
 }
 
 impl Squares {
-    fn of(cloud: &PointCloud) -> Self {
+    fn from_cloud(cloud: &PointCloud) -> Self {
         let width: Vec<f64> = cloud
             .volumes
             .iter()

@@ -5,7 +5,7 @@ use super::study::{Study, StudyPlot};
 use super::table::{NoColumn, StudyTable};
 use crate::line_fit::{FitError, LineFit};
 use ligament_case::case::key_path::KeyPath;
-use ligament_case::case::units::unit_of;
+use ligament_case::case::keys::unit_of;
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 /// Colours of curves, which begin anew where there are more; black is for what is known.

@@ -10,10 +10,10 @@ use ligament_analysis::Equilibrium;
 use ligament_analysis::modal::ModalAnalysis;
 
 use ligament_case::case::{BodySection, CaseFile, Surface};
-use ligament_case::memory;
-use ligament_case::model::build_model;
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::stages::Stages;
+use ligament_run::memory;
+use ligament_run::model::build_model;
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::Stages;
 
 /// What the program itself takes, bytes.
 const PROGRAM: u64 = 10_000_000;

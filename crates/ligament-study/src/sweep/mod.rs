@@ -25,7 +25,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ligament_case::progress::ProgressMode;
+use ligament_run::progress::ProgressMode;
 
 pub use error::StudyError;
 pub use launch::take_leash;

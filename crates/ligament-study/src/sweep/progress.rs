@@ -12,7 +12,7 @@ use super::record::Status;
 use super::report::unknown_names;
 use super::study::Study;
 use crate::quantities::Quantities;
-use ligament_case::progress::{ProgressMode, duration_text};
+use ligament_run::progress::{ProgressMode, duration_text};
 
 /// Shows how far a study is.
 pub(super) struct StudyProgress<'a> {

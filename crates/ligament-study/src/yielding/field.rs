@@ -16,9 +16,9 @@ use super::request::{Request, SUMMARY};
 use super::subject::{Strain, Subject};
 use ligament::run::on_threads;
 use ligament_case::case::CaseFile;
-use ligament_case::model::Model;
-use ligament_case::summary::heading;
 use ligament_plot::plots::{Colour, Plot, Series};
+use ligament_run::model::Model;
+use ligament_run::summary::heading;
 
 /// The anisotropy of all points, as fields and in numbers.
 pub(super) fn draw(

@@ -7,10 +7,10 @@ use ligament_model::law::bbpd;
 use super::error::YieldError;
 use super::request::Request;
 use ligament_case::case::{CaseFile, Law};
-use ligament_case::model::{Model, build_model};
-use ligament_case::progress::{Progress, ProgressMode};
 use ligament_case::setup;
-use ligament_case::stages::Stages;
+use ligament_run::model::{Model, build_model};
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::Stages;
 
 /// The model of a case whose bonds have directions.
 pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {

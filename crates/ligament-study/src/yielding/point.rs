@@ -12,8 +12,8 @@ use super::request::{Place, Request};
 use super::subject::{Strain, Subject};
 use ligament::run::on_threads;
 use ligament_case::case::CaseFile;
-use ligament_case::model::Model;
-use ligament_case::summary::heading;
+use ligament_run::model::Model;
+use ligament_run::summary::heading;
 
 /// Diagrams of one point.
 pub(super) fn draw(

@@ -6,7 +6,7 @@ use ligament_model::cloud::lattice::Face;
 use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
-use super::{Body, OffOutline, Origin};
+use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
 #[derive(Debug)]
@@ -19,9 +19,9 @@ pub struct LatticeBody {
 /// A hole: cells whose centre lies in it are removed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole {
-    /// Name of the group that the cells at its rim are; several holes may share it.
+    /// Name of the group of the cells at the hole's rim; several holes may share it.
     pub name: Option<String>,
-    /// What it takes.
+    /// Shape of the hole: cells whose centre lies in it are taken away.
     pub shape: Shape,
 }
 
@@ -66,22 +66,22 @@ pub enum LatticeError {
 /// A named set of points.
 #[derive(Debug)]
 struct Set {
-    /// Its points, ascending.
+    /// Points of the set, ascending.
     points: Vec<u32>,
     /// Length of the side that each point stands for, m: none where the set is no part of a side.
     length: Option<f64>,
-    /// Its part of the outline.
+    /// Part of the outline that belongs to the set.
     faces: Faces,
 }
 
-/// Which faces behind which there is no cell belong to a set.
+/// The faces, with no cell behind them, that belong to a set.
 #[derive(Debug)]
 enum Faces {
-    /// Those of its cells.
+    /// The faces of the cells of the set.
     OfCells,
-    /// Those on one side of the rectangle, with this outward normal.
+    /// The faces on one side of the rectangle, with this outward normal.
     OfSide([i8; 2]),
-    /// Those at some of the holes, shape (n_holes).
+    /// The faces at some of the holes, shape (n_holes).
     AtHoles(Vec<bool>),
 }
 
@@ -107,7 +107,7 @@ impl LatticeBody {
         }
         let mut sets = BTreeMap::new();
         for (name, cells) in named {
-            let set = Set::of(cells, &lattice);
+            let set = Set::from_cells(cells, &lattice);
             if set.points.is_empty() {
                 return Err(LatticeError::EmptySet { name: name.clone() });
             }
@@ -151,7 +151,7 @@ impl Set {
         }
     }
 
-    fn of(cells: &CellSet, lattice: &Lattice) -> Self {
+    fn from_cells(cells: &CellSet, lattice: &Lattice) -> Self {
         let ([columns, rows], [dx, dy]) = (lattice.size, lattice.spacing);
         let side = |is_in: &dyn Fn([u32; 2]) -> bool, count: u32, normal: [i8; 2]| {
             let length = if normal[0] == 0 { dx } else { dy };
@@ -216,7 +216,7 @@ impl Body for LatticeBody {
         self.sets.get(group).map(|set| set.points.clone())
     }
 
-    /// Its points: a point is a cell.
+    /// Cells of the group, which are its points.
     fn cells_of(&self, group: &str) -> Option<Vec<u32>> {
         self.points_of(group)
     }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ligament_mesh::{Group, Mesh, NodeField};
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
-use super::{Body, OffOutline, Origin};
+use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at each node of a mesh, by the names of its physical groups.
 #[derive(Debug)]
@@ -33,7 +33,7 @@ impl MeshBody {
         edges
     }
 
-    /// What the groups of this name hold, whatever their dimension, ascending; `None` where there is none.
+    /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
         let mut groups = self.0.groups_named(name).peekable();
         groups.peek()?;

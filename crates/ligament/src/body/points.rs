@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 use thiserror::Error;
 
-use super::{Body, OffOutline, Origin};
+use super::interface::{Body, OffOutline, Origin};
 
 /// A body of points that are given one by one, each with the area that it stands for. Its groups are sets of points; they have
 /// no length and no outline, so that forces are spread over their points by volume.
@@ -36,9 +36,9 @@ pub enum PointsError {
     NoSuchPoint {
         /// Index of the point.
         point: usize,
-        /// Its position, m.
+        /// Position of the point, m.
         position: [f64; 2],
-        /// Its area, m^2.
+        /// Area of the point, m^2.
         area: f64,
     },
     /// A group without points, or with a point that there is not.
@@ -131,7 +131,7 @@ impl Body for Points {
         u64::from(point)
     }
 
-    /// As many as points: each is a cell of its own.
+    /// Number of cells: each point is a cell of its own.
     fn n_cells(&self) -> usize {
         self.positions.len()
     }

@@ -83,7 +83,7 @@ pub(super) fn couples_have_stiffness(
 /// Forces and couples of a load at load factor 1, N and N m.
 #[derive(Default)]
 struct Given {
-    /// What its points take.
+    /// Shares of the points of the load.
     at_points: Vec<(u32, [f64; COMPONENTS])>,
     /// Size before the profile: of the sum over the points, or the pressure, Pa.
     size: f64,

@@ -21,7 +21,7 @@ use crate::error::SetupError;
 use crate::setup::Setup;
 use boundary::{boundary, couples_have_stiffness};
 
-/// What a setup does to its model, and what it reads off.
+/// Supports, loads and probes of a setup, for its model.
 #[derive(Debug)]
 pub struct Loading {
     /// Supports and loads.

@@ -7,7 +7,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Alpha, Calibration, Form, Reading, Strains};
 
 impl Setup {
-    /// Whether its fields make sense and go together. Groups are looked up when the model is built.
+    /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
     ///
     /// # Errors
     ///

@@ -99,13 +99,14 @@ pub enum Axis {
 }
 
 impl Support {
-    /// A support that holds displacements along x and y, and leaves rotations free.
-    pub fn pinned(place: impl Into<Place>) -> Self {
+    /// A support that holds some components.
+    pub fn new(place: impl Into<Place>, held: &[Component]) -> Self {
+        let [x, y, rotation] = Component::ALL.map(|component| held.contains(&component));
         Self {
             place: place.into(),
-            x: true,
-            y: true,
-            rotation: false,
+            x,
+            y,
+            rotation,
         }
     }
 

@@ -4,7 +4,7 @@ use ligament_model::correction::{StopRule, Sweeps};
 
 use super::law::{Calibration, Law};
 
-/// Models with more bonds than this take the stop rule that does not depend on their size unless told otherwise.
+/// Number of bonds above which a model takes the stop rule that does not depend on its size, unless the setup names a rule.
 const LARGE_MODEL: usize = 1_000_000;
 
 /// The corrections of the bonds.
@@ -43,7 +43,8 @@ pub enum Surface {
 /// How the domain correction is iterated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
-    /// When it has converged; without it by the sum over all bonds, or in models of more than a million bonds by their mean.
+    /// Rule that says when the iteration has converged; without one the sum over all bonds decides, or in models of more
+    /// than a million bonds their mean.
     pub stop: Option<StopRule>,
     /// Sweeps at most.
     pub max_sweeps: usize,

@@ -10,29 +10,29 @@ pub enum Law {
     Nhpd,
     /// Central forces alone; Poisson's ratio 1/3, or 1/4 in plane strain.
     Bbpd {
-        /// Where its constant comes from.
+        /// Origin of the constants.
         calibration: Calibration,
     },
     /// Central forces with a stiffness that falls with the length of the bond.
     BbpdConical {
-        /// Where its constant comes from.
+        /// Origin of the constants.
         calibration: Calibration,
     },
     /// Normal and constant shear stiffness, no rotations of the points.
     Pds {
-        /// Where its constants come from.
+        /// Origin of the constants.
         calibration: Calibration,
     },
     /// Normal and constant shear stiffness, with rotations of the points.
     Mppd {
-        /// Where its constants come from.
+        /// Origin of the constants.
         calibration: Calibration,
         /// Stiffness against relative rotation.
         rotational_stiffness: RotationalStiffness,
     },
     /// Normal and shear stiffness in the form of a beam, with rotations: shear stiffness falls with the length.
     MppdBeam {
-        /// Where its constants come from; the integrals leave them 7.5 % off at nu = 0 with a horizon factor of 3.
+        /// Origin of the constants; the integrals leave them 7.5 % off at nu = 0 with a horizon factor of 3.
         calibration: Calibration,
     },
     /// Stiffness by the direction in the axes of an orthotropic material, with rotations.
@@ -42,14 +42,14 @@ pub enum Law {
     },
     /// All strains of a small rectangle around each bond of a square lattice.
     MbbPd {
-        /// How bonds resist their strains.
+        /// Strains that the bonds resist.
         form: Form,
-        /// What the strains are taken over.
+        /// Distances that the strains are taken over.
         strains: Strains,
     },
 }
 
-/// Where the constants of a law come from.
+/// Origin of the constants of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Calibration {
     /// Integrals over a full circle, as in the papers.
@@ -59,7 +59,7 @@ pub enum Calibration {
     Discrete,
 }
 
-/// How the bonds of MBB-PD resist their strains.
+/// Strains that the bonds of MBB-PD resist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Form {
     /// All bonds resist all three strains.
@@ -67,11 +67,11 @@ pub enum Form {
     Full,
     /// Bonds along x and y resist their own strain alone.
     Rows,
-    /// As printed, with forces on the two ends alone.
+    /// The printed form, with forces on the two ends alone.
     Pairwise,
 }
 
-/// What the strains of MBB-PD are taken over.
+/// Distances that the strains of MBB-PD are taken over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Strains {
     /// The distances before the deformation.
@@ -116,7 +116,7 @@ impl Law {
         }
     }
 
-    /// Where its constants come from; none where the paper's constants are the only ones.
+    /// Origin of the constants; None where the paper's constants are the only ones.
     pub fn calibration(&self) -> Option<Calibration> {
         match *self {
             Self::Bbpd { calibration }

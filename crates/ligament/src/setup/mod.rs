@@ -24,7 +24,7 @@ pub use law::{Calibration, Form, Law, Strains};
 pub use probe::{Probe, Reading};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 
-/// All that a computation is told: body, section, materials, law, corrections, supports, loads and the analysis.
+/// Description of a computation: body, section, materials, law, corrections, supports, loads and the analysis.
 ///
 /// Lengths are in metres, forces in newtons, all else in SI units. Positions are in the coordinates of the body.
 /// [`Setup::new`] fills in what need not be said; every field can be set afterwards.
@@ -32,7 +32,7 @@ pub use temperature::{Sample, Temperature, TemperatureChange};
 pub struct Setup {
     /// Points with their groups: from a mesh, a lattice or arrays.
     pub body: Arc<dyn Body>,
-    /// What the points in their plane stand for.
+    /// Section of the body: what a point of the plane stands for across it.
     pub section: Section,
     /// Materials: one without a group for the whole body, or one for each of some groups.
     pub materials: Vec<MaterialRegion>,
@@ -46,25 +46,25 @@ pub struct Setup {
     pub precracks: Vec<PreCrack>,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
-    /// What holds the body; nothing need.
+    /// Supports of the body; there need be none.
     pub supports: Vec<Support>,
     /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
     pub loads: Vec<Load>,
     /// Changes of temperature at load factor 1; where several reach, the last holds.
     pub temperatures: Vec<Temperature>,
-    /// When bonds fail, in an analysis of fracture: the first criterion that is met decides.
+    /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
     pub criteria: Vec<Choice>,
-    /// What the history records beside displacement and load.
+    /// Quantities that the history records beside displacement and load.
     pub probes: Vec<Probe>,
-    /// What is computed.
+    /// Kind of analysis.
     pub analysis: Analysis,
-    /// How the equations are solved.
+    /// Solver of the equations.
     pub solver: SolverSettings,
     /// Number of threads; without it the threads of the caller.
     pub threads: Option<usize>,
 }
 
-/// What the points in their plane stand for.
+/// Section of the body: what a point of the plane stands for across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Section {
     /// A plate or a slice of a long body.

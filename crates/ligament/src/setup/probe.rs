@@ -12,7 +12,7 @@ use super::conditions::Axis;
 pub struct Probe {
     /// Name, unique among the probes.
     pub name: String,
-    /// What it reads.
+    /// Quantity that the probe reads.
     pub reading: Reading,
 }
 

@@ -5,7 +5,7 @@ use super::conditions::Place;
 /// A change of temperature at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Temperature {
-    /// Where it holds: the cells of a group that has any, else the points.
+    /// Part of the body: the cells of a group that has any, else the points.
     pub place: Place,
     /// How much the temperature changes.
     pub change: TemperatureChange,
@@ -14,17 +14,17 @@ pub struct Temperature {
 /// How much the temperature changes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TemperatureChange {
-    /// By the same everywhere, K.
+    /// One change everywhere, K.
     Uniform(f64),
-    /// By values at positions, each of which belongs to the point within a tenth of the distance to the nearest other point.
+    /// Changes at positions, each of which belongs to the point within a tenth of the distance to the nearest other point.
     Table(Vec<Sample>),
-    /// By a field that the mesh brings along.
+    /// A field that the mesh brings along.
     Field {
         /// Name of the field.
         name: String,
         /// Time step, where the mesh has several.
         time_step: Option<i32>,
-        /// What is subtracted from the values, in their unit.
+        /// Value that is subtracted from the field, in its unit.
         reference: f64,
     },
 }

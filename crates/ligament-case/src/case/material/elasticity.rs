@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::fault::{Fault, KeyFault};
 use super::super::key_path::KeyPath;
-use super::super::values::{require, require_positive};
+use super::super::values::require;
 
 /// Elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -81,18 +81,12 @@ pub(super) const ANISOTROPIC_KEYS: [&str; 6] = ["c11", "c12", "c16", "c22", "c26
 
 impl Orthotropic {
     pub(super) fn check(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        require_positive(key, "young_1", self.young_1)?;
-        require_positive(key, "young_2", self.young_2)?;
-        require_positive(key, "shear_modulus", self.shear_modulus)?;
         let across = [self.young_3, self.poisson_13, self.poisson_23];
         if across.iter().any(Option::is_some) {
             self.require_across(
                 key,
                 "because the other constants across the plane are given",
             )?;
-        }
-        if let Some(young_3) = self.young_3 {
-            require_positive(key, "young_3", young_3)?;
         }
         let stable = ligament_model::Orthotropic::from(*self).is_stable();
         require(
@@ -159,9 +153,6 @@ impl From<Orthotropic> for ligament_model::Orthotropic {
 
 impl Anisotropic {
     pub(super) fn check(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        require_positive(key, "c11", self.c11)?;
-        require_positive(key, "c22", self.c22)?;
-        require_positive(key, "c66", self.c66)?;
         let (c11, c22, c66) = (self.c11, self.c22, self.c66);
         for (name, coupling, both, words) in [
             ("c12", self.c12, c11 * c22, "c12^2 < c11 c22"),

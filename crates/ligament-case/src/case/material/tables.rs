@@ -4,6 +4,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
+use super::super::expansion;
 use super::elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
 
 /// A table of a material: its group, the keys of its kind, and those that all tables have.
@@ -35,7 +36,7 @@ macro_rules! table {
             #[schemars(extend("exclusiveMinimum" = 0))]
             pub(super) density: Option<f64>,
             /// Coefficient of linear thermal expansion, 1/K, the same in all directions; steel has 12e-6.
-            #[schemars(extend("exclusiveMinimum" = -0.01, "exclusiveMaximum" = 0.01))]
+            #[schemars(transform = expansion::range)]
             pub(super) thermal_expansion: Option<f64>,
         }
     };
@@ -78,13 +79,13 @@ table! {
         /// Poisson's ratio: contraction across the plane under stress along 2; for plane strain.
         poisson_23: Option<f64>,
         /// Thermal expansion along the axis 1, 1/K.
-        #[schemars(extend("exclusiveMinimum" = -0.01, "exclusiveMaximum" = 0.01))]
+        #[schemars(transform = expansion::range)]
         thermal_expansion_1: Option<f64>,
         /// Thermal expansion along the axis 2, 1/K.
-        #[schemars(extend("exclusiveMinimum" = -0.01, "exclusiveMaximum" = 0.01))]
+        #[schemars(transform = expansion::range)]
         thermal_expansion_2: Option<f64>,
         /// Thermal expansion across the plane, 1/K; for plane strain.
-        #[schemars(extend("exclusiveMinimum" = -0.01, "exclusiveMaximum" = 0.01))]
+        #[schemars(transform = expansion::range)]
         thermal_expansion_3: Option<f64>,
     }
 }
@@ -108,10 +109,10 @@ table! {
         #[schemars(extend("exclusiveMinimum" = 0))]
         c66: f64,
         /// Thermal expansion along the axis 1, 1/K.
-        #[schemars(extend("exclusiveMinimum" = -0.01, "exclusiveMaximum" = 0.01))]
+        #[schemars(transform = expansion::range)]
         thermal_expansion_1: Option<f64>,
         /// Thermal expansion along the axis 2, 1/K.
-        #[schemars(extend("exclusiveMinimum" = -0.01, "exclusiveMaximum" = 0.01))]
+        #[schemars(transform = expansion::range)]
         thermal_expansion_2: Option<f64>,
     }
 }
@@ -141,7 +142,7 @@ pub(in super::super) fn schema(generator: &mut SchemaGenerator) -> Schema {
         "then": anisotropic,
         "else": { "if": has_one_of(&ORTHOTROPIC_KEYS), "then": orthotropic, "else": isotropic },
     });
-    keys.remove("group");
+    keys.shift_remove("group");
     let names: Vec<&str> = keys.keys().map(String::as_str).collect();
     let mut one = json!({ "propertyNames": { "enum": names } });
     for keyword in ["if", "then", "else"] {

@@ -50,9 +50,9 @@ impl Quotients {
         }; MOST],
     };
 
-    /// Those of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
+    /// The quotients of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline]
-    pub(in crate::element) fn of(
+    pub(in crate::element) fn for_bond(
         bonds: &BondSet,
         surroundings: &Surroundings,
         intact: &[bool],
@@ -64,7 +64,7 @@ impl Quotients {
             |axis: Axis| ends.map(|end| surroundings.across(end, axis as usize, is_linked));
         let own = [Some(ends), None];
         let mut quotients = Self::NONE;
-        let is_supported = match BondClass::of(bonds.direction[bond]) {
+        let is_supported = match BondClass::from_direction(bonds.direction[bond]) {
             BondClass::Horizontal => {
                 quotients.add_mean(Axis::X, own) && quotients.add_mean(Axis::Y, across(Axis::Y))
             }

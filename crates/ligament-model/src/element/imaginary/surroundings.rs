@@ -36,8 +36,8 @@ impl Link {
 }
 
 impl Surroundings {
-    /// Those in a set of bonds between the points of a square lattice.
-    pub fn of(bonds: &BondSet) -> Self {
+    /// The surroundings in a set of bonds between the points of a square lattice.
+    pub fn from_bonds(bonds: &BondSet) -> Self {
         let spacing = bonds.length.iter().copied().fold(f64::INFINITY, f64::min);
         let steps = |bond: u32, from: u32| {
             let bond = bond as usize;

@@ -28,7 +28,7 @@ fn printed_factors(bonds: &BondSet, cloud: &PointCloud, point: u32) -> [f64; 3] 
     let mut sums = [0.0; 3];
     for &bond in bonds.incidence.at(point) {
         let (length, direction) = (bonds.length[bond as usize], bonds.direction[bond as usize]);
-        match BondClass::of(direction) {
+        match BondClass::from_direction(direction) {
             BondClass::Horizontal => sums[0] += length,
             BondClass::Vertical => sums[1] += length,
             BondClass::Shear => {

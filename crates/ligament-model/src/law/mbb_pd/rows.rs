@@ -30,7 +30,7 @@ pub fn stiffness(
     let of_bond = |bond: usize| {
         let [a, b] = bonds.ends[bond].map(|end| end as usize);
         let c = 0.5 * (at_points[a] + at_points[b]);
-        let (rows, decisive) = match BondClass::of(bonds.direction[bond]) {
+        let (rows, decisive) = match BondClass::from_direction(bonds.direction[bond]) {
             BondClass::Horizontal => ([true, false, false], 0),
             BondClass::Vertical => ([false, true, false], 1),
             BondClass::Shear => ([true; 3], 2),
@@ -55,7 +55,7 @@ fn factors(bonds: &BondSet, cloud: &PointCloud, point: u32) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for &bond in bonds.incidence.at(point) {
         let (length, direction) = (bonds.length[bond as usize], bonds.direction[bond as usize]);
-        let class = BondClass::of(direction);
+        let class = BondClass::from_direction(direction);
         let resists = [
             class != BondClass::Vertical,
             class != BondClass::Horizontal,

@@ -21,7 +21,7 @@ pub(super) struct Heating {
 
 /// What one section says of the points.
 enum Change {
-    /// The same everywhere, K.
+    /// One change everywhere, K.
     Uniform(f64),
     /// A value for each point (n_points) that has one, K; and why others have none.
     Each(Vec<Option<f64>>, &'static str),
@@ -36,7 +36,7 @@ pub(super) fn heating(places: &Places<'_>) -> Result<Option<Heating>, SetupError
     if sections.is_empty() {
         return Ok(None);
     }
-    let reach = Reach::of(places, sections)?;
+    let reach = Reach::over(places, sections)?;
     let changes = sections.iter().enumerate();
     let changes = changes.map(|(index, section)| places.change(index, section));
     let changes: Vec<Change> = changes.collect::<Result<_, _>>()?;
@@ -58,7 +58,7 @@ pub(super) fn heating(places: &Places<'_>) -> Result<Option<Heating>, SetupError
     Ok(Some(Heating { change, strain }))
 }
 
-/// Which section holds where.
+/// The section that holds at each point or cell.
 struct Reach {
     /// Number of sections.
     n_sections: usize,
@@ -69,7 +69,7 @@ struct Reach {
 }
 
 impl Reach {
-    fn of(places: &Places<'_>, sections: &[Temperature]) -> Result<Self, SetupError> {
+    fn over(places: &Places<'_>, sections: &[Temperature]) -> Result<Self, SetupError> {
         let (body, cloud) = (&places.setup.body, places.cloud);
         let mut of_cell = vec![0; body.n_cells()];
         let mut of_point = vec![0; cloud.len()];

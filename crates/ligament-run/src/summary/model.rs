@@ -4,8 +4,8 @@ use ligament_model::ElementKind;
 use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
-use crate::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
-use crate::model::Model;
+use ligament::Model;
+use ligament_case::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
 
 /// The numbers of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -5,10 +5,10 @@ use std::io::{self, Write};
 use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
 use serde::Serialize;
 
-use crate::case::CaseFile;
-use crate::model::Model;
 use crate::stages::Stage;
 use crate::summary::{ModelSummary, SolverSummary, StabilitySummary, heading};
+use ligament::Model;
+use ligament_case::case::CaseFile;
 
 /// All numbers of a modal analysis.
 #[derive(Debug, Clone, PartialEq, Serialize)]

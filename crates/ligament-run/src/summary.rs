@@ -12,9 +12,9 @@ use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use crate::case::{CaseFile, Units};
-use crate::model::Model;
 use crate::stages::Stage;
+use ligament::Model;
+use ligament_case::case::{CaseFile, Units};
 
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{

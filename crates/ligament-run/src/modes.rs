@@ -8,11 +8,11 @@ use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::write_modes;
 
-use crate::case::CaseFile;
-use crate::model::Model;
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
+use ligament::Model;
+use ligament_case::case::CaseFile;
 
 /// Finds the modes of a model and writes them into a new folder.
 pub(crate) fn find_modes(

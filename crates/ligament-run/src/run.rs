@@ -10,13 +10,13 @@ use ligament::setup::Analysis;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::{ResultWriter, Time, WriteRule};
 
-use crate::case::{CaseFile, Control, StressField};
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use crate::watch::Watch;
+use ligament_case::case::{CaseFile, Control, StressField};
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]

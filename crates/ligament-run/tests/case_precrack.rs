@@ -5,11 +5,11 @@
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, CrackLine, Precrack};
-use ligament_case::model::build_model;
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::stages::Stages;
+use ligament_run::model::build_model;
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::Stages;
 
-const TEXT: &str = include_str!("data/brazilian-disk.toml");
+const TEXT: &str = include_str!("../../ligament-case/tests/data/brazilian-disk.toml");
 const POINTS: &str = "points = [[-0.015, 0.0], [0.015, 0.0]]";
 
 /// The case with other keys in its pre-crack, with overrides.

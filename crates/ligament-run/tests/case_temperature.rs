@@ -8,9 +8,9 @@ use std::path::Path;
 use ligament::Loading;
 use ligament_analysis::ControlKind;
 use ligament_case::case::{CaseFile, Expansion, Region, TemperatureChange};
-use ligament_case::model::build_model;
-use ligament_case::progress::{Progress, ProgressMode};
-use ligament_case::stages::Stages;
+use ligament_run::model::build_model;
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::Stages;
 use tempfile::TempDir;
 
 /// Two cells of 1 m beside each other, and two above them.

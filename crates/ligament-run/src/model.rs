@@ -3,10 +3,10 @@
 pub use ligament::Model;
 use ligament::stage::{Finding, StageWatcher};
 
-use crate::case::CaseFile;
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;
+use ligament_case::case::CaseFile;
 
 /// Times the stages of a case and tells of what they find.
 struct Preparation<'a> {

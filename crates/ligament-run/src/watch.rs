@@ -5,9 +5,9 @@ use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
-use crate::case::{Case, Control, Steps};
 use crate::gauges;
 use crate::progress::{Progress, StepLine};
+use ligament_case::case::{Case, Control, Steps};
 
 /// Notices that are shown while the run goes on, and points that a notice lists; all are in `summary.json`.
 const SHOWN: usize = 5;

@@ -1,0 +1,225 @@
+//! What is known of the keys of a case file: all of it stands in the documentation and attributes of the structures that read
+//! them, and is taken from the schema that is made of these.
+
+use std::sync::LazyLock;
+
+use serde_json::Value as Json;
+
+use super::document::{Node, Value};
+use super::fault::{Fault, KeyFault};
+use super::key_path::KeyPath;
+use super::schema::schema;
+use super::values::RANGE;
+
+static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
+
+/// Units as they stand in the description of a key, after a comma: "Thickness of the body, m."
+const UNITS: [&str; 13] = [
+    "1/K", "J/m^2", "K", "N", "N m", "N m/m^3", "N/m", "N/m^3", "Pa", "kg/m^3", "m", "rad", "s",
+];
+
+/// Unit of the number at a key path, where it has one: its own, or that of the table or list which it is in.
+pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
+    let (mut schema, mut unit) = (&*SCHEMA, None);
+    for part in &key.0 {
+        schema = below(schema, part)?;
+        let description = schema["description"].as_str().unwrap_or_default();
+        unit = unit_in(description).or(unit);
+    }
+    unit.filter(|_| schema["type"] != "object")
+}
+
+fn unit_in(description: &str) -> Option<&'static str> {
+    let sentence = description.lines().next()?;
+    let mut parts = sentence.split([',', ';', '.', ':']).skip(1);
+    parts.find_map(|part| {
+        let word = part.strip_prefix(' ')?;
+        UNITS.into_iter().find(|unit| *unit == word)
+    })
+}
+
+/// The schema of the table that a key takes, if it may take something else as well.
+fn table_of(schema: &Json) -> &Json {
+    let alternatives = schema["anyOf"]
+        .as_array()
+        .filter(|_| schema["type"].is_null());
+    let table = alternatives.and_then(|all| all.iter().find(|it| it["type"] == "object"));
+    table.unwrap_or(schema)
+}
+
+/// The schema of a key or an element of what a schema describes; elements of lists that have none are as the list.
+fn below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
+    if part.parse::<usize>().is_ok() {
+        return Some(schema.get("items").unwrap_or(schema));
+    }
+    let table = table_of(schema);
+    let names = || {
+        table
+            .get("additionalProperties")
+            .filter(|it| it.is_object())
+    };
+    table["properties"].get(part).or_else(names)
+}
+
+/// The fault of a number of a document that is out of the range of its key.
+pub(super) fn check_ranges(document: &Node) -> Result<(), KeyFault> {
+    check_below(document, &SCHEMA, &KeyPath::default())
+}
+
+fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault> {
+    let child = |node: &Node, part: &str| match below(schema, part) {
+        Some(schema) => check_below(node, schema, &key.child(part)),
+        None => Ok(()),
+    };
+    let (number, found) = match &node.value {
+        Value::Table(entries) => {
+            let mut entries = entries.iter();
+            return entries.try_for_each(|entry| child(&entry.node, &entry.key));
+        }
+        Value::List(nodes) => {
+            // A list of numbers is checked as a whole, by the section that has it.
+            let tables = nodes.iter().enumerate();
+            let mut tables = tables.filter(|(_, node)| matches!(node.value, Value::Table(_)));
+            return tables.try_for_each(|(place, node)| child(node, &place.to_string()));
+        }
+        Value::Integer(number) if schema["type"] == "integer" => {
+            (*number as f64, number.to_string())
+        }
+        Value::Integer(number) => (*number as f64, format!("{:?}", *number as f64)),
+        Value::Float(number) if number.is_finite() => (*number, format!("{number:?}")),
+        Value::Float(_) | Value::String(_) | Value::Boolean(_) | Value::Date => return Ok(()),
+    };
+    let bound = |keyword: &str| schema[keyword].as_f64();
+    let holds = bound("minimum").is_none_or(|least| number >= least)
+        && bound("maximum").is_none_or(|most| number <= most)
+        && bound("exclusiveMinimum").is_none_or(|below| number > below)
+        && bound("exclusiveMaximum").is_none_or(|above| number < above);
+    match range_in_words(schema) {
+        Some(expected) if !holds => Err(KeyFault::new(
+            key.clone(),
+            Fault::OutOfRange { expected, found },
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The range of a key in words, "greater than 0"; none where any number will do. That of counts from 0 on is their type, which
+/// the reader knows.
+fn range_in_words(schema: &Json) -> Option<String> {
+    let bounds = |keyword: &str| {
+        schema
+            .get(keyword)
+            .filter(|bound| keyword != "minimum" || **bound != 0)
+    };
+    let bound = |keyword: &str| bounds(keyword).map(Json::to_string);
+    if let Some(words) = schema[RANGE].as_str() {
+        return Some(words.to_owned());
+    }
+    if let (Some(least), Some(most)) = (bound("minimum"), bound("maximum")) {
+        return Some(format!("{least} to {most}"));
+    }
+    let bounds = [
+        ("exclusiveMinimum", "greater than"),
+        ("minimum", "at least"),
+        ("exclusiveMaximum", "less than"),
+        ("maximum", "at most"),
+    ];
+    let bounds = bounds.into_iter();
+    let words = bounds.filter_map(|(keyword, words)| Some(format!("{words} {}", bound(keyword)?)));
+    let words: Vec<String> = words.collect();
+    (!words.is_empty()).then(|| words.join(" and "))
+}
+
+/// The rows of a table of Markdown on the keys at a path, those of tables below it included: what each is, the range of its
+/// number and its default.
+pub fn rows(path: &str) -> Vec<String> {
+    let key = KeyPath::parse(path).unwrap_or_default();
+    let schema = (key.0.iter()).try_fold(&*SCHEMA, |schema, part| below(schema, part));
+    let mut found = Vec::new();
+    if let Some(schema) = schema {
+        add_rows(schema, path, &mut found);
+    }
+    found
+}
+
+fn add_rows(schema: &Json, path: &str, found: &mut Vec<String>) {
+    let table = table_of(schema);
+    let items = table
+        .get("items")
+        .filter(|it| table_of(it)["type"] == "object");
+    if let Some(items) = items {
+        return add_rows(items, path, found);
+    }
+    for (name, schema) in table["properties"].as_object().into_iter().flatten() {
+        let path = format!("{path}.{name}");
+        found.push(row(schema, &path));
+        add_rows(schema, &path, found);
+    }
+    // Of tables that have the keys of the one above, only what they have besides.
+    let mut named = table["additionalProperties"].clone();
+    if let Some(Json::Object(keys)) = named.get_mut("properties") {
+        keys.retain(|key, _| table["properties"].get(key).is_none());
+        add_rows(&named, &format!("{path}.NAME"), found);
+    }
+}
+
+fn row(schema: &Json, path: &str) -> String {
+    let description = schema["description"].as_str().unwrap_or_default();
+    let mut text = description
+        .replace("\n\n", "\n")
+        .replace("\n- ", " ")
+        .replace('\n', " ");
+    if let Some(range) = range_in_words(schema) {
+        text += &format!(" Must be {range}.");
+    }
+    if let Some(default) = schema.get("default").filter(|it| !it.is_object()) {
+        text += &format!(" Default {}.", default.to_string().replace('"', "`"));
+    }
+    format!("| `{path}` | {} |", text.replace('|', "\\|"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(key: &str) -> Option<&'static str> {
+        KeyPath::parse(key).and_then(|key| unit_of(&key))
+    }
+
+    #[test]
+    fn units_are_those_of_the_descriptions() {
+        for (key, expected) in [
+            ("material.young", "Pa"),
+            ("material.steel.density", "kg/m^3"),
+            ("material.thermal_expansion_3", "1/K"),
+            ("material.fracture_energy", "J/m^2"),
+            ("precrack.0.points.1.0", "m"),
+            ("precrack.0.angle", "rad"),
+            ("lattice.remove.0.circle.radius", "m"),
+            ("lattice.set.top.circle.centre", "m"),
+            ("lattice.spacing.0", "m"),
+            ("load.0.force.x", "N"),
+            ("load.0.force_per_length.y", "N/m"),
+            ("load.1.body_force.y", "N/m^3"),
+            ("load.0.displacement.rotation", "rad"),
+            ("load.0.displacement.x", "m"),
+            ("load.0.moment", "N m"),
+            ("load.0.body_couple", "N m/m^3"),
+            ("load.0.profile.zero", "m"),
+            ("temperature.0.change", "K"),
+            ("fracture.stop.displacement", "m"),
+            ("fracture.stop.wall_time", "s"),
+        ] {
+            assert_eq!(unit(key), Some(expected), "{key}");
+        }
+        for key in [
+            "title",
+            "model.law",
+            "material.poisson",
+            "load.0.force",
+            "no.such.key",
+        ] {
+            assert_eq!(unit(key), None, "{key}");
+        }
+    }
+}

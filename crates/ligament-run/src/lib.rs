@@ -1,0 +1,24 @@
+//! A run of a case: from the file to a folder with its results. It changes when a run is to do, tell or write something else.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`run`] | the route of loads, and of natural modes |
+//! | [`model`] | the discrete model of a case, its stages timed and shown |
+//! | [`summary`] | `summary.json`, and the lines at the end of a run |
+//! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
+//! | [`stages`], [`memory`] | time and memory that a run takes |
+//! | [`gauges`] | rigid motions that nothing holds, in words |
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
+)]
+
+pub mod gauges;
+pub mod memory;
+pub mod model;
+mod modes;
+pub mod progress;
+pub mod run;
+pub mod stages;
+pub mod summary;
+pub mod watch;

@@ -1,0 +1,110 @@
+//! What a computation needs to know of a body.
+
+use std::fmt::Debug;
+
+use ligament_mesh::{Mesh, NodeField};
+use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
+use thiserror::Error;
+
+/// An edge of a group that is none of the outline of the body, on which a pressure could act.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "a pressure acts on the outline of the body, but the edge of this group from node {} to node {}, around ({:.6}, {:.6}), {}",
+    .nodes[0], .nodes[1], .middle[0], .middle[1],
+    if *.cells == 0 { "is no edge of a cell" } else { "has cells on both sides" }
+)]
+pub struct OffOutline {
+    /// Tags of the nodes of the edge.
+    pub nodes: [u64; 2],
+    /// Middle of the edge, m.
+    pub middle: [f64; 2],
+    /// Number of cells that have the edge.
+    pub cells: usize,
+}
+
+/// Origin of a body's points.
+#[derive(Debug, Clone, Copy)]
+pub enum Origin<'a> {
+    /// A mesh with a point at each node.
+    Mesh(&'a Mesh),
+    /// A lattice with a point at the centre of each cell.
+    Lattice(&'a Lattice),
+    /// Arrays of points.
+    Points,
+}
+
+/// A body as a computation sees it: points, groups and outline, whatever the points come from.
+pub trait Body: Debug + Send + Sync {
+    /// Origin of the points.
+    fn origin(&self) -> Origin<'_>;
+
+    /// Positions of the points, shape (n_points), m.
+    fn positions(&self) -> &[[f64; 2]];
+
+    /// The noun that tags belong to: `node`, `cell` or `point`.
+    fn tagged(&self) -> &'static str;
+
+    /// The tag that a point goes by.
+    fn tag(&self, point: u32) -> u64;
+
+    /// Number of cells, each of which has one material.
+    fn n_cells(&self) -> usize;
+
+    /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud;
+
+    /// Kind of the body's groups, for errors: "physical group in the mesh".
+    fn group_kind(&self) -> &'static str;
+
+    /// Names of the groups.
+    fn group_names(&self) -> Vec<String>;
+
+    /// Points of the group of this name, ascending; `None` where there is no such group.
+    fn points_of(&self, group: &str) -> Option<Vec<u32>>;
+
+    /// Cells of the group of this name, empty where it has only points; `None` where there is no such group.
+    fn cells_of(&self, group: &str) -> Option<Vec<u32>>;
+
+    /// Length that each point of a group stands for, m; empty where the group has no length.
+    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)>;
+
+    /// Outward normals of the outline along a group times their lengths, m, added up at its points: half of an edge of a mesh
+    /// at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
+    ///
+    /// # Errors
+    ///
+    /// If an edge of the group is none of the outline.
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline>;
+
+    /// Holes across which there is no bond.
+    fn holes(&self) -> &[Shape] {
+        &[]
+    }
+
+    /// Values at the points that the file of the body brings along.
+    fn fields(&self) -> &[NodeField] {
+        &[]
+    }
+
+    /// Marks of the points on the rim, at the edge of the body or of a hole (n_points).
+    fn rim(&self) -> Vec<bool>;
+
+    /// Remarks about the body that the user should know.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The body as result files show it.
+    fn grid(&self) -> BodyGrid;
+
+    /// A point in words: "node 12".
+    fn label(&self, point: u32) -> String {
+        format!("{} {}", self.tagged(), self.tag(point))
+    }
+
+    /// A point in words, and where it is.
+    fn place(&self, point: u32) -> String {
+        let [x, y] = self.positions()[point as usize];
+        format!("{} at ({x:.6}, {y:.6})", self.label(point))
+    }
+}

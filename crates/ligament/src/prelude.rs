@@ -1,0 +1,20 @@
+//! What most programs use: `use ligament::prelude::*`.
+
+pub use ligament_analysis::modal::{ModalOutcome, ModalSettings};
+pub use ligament_analysis::{Component, Observer};
+pub use ligament_mesh::{Mesh, gmsh};
+pub use ligament_model::bonds::precrack::{Ends, PreCrack};
+pub use ligament_model::failure::Choice;
+pub use ligament_model::failure::strength::STRENGTH;
+pub use ligament_model::law::rotational::RotationalStiffness;
+pub use ligament_model::{Elasticity, Isotropic, Material, Plane, Shape};
+
+pub use crate::body::{Body, CellSet, Hole, LatticeBody, MeshBody, Points};
+pub use crate::error::{Error, Fault, Field, SetupError};
+pub use crate::model::Model;
+pub use crate::run::{Solution, Unobserved};
+pub use crate::setup::{
+    Action, Analysis, Calibration, Correction, Displacement, Form, Horizon, Law, Load,
+    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Strains, Support, Temperature,
+    TemperatureChange, event, stepped,
+};

@@ -1,0 +1,174 @@
+//! A setup that is built wrongly names the field and says what to do.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use ligament::body::PointsError;
+use ligament::prelude::*;
+use ligament_model::failure::mixed_mode::MIXED_MODE;
+
+/// Ten by ten points of 10 mm with the groups `left` and `right`, pulled apart.
+fn plate() -> Setup {
+    let position = |k: u32| [k % 10, k / 10].map(|it| 0.01 * (f64::from(it) + 0.5));
+    let points = Points::new((0..100).map(position).collect(), vec![1e-4; 100]).unwrap();
+    let points = points
+        .with_group("left", (0..10).map(|row| 10 * row))
+        .unwrap();
+    let points = points
+        .with_group("right", (0..10).map(|row| 10 * row + 9))
+        .unwrap();
+    let mut setup = Setup::new(points, Material::isotropic(1e9, 0.2), Law::Nhpd);
+    setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
+    setup.loads = vec![Load::new("right", Action::Force([1.0, 0.0]))];
+    setup
+}
+
+/// The error of a plate after a change.
+fn error(change: impl FnOnce(&mut Setup)) -> String {
+    let mut setup = plate();
+    change(&mut setup);
+    setup.solve(&mut Unobserved).unwrap_err().to_string()
+}
+
+#[test]
+fn the_plate_itself_is_right() {
+    let solution = plate().solve(&mut Unobserved).unwrap();
+    assert!(solution.outcome.history.last().unwrap().displacement > 0.0);
+}
+
+#[test]
+fn a_group_that_is_not_there_is_named_with_the_nearest() {
+    let mut setup = plate();
+    setup.loads.push(Load::new("rigth", Action::Moment(1.0)));
+    let Error::Setup(error) = setup.solve(&mut Unobserved).unwrap_err() else {
+        panic!("another error");
+    };
+    assert_eq!(error.field.to_string(), "loads[1].place");
+    let Fault::UnknownName {
+        found, candidates, ..
+    } = &*error.fault
+    else {
+        panic!("{error}");
+    };
+    assert_eq!((found.as_str(), candidates.len()), ("rigth", 2));
+    assert_eq!(
+        error.to_string(),
+        "loads[1].place: no group of points is called `rigth`; did you mean `right`? there are: `left`, `right`"
+    );
+}
+
+#[test]
+fn values_out_of_range_say_what_they_must_be() {
+    for (found, expected) in [
+        (
+            error(|it| it.horizon = Horizon::Factor(0.5)),
+            "horizon: must be at least 1, found 0.5",
+        ),
+        (
+            error(|it| it.materials[0].material = Material::isotropic(-1.0, 0.2)),
+            "materials[0].elasticity.young: must be greater than 0, found -1.0",
+        ),
+        (
+            error(|it| it.materials[0].material = Material::isotropic(1.0, 0.5)),
+            "materials[0].elasticity.poisson: must be greater than -1 and less than 0.5, found 0.5",
+        ),
+        (
+            error(|it| {
+                it.section = Section::Plane {
+                    state: Plane::Stress,
+                    thickness: 0.0,
+                }
+            }),
+            "section.thickness: must be greater than 0, found 0.0",
+        ),
+    ] {
+        assert_eq!(found, expected);
+    }
+}
+
+#[test]
+fn what_does_not_go_together_is_refused_with_a_remedy() {
+    let steps = || Analysis::Stepped(stepped(vec![1.0]));
+    for (found, field, remedy) in [
+        (error(|it| it.materials.clear()), "materials:", "give one"),
+        (error(|it| it.loads.clear()), "temperatures:", "no load"),
+        (
+            error(|it| it.loads[0].action = Action::Moment(0.0)),
+            "loads[0].action:",
+            "other than 0",
+        ),
+        (
+            error(|it| it.loads.push(it.loads[0].clone())),
+            "loads[1].name:",
+            "another name",
+        ),
+        (
+            error(|it| it.loads[0].action = Action::Pressure(1.0)),
+            "loads[0].place:",
+            "a pressure needs",
+        ),
+        (
+            error(|it| it.loads[0].place = Place::Box([[1.0; 2], [2.0; 2]])),
+            "loads[0].place:",
+            "no point of the body",
+        ),
+        (
+            error(|it| it.horizon = Horizon::Length(1e-3)),
+            "horizon:",
+            "larger horizon",
+        ),
+        (error(|it| it.analysis = steps()), "criteria:", "give one"),
+        (
+            error(|it| (it.analysis, it.criteria) = (steps(), vec![STRENGTH.into()])),
+            "materials[0]",
+            "tensile_strength",
+        ),
+        (
+            error(|it| (it.analysis, it.criteria) = (steps(), vec![MIXED_MODE.into()])),
+            "criteria[0].kind:",
+            "Law::MbbPd",
+        ),
+        (
+            error(|it| {
+                it.law = Law::MbbPd {
+                    form: Form::Full,
+                    strains: Strains::Small,
+                }
+            }),
+            "law:",
+            "lattice of square cells",
+        ),
+    ] {
+        assert!(
+            found.starts_with(field) && found.contains(remedy),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn modes_are_asked_for_by_the_analysis() {
+    let error = plate().modes().unwrap_err().to_string();
+    assert!(error.starts_with("analysis: it says static"), "{error}");
+}
+
+#[test]
+fn arrays_that_are_no_body_are_refused() {
+    let error = Points::new(vec![[0.0; 2]], Vec::new()).unwrap_err();
+    assert_eq!(
+        error,
+        PointsError::Lengths {
+            positions: 1,
+            areas: 0
+        }
+    );
+    let error = Points::new(vec![[0.0; 2]; 2], vec![1.0, -1.0]).unwrap_err();
+    assert!(error.to_string().starts_with("point 1 has"), "{error}");
+    let error = Points::new(vec![[0.0; 2]], vec![1.0])
+        .unwrap()
+        .with_group("end", [1]);
+    assert!(
+        error
+            .unwrap_err()
+            .to_string()
+            .contains("group `end` has the point 1")
+    );
+}
