@@ -104,7 +104,7 @@ pub struct Case {
     /// How bonds break, in an analysis of fracture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fracture: Option<Fracture>,
-    /// Which modes are wanted, in a modal analysis.
+    /// Natural modes that are wanted, in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modal: Option<Modal>,
     /// How the equations are solved.
@@ -156,7 +156,7 @@ struct RawCase {
     probe: Vec<probe::RawProbe>,
     /// How bonds break; without it the case is one linear elastic solution.
     fracture: Option<fracture::RawFracture>,
-    /// Which natural modes are wanted, with `analysis = "modal"`.
+    /// Natural modes that are wanted, with `analysis = "modal"`.
     modal: Option<analysis::RawModal>,
     /// How the equations are solved; nothing need be said.
     #[serde(default)]
@@ -171,7 +171,7 @@ impl Case {
         let raw: RawCase =
             decode::decode(document, &KeyPath::default()).map_err(name_missing_section)?;
         let section = |name: &str| KeyPath::default().child(name);
-        let body = BodySection::of(raw.mesh, raw.lattice, folder)?;
+        let body = BodySection::from_sections(raw.mesh, raw.lattice, folder)?;
         let materials = match document.get("material") {
             Some(node) => material::read(node)?,
             None => return Err(missing_section("material")),
@@ -184,7 +184,7 @@ impl Case {
             probes: !raw.probe.is_empty(),
             output: raw.output.is_some(),
         };
-        let analysis = Analysis::of(raw.analysis, &given)?;
+        let analysis = Analysis::named_or_meant(raw.analysis, &given)?;
         if raw.load.is_empty() && raw.temperature.is_empty() && analysis != Analysis::Modal {
             return Err(missing_section("load"));
         }

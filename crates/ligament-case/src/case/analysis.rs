@@ -21,7 +21,7 @@ pub enum Analysis {
     Modal,
 }
 
-/// Which modes, and how.
+/// Settings of a modal analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Modal {
     /// Number of modes, rigid ones included, lowest first.
@@ -39,9 +39,9 @@ pub enum Rotations {
     /// `inertia` where no bond has a negative shear stiffness, `massless` otherwise.
     #[default]
     Auto,
-    /// They have that of a square with the point's volume.
+    /// Rotations have the inertia of a square with the point's volume.
     Inertia,
-    /// They have none and follow the displacements.
+    /// Rotations have no inertia and follow the displacements.
     Massless,
 }
 
@@ -80,7 +80,7 @@ pub(super) struct Given {
 
 impl Analysis {
     /// The analysis that a case names, or that its sections mean; all sections must go with it.
-    pub(super) fn of(named: Option<Self>, given: &Given) -> Result<Self, KeyFault> {
+    pub(super) fn named_or_meant(named: Option<Self>, given: &Given) -> Result<Self, KeyFault> {
         let meant = if given.fracture {
             Self::Fracture
         } else {

@@ -48,7 +48,7 @@ pub struct Stepping {
     pub steps: Steps,
     /// Bonds broken at most between two solutions.
     pub bonds_per_iteration: u32,
-    /// Which of the bonds beyond their critical stretch break first.
+    /// Order in which the bonds beyond their critical stretch break.
     pub order: BreakOrder,
     /// Rounds of breaking allowed in a load step.
     pub max_iterations: u32,
@@ -56,14 +56,14 @@ pub struct Stepping {
     pub refine_first_break: u32,
 }
 
-/// Which of the bonds beyond their critical stretch break first.
+/// Order in which the bonds beyond their critical stretch break.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum BreakOrder {
-    /// Those with the largest excess of stretch over critical stretch (the paper's).
+    /// Bonds with the largest excess of stretch over critical stretch (the paper's).
     #[default]
     Excess,
-    /// Those with the largest ratio of stretch to critical stretch.
+    /// Bonds with the largest ratio of stretch to critical stretch.
     Ratio,
 }
 
@@ -73,7 +73,7 @@ pub enum BreakOrder {
 pub enum Steps {
     /// So many equal steps up to load factor 1.
     Uniform(u32),
-    /// These load factors; where they fall, the body is unloaded.
+    /// Load factors one after the other; where they fall, the body is unloaded.
     Factors(Vec<f64>),
 }
 
@@ -209,7 +209,7 @@ pub(super) struct RawFracture {
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = 5))]
     bonds_per_iteration: Option<u32>,
-    /// Which of the bonds beyond their limit break first.
+    /// Order in which the bonds beyond their limit break.
     #[schemars(extend("default" = "excess"))]
     order: Option<BreakOrder>,
     /// Bonds closer than this (relative) to the worst one break together with it.
@@ -322,7 +322,7 @@ pub struct Output {
     pub bonds: bool,
     /// Whether the model is written, which `ligament explain` reads.
     pub model: bool,
-    /// Which stresses the field files have.
+    /// Stresses that the field files have.
     pub stress: Vec<StressField>,
 }
 

@@ -20,7 +20,7 @@ pub struct MeshSection {
     pub plane: Plane,
 }
 
-/// Which planar problem the body is an instance of.
+/// Planar problem that the body is an instance of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Plane {

@@ -35,7 +35,7 @@ pub enum CrackLine {
     },
     /// A straight line.
     Straight {
-        /// Its middle, m.
+        /// Middle of the crack, m.
         centre: Point,
         /// From end to end, m.
         length: f64,
@@ -48,10 +48,10 @@ pub enum CrackLine {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Ends {
-    /// It cuts bonds that pass through it.
+    /// Bonds that pass through the crack are cut.
     #[default]
     Excluded,
-    /// It cuts bonds that have a point in common with it.
+    /// Bonds that have a point in common with the crack are cut.
     Included,
 }
 

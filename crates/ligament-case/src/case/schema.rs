@@ -21,7 +21,7 @@ pub fn schema() -> Value {
     schema.to_value()
 }
 
-/// That exactly one of the keys is there, as a value of `oneOf`.
+/// The rule that exactly one of the keys is there, as a value of `oneOf`.
 pub(super) fn exactly_one(keys: &[&str]) -> Value {
     keys.iter()
         .map(|key| json!({ "required": [key] }))

@@ -62,9 +62,9 @@ pub enum Update {
     /// `incremental`.
     #[default]
     Auto,
-    /// It is changed in place, unless so many bonds break at once that making it anew costs less.
+    /// The factor is changed in place, unless so many bonds break at once that making it anew costs less.
     Incremental,
-    /// It is made anew every time.
+    /// The factor is made anew every time.
     Refactor,
 }
 
