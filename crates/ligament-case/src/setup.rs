@@ -481,7 +481,7 @@ fn solver(chosen: &case::Solver) -> SolverSettings {
     }
 }
 
-/// Which modes, and how.
+/// Settings of a modal analysis.
 fn modal(modal: &case::Modal) -> ModalSettings {
     ModalSettings {
         modes: modal.modes as usize,

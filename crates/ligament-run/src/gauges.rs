@@ -4,7 +4,8 @@ use ligament::Body;
 use ligament_analysis::gauges::{FreeBody, FreeMotion};
 use ligament_analysis::{COMPONENTS, Component};
 
-/// Which rigid motions are free, what is held instead, and whether the loads are in equilibrium without it.
+/// Words on the rigid motions that are free, on what is held instead, and on whether the loads are in equilibrium without
+/// it.
 pub fn words(free: &FreeBody, body: &dyn Body) -> String {
     let what = if free.is_whole {
         "the body".to_owned()

@@ -41,7 +41,7 @@ impl ProgressMode {
 pub struct StepLine {
     /// The load step, from 1.
     pub step: u64,
-    /// Its load factor.
+    /// Load factor of the step.
     pub load_factor: f64,
     /// The displacement that goes with the load, if there is one.
     pub displacement: Option<f64>,

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// What a stage took.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Stage {
-    /// Its name.
+    /// Name of the stage.
     pub name: &'static str,
     /// Wall time, s.
     pub seconds: f64,

@@ -75,7 +75,7 @@ const WARNINGS_SHOWN: usize = 10;
 pub struct PathPoint {
     /// Displacement of the first load.
     pub displacement: f64,
-    /// Its force.
+    /// Force of the first load.
     pub reaction: f64,
     /// Load factor.
     pub load_factor: f64,
@@ -121,7 +121,7 @@ pub struct TerminationSummary {
 pub struct StabilitySummary {
     /// Negative eigenvalues.
     pub negative: usize,
-    /// Those expected.
+    /// Negative eigenvalues that are expected.
     pub expected: usize,
 }
 
@@ -134,7 +134,7 @@ impl From<Stability> for StabilitySummary {
 /// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
 pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
     let changes = &boundary.temperature_change;
-    (!changes.is_empty()).then(|| Spread::of(changes.iter().copied()))
+    (!changes.is_empty()).then(|| Spread::over(changes.iter().copied()))
 }
 
 impl Summary {

@@ -27,9 +27,9 @@ const COLUMNS: [&str; 6] = [
 /// A file of `published/`, as it was when the program was built.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Published {
-    /// Its name, without `.csv`.
+    /// Name of the file, without `.csv`.
     pub(super) name: &'static str,
-    /// Its text.
+    /// Text of the file.
     pub(super) text: &'static str,
 }
 

@@ -122,7 +122,8 @@ fn points(setup: &Setup, material_of_cell: &[u32]) -> PointCloud {
     (setup.body).cloud(setup.thickness(), material_of_cell, n_materials)
 }
 
-/// Which bonds pre-cracks cut (n_bonds), how many only touch an end of one, and the share of its bonds that each point loses
+/// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch an end of one, and the share of its bonds that
+/// each point loses
 /// (n_points).
 fn precracked(
     precracks: &[PreCrack],

@@ -23,7 +23,7 @@ pub enum Analysis {
     Modal,
 }
 
-/// Which modes, and how.
+/// Settings of a modal analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Modal {
     /// Number of modes, rigid ones included, lowest first.
@@ -69,7 +69,7 @@ pub(super) struct Given {
 
 impl Analysis {
     /// The analysis that a case names, or that its sections mean; all sections must go with it.
-    pub(super) fn of(named: Option<Self>, given: &Given) -> Result<Self, KeyFault> {
+    pub(super) fn named_or_meant(named: Option<Self>, given: &Given) -> Result<Self, KeyFault> {
         let meant = if given.fracture {
             Self::Fracture
         } else {

@@ -38,7 +38,7 @@ impl BodySection {
     }
 
     /// The one section of the two that is there; `folder` is that of the case file.
-    pub(super) fn of(
+    pub(super) fn from_sections(
         mesh: Option<RawMesh>,
         lattice: Option<RawLattice>,
         folder: &Path,

@@ -55,7 +55,7 @@ pub struct Case {
     /// How bonds break, in an analysis of fracture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fracture: Option<Fracture>,
-    /// Which modes are wanted, in a modal analysis.
+    /// Natural modes that are wanted, in a modal analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modal: Option<Modal>,
     /// How the equations are solved.

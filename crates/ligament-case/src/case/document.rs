@@ -50,7 +50,7 @@ pub struct Entry {
     pub key: String,
     /// Where the key was written (first, if a table has several headers).
     pub key_origin: Origin,
-    /// Its value.
+    /// Value of the key.
     pub node: Node,
 }
 

@@ -15,7 +15,7 @@ const LARGEST: f64 = 0.01;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Expansion {
-    /// The same in all directions.
+    /// An expansion that is the same in all directions.
     Uniform {
         /// The coefficient.
         thermal_expansion: f64,
@@ -48,7 +48,7 @@ pub(super) fn range(schema: &mut Schema) {
 
 impl Expansion {
     /// The one coefficient, or those along axes, of the material at a key; none where none is given.
-    pub(super) fn of(
+    pub(super) fn from_keys(
         key: &KeyPath,
         uniform: Option<f64>,
         axes: [Option<f64>; 3],

@@ -113,7 +113,7 @@ pub enum Fault {
     NotExactlyOne {
         /// The keys to choose from.
         valid: Vec<String>,
-        /// Those that were given.
+        /// The keys that were given.
         found: Vec<String>,
     },
     /// Two things of the same kind have the same name.

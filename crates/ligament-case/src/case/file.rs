@@ -28,7 +28,7 @@ pub struct CaseFile {
 pub struct Source<'a> {
     /// The file.
     pub path: &'a Path,
-    /// Its text.
+    /// Text of the file.
     pub text: &'a str,
     /// The settings on top of it.
     pub overrides: &'a [String],

@@ -50,7 +50,7 @@ pub struct Stepping {
     pub steps: Steps,
     /// Bonds broken at most between two solutions.
     pub bonds_per_iteration: u32,
-    /// Which of the bonds beyond their critical stretch break first.
+    /// Order in which the bonds beyond their critical stretch break.
     pub order: Word<BreakingOrder>,
     /// Rounds of breaking allowed in a load step.
     pub max_iterations: u32,
@@ -64,7 +64,7 @@ pub struct Stepping {
 pub enum Steps {
     /// So many equal steps up to load factor 1.
     Uniform(u32),
-    /// These load factors; where they fall, the body is unloaded.
+    /// Load factors one after the other; where they fall, the body is unloaded.
     Factors(Vec<f64>),
 }
 
@@ -200,7 +200,7 @@ pub(super) struct RawFracture {
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = 5))]
     bonds_per_iteration: Option<u32>,
-    /// Which of the bonds beyond their limit break first.
+    /// Order in which the bonds beyond their limit break.
     #[schemars(extend("default" = "excess"))]
     order: Option<Word<BreakingOrder>>,
     /// Bonds closer than this (relative) to the worst one break together with it.
@@ -313,7 +313,7 @@ pub struct Output {
     pub bonds: bool,
     /// Whether the model is written, which `ligament explain` reads.
     pub model: bool,
-    /// Which stresses the field files have.
+    /// Stresses that the field files have.
     pub stress: Vec<StressField>,
 }
 

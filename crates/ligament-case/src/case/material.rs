@@ -24,13 +24,13 @@ use tables::{RawAnisotropic, RawIsotropic, RawOrthotropic};
 /// A linear elastic material with its strengths.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Material {
-    /// Its name, NAME of `[material.NAME]`; none for the one `[material]` of the whole body.
+    /// Name of the material, NAME of `[material.NAME]`; none for the one `[material]` of the whole body.
     #[serde(skip)]
     pub name: Option<String>,
     /// The physical surface of the mesh, or the set of the lattice, that it fills; none for the whole body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
-    /// Its elastic constants.
+    /// Elastic constants of the material.
     #[serde(flatten)]
     pub elasticity: Elasticity,
     /// Tensile strength, Pa; there, like the two after it, if a criterion of the case needs it.
@@ -158,7 +158,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let material = if has_one_of(&ANISOTROPIC_KEYS) {
         let raw: RawAnisotropic = decode(table, &key)?;
         let axes = [raw.thermal_expansion_1, raw.thermal_expansion_2, None];
-        let expansion = Expansion::of(&key, raw.thermal_expansion, axes)?;
+        let expansion = Expansion::from_keys(&key, raw.thermal_expansion, axes)?;
         let elasticity = Elasticity::Anisotropic(Anisotropic {
             c11: raw.c11,
             c12: raw.c12,
@@ -175,7 +175,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
             raw.thermal_expansion_2,
             raw.thermal_expansion_3,
         ];
-        let expansion = Expansion::of(&key, raw.thermal_expansion, axes)?;
+        let expansion = Expansion::from_keys(&key, raw.thermal_expansion, axes)?;
         let elasticity = Elasticity::Orthotropic(Orthotropic {
             young_1: raw.young_1,
             young_2: raw.young_2,
@@ -189,7 +189,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
         material_of!(raw, name, elasticity, expansion)
     } else {
         let raw: RawIsotropic = decode(table, &key)?;
-        let expansion = Expansion::of(&key, raw.thermal_expansion, [None; 3])?;
+        let expansion = Expansion::from_keys(&key, raw.thermal_expansion, [None; 3])?;
         let elasticity = Elasticity::Isotropic {
             young: raw.young,
             poisson: raw.poisson,

@@ -44,13 +44,13 @@ pub enum Law {
     Nhpd,
     /// Central forces alone; Poisson's ratio 1/3, or 1/4 in plane strain.
     Bbpd,
-    /// The same with a stiffness that falls with the length.
+    /// Central forces with a stiffness that falls with the length.
     BbpdConical,
     /// Normal and constant shear stiffness, no rotations of the points.
     Pds,
     /// Normal and constant shear stiffness, rotations.
     Mppd,
-    /// The same in the form of a beam: shear stiffness falls with the length.
+    /// Micropolar bonds in the form of a beam: shear stiffness falls with the length.
     MppdBeam,
     /// Stiffness by the direction in the axes of an orthotropic material, rotations.
     Orthotropic,
@@ -71,7 +71,7 @@ impl Law {
         Self::MbbPd,
     ];
 
-    /// Its word in a case file.
+    /// The word for it in a case file.
     pub fn word(self) -> &'static str {
         match self {
             Self::Nhpd => "nhpd",

@@ -37,7 +37,7 @@ pub enum CrackLine {
     },
     /// A straight line.
     Straight {
-        /// Its middle, m.
+        /// Middle of the crack, m.
         centre: Point,
         /// From end to end, m.
         length: f64,

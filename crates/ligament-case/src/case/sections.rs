@@ -62,7 +62,7 @@ pub(super) struct RawCase {
     probe: Vec<probe::RawProbe>,
     /// How bonds break; without it the case is one linear elastic solution.
     fracture: Option<fracture::RawFracture>,
-    /// Which natural modes are wanted, with `analysis = "modal"`.
+    /// Natural modes that are wanted, with `analysis = "modal"`.
     modal: Option<analysis::RawModal>,
     /// How the equations are solved; nothing need be said.
     #[serde(default)]
@@ -77,12 +77,12 @@ impl RawCase {
         let raw: Self = decode(document, &KeyPath::default()).map_err(name_missing_section)?;
         let given = raw.given();
         let section = |name: &str| KeyPath::default().child(name);
-        let body = BodySection::of(raw.mesh, raw.lattice, folder)?;
+        let body = BodySection::from_sections(raw.mesh, raw.lattice, folder)?;
         let materials = match document.get("material") {
             Some(node) => material::read(node)?,
             None => return Err(missing_section("material")),
         };
-        let analysis = Analysis::of(raw.analysis, &given)?;
+        let analysis = Analysis::named_or_meant(raw.analysis, &given)?;
         if !given.loads && !given.temperature && analysis != Analysis::Modal {
             return Err(missing_section("load"));
         }

@@ -41,7 +41,7 @@ pub enum TemperatureChange {
     Field {
         /// Name of the field.
         mesh_field: String,
-        /// Its time step, where the file has several.
+        /// Time step of the field, where the file has several.
         #[serde(skip_serializing_if = "Option::is_none")]
         time_step: Option<i32>,
         /// What is subtracted from its values, in their unit.

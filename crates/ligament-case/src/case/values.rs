@@ -9,7 +9,7 @@ pub type Point = [f64; 2];
 /// Keyword of the schema for a range in words, where these say more than its bounds.
 pub(super) const RANGE: &str = "x-range";
 
-/// That exactly one of the keys is there, as a value of `oneOf`.
+/// The rule that exactly one of the keys is there, as a value of `oneOf`.
 pub(super) fn exactly_one(keys: &[&str]) -> serde_json::Value {
     keys.iter()
         .map(|key| serde_json::json!({ "required": [key] }))

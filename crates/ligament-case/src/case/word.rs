@@ -117,7 +117,7 @@ worded! { Form:
 
 worded! { Strains:
     [Self::Small] "small" "The distances before the deformation.";
-    [Self::True] "true" "Those after it.";
+    [Self::True] "true" "The distances after the deformation.";
 }
 
 worded! { Alpha:
@@ -132,13 +132,13 @@ worded! { CorrectionDomain:
 }
 
 worded! { Ends:
-    [Self::Excluded] "excluded" "It cuts bonds that pass through it.";
-    [Self::Included] "included" "It cuts bonds that have a point in common with it.";
+    [Self::Excluded] "excluded" "Bonds that pass through the crack are cut.";
+    [Self::Included] "included" "Bonds that have a point in common with the crack are cut.";
 }
 
 worded! { BreakingOrder:
-    [Self::Excess] "excess" "Those with the largest excess of stretch over critical stretch (the paper's).";
-    [Self::Ratio] "ratio" "Those with the largest ratio of stretch to critical stretch.";
+    [Self::Excess] "excess" "Bonds with the largest excess of stretch over critical stretch (the paper's).";
+    [Self::Ratio] "ratio" "Bonds with the largest ratio of stretch to critical stretch.";
 }
 
 worded! { Option<FactorKind>:
@@ -155,14 +155,14 @@ worded! { Option<Ordering>:
 
 worded! { Option<Update>:
     [None] "auto" "`incremental`.";
-    [Some(Update::Incremental)] "incremental" "It is changed in place, unless so many bonds break at once that making it anew costs less.";
-    [Some(Update::Refactor)] "refactor" "It is made anew every time.";
+    [Some(Update::Incremental)] "incremental" "The factor is changed in place, unless so many bonds break at once that making it anew costs less.";
+    [Some(Update::Refactor)] "refactor" "The factor is made anew every time.";
 }
 
 worded! { Option<Rotations>:
     [None] "auto" "`inertia` where no bond has a negative shear stiffness, `massless` otherwise.";
-    [Some(Rotations::Inertia)] "inertia" "They have that of a square with the point's volume.";
-    [Some(Rotations::Massless)] "massless" "They have none and follow the displacements.";
+    [Some(Rotations::Inertia)] "inertia" "Rotations have the inertia of a square with the point's volume.";
+    [Some(Rotations::Massless)] "massless" "Rotations have no inertia and follow the displacements.";
 }
 
 worded! { Axis:

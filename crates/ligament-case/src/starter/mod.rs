@@ -29,10 +29,10 @@ pub struct Starter {
 /// Why there is no starter case.
 #[derive(Debug, thiserror::Error)]
 pub enum StarterError {
-    /// It is a geometry, not a mesh.
+    /// The file is a geometry, not a mesh.
     #[error("{} is a geometry: mesh it first (`ligament mesh {}`), then take the .msh", .0.display(), .0.display())]
     Geometry(PathBuf),
-    /// It is a file of another kind.
+    /// The file is of another kind.
     #[error(
         "{} is not a Gmsh mesh (.msh): convert it with `ligament mesh --via-meshio`, or save it by Gmsh or meshio as .msh",
         path.display()
@@ -161,7 +161,7 @@ fn starter(body: &Body, ends: &Ends, law: Law, warnings: Vec<String>) -> Starter
         ends.found
     );
     Starter {
-        text: text::of(body, ends, law, &warnings),
+        text: text::case_text(body, ends, law, &warnings),
         choice,
         warnings,
     }

@@ -10,7 +10,7 @@ use crate::case::Law;
 
 /// What the case is about.
 pub(super) struct Body {
-    /// Its name, for the title.
+    /// Name of the body, for the title.
     pub(super) name: String,
     /// Where it comes from.
     pub(super) section: Section,
@@ -43,7 +43,7 @@ const PULLED: f64 = 4.0;
 const PRESSED: f64 = 16.0;
 
 /// The case. Lines of prose begin with `# `; lines that are settings to be taken by removing the sign, with `#` alone.
-pub(super) fn of(body: &Body, ends: &Ends, law: Law, warnings: &[String]) -> String {
+pub(super) fn case_text(body: &Body, ends: &Ends, law: Law, warnings: &[String]) -> String {
     let mut text = String::new();
     let sections = [
         head(body, law, warnings),

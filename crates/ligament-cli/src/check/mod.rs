@@ -223,13 +223,13 @@ fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
     spread(
         out,
         "nearest distance",
-        Spread::of(model.system.cloud.spacing.iter().copied()),
+        Spread::over(model.system.cloud.spacing.iter().copied()),
         " m",
     )?;
     spread(
         out,
         "horizon",
-        Spread::of(model.fixed.horizon.iter().copied()),
+        Spread::over(model.fixed.horizon.iter().copied()),
         " m",
     )?;
     spread(out, "bonds of a point", family(model), "")?;
@@ -246,7 +246,7 @@ fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
     spread(
         out,
         "correction factor",
-        Spread::of(model.fixed.domain_factor.iter().copied()),
+        Spread::over(model.fixed.domain_factor.iter().copied()),
         "",
     )
 }
@@ -255,7 +255,7 @@ fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "strain energy of the points over the continuum's")?;
     let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
     for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
-        let Spread { min, mean, max } = Spread::of(ratios.iter().copied());
+        let Spread { min, mean, max } = Spread::over(ratios.iter().copied());
         writeln!(out, "  {mode:<21} {min:.6} to {max:.6}, mean {mean:.6}")?;
     }
     Ok(())

@@ -18,7 +18,7 @@ pub struct ModalSummary {
     pub model: ModelSummary,
     /// Mass of the body, kg.
     pub mass: f64,
-    /// Its centre, m.
+    /// Centre of the mass, m.
     pub centre_of_mass: [f64; 2],
     /// Mass that can move along x and along y, kg, and inertia about the centre, kg m^2.
     pub moving: [f64; 3],

@@ -91,7 +91,7 @@ impl ModelSummary {
             cut_bonds: model.cut_bonds,
             no_fail_points: model.no_fail_points,
             volume: model.system.cloud.volumes.iter().sum(),
-            horizon: Spread::of(model.fixed.horizon.iter().copied()),
+            horizon: Spread::over(model.fixed.horizon.iter().copied()),
             family: family(model),
             correction: CorrectionSummary::new(case, model),
         }
@@ -100,7 +100,7 @@ impl ModelSummary {
 
 impl Spread {
     /// Smallest, mean and largest of some values.
-    pub fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+    pub fn over(values: impl Iterator<Item = f64> + Clone) -> Self {
         let count = values.clone().count().max(1) as f64;
         Self {
             min: values.clone().fold(f64::INFINITY, f64::min),
@@ -122,7 +122,7 @@ fn formulation_words(case: &CaseFile, model: &Model) -> String {
 /// Numbers of bonds of the points.
 pub fn family(model: &Model) -> Spread {
     let incidence = &model.system.bonds.incidence;
-    Spread::of((0..incidence.n_points() as u32).map(|point| incidence.at(point).len() as f64))
+    Spread::over((0..incidence.n_points() as u32).map(|point| incidence.at(point).len() as f64))
 }
 
 impl CorrectionSummary {
@@ -143,7 +143,7 @@ impl CorrectionSummary {
                 .fixed
                 .energy_ratios
                 .each_ref()
-                .map(|ratios| Spread::of(ratios.iter().copied())),
+                .map(|ratios| Spread::over(ratios.iter().copied())),
         }
     }
 }
@@ -185,7 +185,7 @@ pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
     )
 }
 
-/// Which corrections the bonds have, and how the iterated one went, in a line.
+/// Line on the corrections of the bonds, and on how the iterated one went.
 pub fn correction_line(case: &CaseFile, report: Option<&CorrectionReport>) -> String {
     let correction = &case.case.correction;
     let alpha = match correction.alpha.0 {

@@ -10,7 +10,7 @@ use super::super::values::require;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Elasticity {
-    /// The same in all directions.
+    /// Constants that are the same in all directions.
     Isotropic {
         /// Young's modulus, Pa.
         young: f64,
