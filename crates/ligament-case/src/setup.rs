@@ -5,9 +5,8 @@ use std::sync::Arc;
 use ligament::body::{Body, CellSet, Hole, LatticeBody, LatticeError, MeshBody};
 use ligament::error::Fault as SetupFault;
 use ligament::setup::{
-    Action, Analysis, Calibration, Correction, Displacement, Form, Horizon, Iteration, Law, Load,
-    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Strains, Support, Surface,
-    Temperature, TemperatureChange,
+    Action, Analysis, Correction, Displacement, Horizon, Iteration, Load, MaterialRegion, Place,
+    Probe, Profile, Reading, Section, Setup, Support, Surface, Temperature, TemperatureChange,
 };
 use ligament::stage::{StageWatcher, stage};
 use ligament::{Field, SetupError};
@@ -19,7 +18,6 @@ use ligament_analysis::modal::ModalSettings;
 use ligament_analysis::solver::SolverSettings;
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::StopRule;
-use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::{Material, Plane, Shape};
 
 use crate::case::{
@@ -66,7 +64,7 @@ impl CaseFile {
                 thickness: case.body.thickness(),
             },
             materials: case.materials.iter().map(region).collect(),
-            law: law(&case.model),
+            law: (&case.model).into(),
             horizon: horizon(&case.model),
             correction: correction(&case.correction),
             precracks: case.precracks.iter().map(precrack).collect(),
@@ -279,33 +277,6 @@ fn lattice(case: &CaseFile, section: &LatticeSection) -> Result<LatticeBody, Cas
         };
         case.error(&key, error.to_string())
     })
-}
-
-fn law(model: &case::ModelSection) -> Law {
-    let calibration = model
-        .calibration
-        .map_or_else(Calibration::default, |it| it.0);
-    let rotational_stiffness = model
-        .rotational_stiffness
-        .map_or(RotationalStiffness::Zero, |it| it.0);
-    match model.law {
-        case::Law::Nhpd => Law::Nhpd,
-        case::Law::Bbpd => Law::Bbpd { calibration },
-        case::Law::BbpdConical => Law::BbpdConical { calibration },
-        case::Law::Pds => Law::Pds { calibration },
-        case::Law::Mppd => Law::Mppd {
-            calibration,
-            rotational_stiffness,
-        },
-        case::Law::MppdBeam => Law::MppdBeam { calibration },
-        case::Law::Orthotropic => Law::Orthotropic {
-            rotational_stiffness,
-        },
-        case::Law::MbbPd => Law::MbbPd {
-            form: model.form.map_or_else(Form::default, |it| it.0),
-            strains: model.strains.map_or_else(Strains::default, |it| it.0),
-        },
-    }
 }
 
 fn horizon(model: &case::ModelSection) -> Horizon {

@@ -200,6 +200,35 @@ impl RawModel {
     }
 }
 
+impl From<&ModelSection> for ligament::setup::Law {
+    fn from(model: &ModelSection) -> Self {
+        let calibration = model
+            .calibration
+            .map_or_else(Calibration::default, |it| it.0);
+        let rotational_stiffness = model
+            .rotational_stiffness
+            .map_or(RotationalStiffness::Zero, |it| it.0);
+        match model.law {
+            Law::Nhpd => Self::Nhpd,
+            Law::Bbpd => Self::Bbpd { calibration },
+            Law::BbpdConical => Self::BbpdConical { calibration },
+            Law::Pds => Self::Pds { calibration },
+            Law::Mppd => Self::Mppd {
+                calibration,
+                rotational_stiffness,
+            },
+            Law::MppdBeam => Self::MppdBeam { calibration },
+            Law::Orthotropic => Self::Orthotropic {
+                rotational_stiffness,
+            },
+            Law::MbbPd => Self::MbbPd {
+                form: model.form.map_or_else(Form::default, |it| it.0),
+                strains: model.strains.map_or_else(Strains::default, |it| it.0),
+            },
+        }
+    }
+}
+
 /// The value of a key that only some laws leave open: `default` is none for the others.
 fn open<T>(
     table: &KeyPath,
