@@ -20,44 +20,33 @@ const LONGEST_FUNCTION: usize = 60;
 const MOST_PARAMETERS: usize = 6;
 
 /// Functions that may be larger, as `file.rs::function`, each with its reason.
-const LARGE_FOR_A_REASON: [(&str, &str); 0] = [];
+const LARGE_FOR_A_REASON: [(&str, &str); 1] = [(
+    "outlines.rs::curve_to",
+    "its parameters are those of a trait that reads fonts",
+)];
 
 /// Functions that are still too large. Nothing may be added.
-const STILL_LARGE: &[&str] = &[
-    "case.rs::from_document",
-    "check.rs::check",
-    "modes.rs::find_modes",
-    "outlines.rs::curve_to",
-    "plan.rs::run",
-    "report.rs::write",
-    "summary.rs::write",
-    "system.rs::new",
-];
+const STILL_LARGE: &[&str] = &["case.rs::from_document", "modes.rs::find_modes"];
 
 /// Circles that are still to be cut, as the labels of their files: rooms move from crate to crate. Nothing may be added.
-const STILL_IN_CIRCLES: &[&[&str]] = &[
-    &[
-        "case.rs",
-        "body_section.rs",
-        "conditions.rs",
-        "correction.rs",
-        "criterion.rs",
-        "fracture.rs",
-        "lattice_section.rs",
-        "load.rs",
-        "material.rs",
-        "mbb_pd.rs",
-        "model.rs",
-        "precrack.rs",
-        "probe.rs",
-        "region.rs",
-        "schema.rs",
-        "temperature.rs",
-    ],
-    &["check/mod.rs", "modal.rs"],
-    &["imaginary.rs", "quotients.rs"],
-    &["published.rs", "table.rs"],
-];
+const STILL_IN_CIRCLES: &[&[&str]] = &[&[
+    "case.rs",
+    "body_section.rs",
+    "conditions.rs",
+    "correction.rs",
+    "criterion.rs",
+    "fracture.rs",
+    "lattice_section.rs",
+    "load.rs",
+    "material.rs",
+    "mbb_pd.rs",
+    "model.rs",
+    "precrack.rs",
+    "probe.rs",
+    "region.rs",
+    "schema.rs",
+    "temperature.rs",
+]];
 
 /// The trees of all crates, each with the name of its crate.
 fn trees() -> Vec<(String, Tree)> {
@@ -110,12 +99,10 @@ fn no_modules_go_in_circles() {
             println!("    {reason}");
         }
     }
-    for open in STILL_IN_CIRCLES {
-        if !circles.iter().any(|(_, circle)| is_within(circle, open)) {
-            println!("cut, take it off the list: {open:?}");
-        }
-    }
     assert_eq!(n_new, 0, "new circles of modules, see above");
+    let is_cut = |open: &&&[&str]| !circles.iter().any(|(_, circle)| is_within(circle, open));
+    let cut: Vec<_> = STILL_IN_CIRCLES.iter().filter(is_cut).collect();
+    assert!(cut.is_empty(), "cut, take them off the list: {cut:?}");
 }
 
 /// Functions have at most 60 lines and 6 parameters, but for a few with a reason.
@@ -161,10 +148,8 @@ fn functions_are_short_and_take_little() {
         .map(|(_, places)| places)
         .collect();
     assert!(new.is_empty(), "functions that are too large: {new:#?}");
-    for key in STILL_LARGE.iter().filter(|key| !large.contains_key(**key)) {
-        println!("small enough, take it off the list: {key}");
-    }
-    let idle: Vec<&str> = excused().filter(|key| !large.contains_key(*key)).collect();
+    let listed = excused().chain(STILL_LARGE.iter().copied());
+    let idle: Vec<&str> = listed.filter(|key| !large.contains_key(*key)).collect();
     assert!(
         idle.is_empty(),
         "these need no exception any more: {idle:?}"
