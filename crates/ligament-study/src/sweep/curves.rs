@@ -139,7 +139,7 @@ impl<'a> Curves<'a> {
                     let (from, to) =
                         inside.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
                     let points = straight(from, to, |x| fit.at(x));
-                    series.push(Series::new(&equation(fit), Mark::Curve, colour, points));
+                    series.push(Series::new(equation(fit), Mark::Curve, colour, points));
                 }
                 _ if repeated => {
                     series.push(Series::new(
