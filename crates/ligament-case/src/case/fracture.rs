@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use ligament::setup;
 use ligament_model::failure::Choice;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{SeqAccess, Visitor};
@@ -13,6 +14,8 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::model::Law;
 use super::values::{require, require_at_least_one};
+use super::word::Word;
+use ligament_analysis::breaking::BreakingOrder;
 
 /// How bonds break while the load rises.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,22 +52,11 @@ pub struct Stepping {
     /// Bonds broken at most between two solutions.
     pub bonds_per_iteration: u32,
     /// Order in which the bonds beyond their critical stretch break.
-    pub order: BreakOrder,
+    pub order: Word<BreakingOrder>,
     /// Rounds of breaking allowed in a load step.
     pub max_iterations: u32,
     /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
     pub refine_first_break: u32,
-}
-
-/// Order in which the bonds beyond their critical stretch break.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum BreakOrder {
-    /// Bonds with the largest excess of stretch over critical stretch (the paper's).
-    #[default]
-    Excess,
-    /// Bonds with the largest ratio of stretch to critical stretch.
-    Ratio,
 }
 
 /// The load steps.
@@ -211,7 +203,7 @@ pub(super) struct RawFracture {
     bonds_per_iteration: Option<u32>,
     /// Order in which the bonds beyond their limit break.
     #[schemars(extend("default" = "excess"))]
-    order: Option<BreakOrder>,
+    order: Option<Word<BreakingOrder>>,
     /// Bonds closer than this (relative) to the worst one break together with it.
     #[schemars(extend("default" = 1e-8, "exclusiveMinimum" = 0))]
     tie_tolerance: Option<f64>,
@@ -241,11 +233,12 @@ impl RawFracture {
                 Control::Event
             }
         };
+        let default = setup::event();
         Ok(Fracture {
             criteria: criteria(self.criterion, &key.child("criterion"), &control, law)?,
             control,
-            tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
-            energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
+            tie_tolerance: self.tie_tolerance.unwrap_or(default.tie_tolerance),
+            energy_tolerance: (self.energy_tolerance).unwrap_or(default.energy_tolerance),
             stop: self.stop,
         })
     }
@@ -259,12 +252,14 @@ impl RawFracture {
             };
             return Err(KeyFault::new(key.child("steps"), fault));
         };
+        let default = setup::stepped(Vec::new());
+        let count = |given: Option<u32>, default: usize| given.unwrap_or(default as u32);
         let stepping = Stepping {
             steps,
-            bonds_per_iteration: self.bonds_per_iteration.unwrap_or(5),
-            order: self.order.unwrap_or_default(),
-            max_iterations: self.max_iterations.unwrap_or(10_000),
-            refine_first_break: self.refine_first_break.unwrap_or(0),
+            bonds_per_iteration: count(self.bonds_per_iteration, default.rule.bonds_per_iteration),
+            order: self.order.unwrap_or(Word(default.rule.order)),
+            max_iterations: count(self.max_iterations, default.round_limit),
+            refine_first_break: count(self.refine_first_break, default.refine_first_break),
         };
         stepping.steps.check(key)?;
         Ok(stepping)

@@ -5,8 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::not_exactly_one;
+use super::word::Word;
+use ligament::setup::{Calibration, Form, Strains};
+use ligament_model::law::rotational::RotationalStiffness;
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,16 +24,16 @@ pub struct ModelSection {
     pub horizon: Option<f64>,
     /// Where the constants of the law come from, for laws that leave it open.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub calibration: Option<Calibration>,
+    pub calibration: Option<Word<Calibration>>,
     /// The rotational stiffness, for laws that leave it open.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotational_stiffness: Option<RotationalStiffness>,
+    pub rotational_stiffness: Option<Word<RotationalStiffness>>,
     /// The form of MBB-PD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub form: Option<Form>,
+    pub form: Option<Word<Form>>,
     /// The strains of MBB-PD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub strains: Option<Strains>,
+    pub strains: Option<Word<Strains>>,
 }
 
 /// A bond law.
@@ -53,52 +56,6 @@ pub enum Law {
     Orthotropic,
     /// All strains of a small rectangle around each bond of a square lattice.
     MbbPd,
-}
-
-/// Where the constants of a law come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Calibration {
-    /// Integrals over a full circle (the papers').
-    Integral,
-    /// Sums over the family of each point.
-    Discrete,
-}
-
-/// The rotational stiffness k_theta beside a shear stiffness k_t.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RotationalStiffness {
-    /// k_t l (1 - l/H)/2.
-    Decaying,
-    /// k_t l/4.
-    Quarter,
-    /// k_t l/12.
-    Beam,
-    /// None.
-    None,
-}
-
-/// How the bonds of MBB-PD resist their strains.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Form {
-    /// All bonds all three strains.
-    Full,
-    /// Bonds along x and y only their own.
-    Rows,
-    /// As printed, with forces on the two ends alone.
-    Pairwise,
-}
-
-/// What the strains of MBB-PD are taken over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Strains {
-    /// The distances before the deformation.
-    Small,
-    /// The distances after the deformation.
-    True,
 }
 
 impl Law {
@@ -178,13 +135,13 @@ pub(super) struct RawModel {
     #[schemars(extend("exclusiveMinimum" = 0))]
     horizon: Option<f64>,
     /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
-    calibration: Option<Calibration>,
+    calibration: Option<Word<Calibration>>,
     /// Stiffness against relative rotation; of `mppd` and `orthotropic`.
-    rotational_stiffness: Option<RotationalStiffness>,
+    rotational_stiffness: Option<Word<RotationalStiffness>>,
     /// How the bonds of `mbb-pd` resist their strains.
-    form: Option<Form>,
+    form: Option<Word<Form>>,
     /// What the strains of `mbb-pd` are taken over.
-    strains: Option<Strains>,
+    strains: Option<Word<Strains>>,
 }
 
 impl RawModel {
@@ -212,7 +169,7 @@ impl RawModel {
                 "calibration",
                 law,
                 self.calibration,
-                law.calibration(),
+                law.calibration().map(Word),
                 "its constants are those of the paper",
             )?,
             rotational_stiffness: open(
@@ -220,7 +177,7 @@ impl RawModel {
                 "rotational_stiffness",
                 law,
                 self.rotational_stiffness,
-                law.rotational_stiffness(),
+                law.rotational_stiffness().map(Word),
                 "the law says what it is",
             )?,
             form: open(
@@ -228,7 +185,7 @@ impl RawModel {
                 "form",
                 law,
                 self.form,
-                (law == Law::MbbPd).then_some(Form::Full),
+                (law == Law::MbbPd).then_some(Word(Form::Full)),
                 "only \"mbb-pd\" has several",
             )?,
             strains: open(
@@ -236,10 +193,39 @@ impl RawModel {
                 "strains",
                 law,
                 self.strains,
-                (law == Law::MbbPd).then_some(Strains::Small),
+                (law == Law::MbbPd).then_some(Word(Strains::Small)),
                 "only \"mbb-pd\" has true strains",
             )?,
         })
+    }
+}
+
+impl From<&ModelSection> for ligament::setup::Law {
+    fn from(model: &ModelSection) -> Self {
+        let calibration = model
+            .calibration
+            .map_or_else(Calibration::default, |it| it.0);
+        let rotational_stiffness = model
+            .rotational_stiffness
+            .map_or(RotationalStiffness::Zero, |it| it.0);
+        match model.law {
+            Law::Nhpd => Self::Nhpd,
+            Law::Bbpd => Self::Bbpd { calibration },
+            Law::BbpdConical => Self::BbpdConical { calibration },
+            Law::Pds => Self::Pds { calibration },
+            Law::Mppd => Self::Mppd {
+                calibration,
+                rotational_stiffness,
+            },
+            Law::MppdBeam => Self::MppdBeam { calibration },
+            Law::Orthotropic => Self::Orthotropic {
+                rotational_stiffness,
+            },
+            Law::MbbPd => Self::MbbPd {
+                form: model.form.map_or_else(Form::default, |it| it.0),
+                strains: model.strains.map_or_else(Strains::default, |it| it.0),
+            },
+        }
     }
 }
 
