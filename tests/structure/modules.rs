@@ -203,7 +203,11 @@ impl Tree {
         };
         let below = [start.clone(), vec![next.clone()]].concat();
         if next == "super" || self.modules.contains_key(&below) {
-            return self.follow(&start, &[&[next.clone()], rest].concat(), depth + 1);
+            return self.follow(
+                &start,
+                &[std::slice::from_ref(next), rest].concat(),
+                depth + 1,
+            );
         }
         match self.modules[&start].import(next) {
             Some(import) => self.follow(&start, &[&import.path, rest].concat(), depth + 1),

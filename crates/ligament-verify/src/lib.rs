@@ -7,6 +7,10 @@
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, a file each |
 //! | [`report`], [`tally`] | console, Markdown, CSV and SVG |
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
+)]
 
 use std::io::Write;
 use std::path::PathBuf;
