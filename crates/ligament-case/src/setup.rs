@@ -5,9 +5,9 @@ use std::sync::Arc;
 use ligament::body::{Body, CellSet, Hole, LatticeBody, LatticeError, MeshBody};
 use ligament::error::Fault as SetupFault;
 use ligament::setup::{
-    Action, Analysis, Axis, Calibration, Correction, CorrectionDomain, Displacement, Form, Horizon,
-    Iteration, Law, Load, MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Strains,
-    Support, Surface, Temperature, TemperatureChange,
+    Action, Analysis, Axis, Correction, CorrectionDomain, Displacement, Horizon, Iteration, Load,
+    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Strains, Support, Surface,
+    Temperature, TemperatureChange,
 };
 use ligament::stage::{StageWatcher, stage};
 use ligament::{Field, SetupError};
@@ -22,7 +22,6 @@ use ligament_analysis::solver::{FactorKind, Ordering, SolverSettings, Update};
 use ligament_model::bonds::precrack::{Ends, PreCrack};
 use ligament_model::correction::StopRule;
 use ligament_model::failure::Weakened;
-use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::{Material, Plane, Shape};
 
 use crate::case::{
@@ -70,7 +69,7 @@ impl CaseFile {
                 thickness: case.body.thickness(),
             },
             materials: case.materials.iter().map(region).collect(),
-            law: law(&case.model),
+            law: case.model.bond_law(),
             horizon: horizon(&case.model),
             correction: correction(&case.correction),
             precracks: case.precracks.iter().map(precrack).collect(),
@@ -286,44 +285,6 @@ fn lattice(case: &CaseFile, section: &LatticeSection) -> Result<LatticeBody, Cas
         };
         case.error(&key, error.to_string())
     })
-}
-
-fn law(model: &case::ModelSection) -> Law {
-    let calibration = match model.calibration {
-        Some(case::Calibration::Discrete) => Calibration::Discrete,
-        Some(case::Calibration::Integral) | None => Calibration::Integral,
-    };
-    let rotational_stiffness = match model.rotational_stiffness {
-        Some(case::RotationalStiffness::Decaying) => RotationalStiffness::Decaying,
-        Some(case::RotationalStiffness::Quarter) => RotationalStiffness::Quarter,
-        Some(case::RotationalStiffness::Beam) => RotationalStiffness::Beam,
-        Some(case::RotationalStiffness::None) | None => RotationalStiffness::Zero,
-    };
-    match model.law {
-        case::Law::Nhpd => Law::Nhpd,
-        case::Law::Bbpd => Law::Bbpd { calibration },
-        case::Law::BbpdConical => Law::BbpdConical { calibration },
-        case::Law::Pds => Law::Pds { calibration },
-        case::Law::Mppd => Law::Mppd {
-            calibration,
-            rotational_stiffness,
-        },
-        case::Law::MppdBeam => Law::MppdBeam { calibration },
-        case::Law::Orthotropic => Law::Orthotropic {
-            rotational_stiffness,
-        },
-        case::Law::MbbPd => Law::MbbPd {
-            form: match model.form {
-                Some(case::Form::Rows) => Form::Rows,
-                Some(case::Form::Pairwise) => Form::Pairwise,
-                Some(case::Form::Full) | None => Form::Full,
-            },
-            strains: match model.strains {
-                Some(case::Strains::True) => Strains::True,
-                Some(case::Strains::Small) | None => Strains::Small,
-            },
-        },
-    }
 }
 
 fn horizon(model: &case::ModelSection) -> Horizon {

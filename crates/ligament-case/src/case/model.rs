@@ -1,5 +1,7 @@
 //! `[model]`: the bond model.
 
+use ligament::setup;
+use ligament_model::law::rotational;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -99,6 +101,47 @@ pub enum Strains {
     Small,
     /// The distances after the deformation.
     True,
+}
+
+impl ModelSection {
+    /// The bond law with its open choices, as a setup has it.
+    pub fn bond_law(&self) -> setup::Law {
+        let calibration = match self.calibration {
+            Some(Calibration::Discrete) => setup::Calibration::Discrete,
+            Some(Calibration::Integral) | None => setup::Calibration::Integral,
+        };
+        let rotational_stiffness = match self.rotational_stiffness {
+            Some(RotationalStiffness::Decaying) => rotational::RotationalStiffness::Decaying,
+            Some(RotationalStiffness::Quarter) => rotational::RotationalStiffness::Quarter,
+            Some(RotationalStiffness::Beam) => rotational::RotationalStiffness::Beam,
+            Some(RotationalStiffness::None) | None => rotational::RotationalStiffness::Zero,
+        };
+        match self.law {
+            Law::Nhpd => setup::Law::Nhpd,
+            Law::Bbpd => setup::Law::Bbpd { calibration },
+            Law::BbpdConical => setup::Law::BbpdConical { calibration },
+            Law::Pds => setup::Law::Pds { calibration },
+            Law::Mppd => setup::Law::Mppd {
+                calibration,
+                rotational_stiffness,
+            },
+            Law::MppdBeam => setup::Law::MppdBeam { calibration },
+            Law::Orthotropic => setup::Law::Orthotropic {
+                rotational_stiffness,
+            },
+            Law::MbbPd => setup::Law::MbbPd {
+                form: match self.form {
+                    Some(Form::Rows) => setup::Form::Rows,
+                    Some(Form::Pairwise) => setup::Form::Pairwise,
+                    Some(Form::Full) | None => setup::Form::Full,
+                },
+                strains: match self.strains {
+                    Some(Strains::True) => setup::Strains::True,
+                    Some(Strains::Small) | None => setup::Strains::Small,
+                },
+            },
+        }
+    }
 }
 
 impl Law {
