@@ -10,9 +10,10 @@ use rayon::prelude::*;
 const TASK: usize = 4096;
 
 /// Quantity that orders the bonds that are beyond their limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BreakingOrder {
     /// Excess of measure over limit, s - s_0 (the paper's).
+    #[default]
     Excess,
     /// Ratio of measure to limit, s/s_0 (the order in which proportional loading reaches the limits).
     Ratio,

@@ -5,28 +5,23 @@ use std::sync::Arc;
 use ligament::body::{Body, CellSet, Hole, LatticeBody, LatticeError, MeshBody};
 use ligament::error::Fault as SetupFault;
 use ligament::setup::{
-    Action, Analysis, Axis, Correction, CorrectionDomain, Displacement, Horizon, Iteration, Load,
-    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Strains, Support, Surface,
-    Temperature, TemperatureChange,
+    Action, Analysis, Correction, Displacement, Horizon, Iteration, Load, MaterialRegion, Place,
+    Probe, Profile, Reading, Section, Setup, Support, Surface, Temperature, TemperatureChange,
 };
 use ligament::stage::{StageWatcher, stage};
 use ligament::{Field, SetupError};
-use ligament_analysis::Component;
-use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
+use ligament_analysis::breaking::BreakingRule;
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
-use ligament_analysis::modal::{ModalSettings, Rotations};
-use ligament_analysis::probe::{PointField, StressComponent};
-use ligament_analysis::solver::{FactorKind, Ordering, SolverSettings, Update};
-use ligament_model::bonds::precrack::{Ends, PreCrack};
+use ligament_analysis::modal::ModalSettings;
+use ligament_analysis::solver::SolverSettings;
+use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::correction::StopRule;
-use ligament_model::failure::Weakened;
 use ligament_model::{Material, Plane, Shape};
 
 use crate::case::{
-    self, BodySection, BreakOrder, CaseError, CaseFile, CorrectionRule, Fault, LatticeSection,
-    Stepping, Steps,
+    self, BodySection, CaseError, CaseFile, CorrectionRule, Fault, LatticeSection, Stepping, Steps,
 };
 use crate::mesh_file::read_mesh;
 use crate::temperature_table;
@@ -228,10 +223,7 @@ impl CaseFile {
 
 /// State of the plane.
 pub fn plane(case: &CaseFile) -> Plane {
-    match case.case.body.plane() {
-        case::Plane::Stress => Plane::Stress,
-        case::Plane::Strain => Plane::Strain,
-    }
+    case.case.body.plane()
 }
 
 /// Materials, in the order of the case file.
@@ -304,30 +296,20 @@ fn correction(correction: &case::Correction) -> Correction {
         max_sweeps: it.max_sweeps as usize,
     };
     Correction {
-        alpha: match correction.alpha {
-            case::Alpha::None => ligament::setup::Alpha::None,
-            case::Alpha::PartialVolume => ligament::setup::Alpha::PartialVolume,
-            case::Alpha::Length => ligament::setup::Alpha::Length,
-        },
+        alpha: correction.alpha.0,
         surface: match (correction.surface, &correction.iteration) {
             (case::Surface::Domain, Some(it)) => Surface::Domain(iteration(it)),
             (case::Surface::Volume, _) => Surface::Volume,
             (case::Surface::None | case::Surface::Domain, _) => Surface::None,
         },
-        domain: match correction.domain {
-            case::CorrectionDomain::Whole => CorrectionDomain::Whole,
-            case::CorrectionDomain::Cracked => CorrectionDomain::Cracked,
-        },
+        domain: correction.domain.0,
     }
 }
 
 fn precrack(crack: &case::Precrack) -> PreCrack {
     PreCrack {
         points: crack.points(),
-        ends: match crack.ends {
-            case::Ends::Excluded => Ends::Excluded,
-            case::Ends::Included => Ends::Included,
-        },
+        ends: crack.ends.0,
     }
 }
 
@@ -376,17 +358,10 @@ fn load(load: &case::Load) -> Load {
             case::Action::Pressure(it) => Action::Pressure(it),
         },
         profile: load.profile.map(|it| Profile {
-            along: axis(it.along),
+            along: it.along.0,
             zero: it.zero,
             one: it.one,
         }),
-    }
-}
-
-fn axis(axis: case::Axis) -> Axis {
-    match axis {
-        case::Axis::X => Axis::X,
-        case::Axis::Y => Axis::Y,
     }
 }
 
@@ -394,40 +369,20 @@ fn probe(probe: &case::Probe) -> Probe {
     let reading = match probe.reading {
         case::Reading::Between { between, component } => Reading::Between {
             positions: between,
-            component: match component {
-                case::Component::X => Component::X,
-                case::Component::Y => Component::Y,
-                case::Component::Rotation => Component::Rotation,
-            },
+            component: component.0,
         },
         case::Reading::At { at, field } => Reading::At {
             position: at,
-            field: point_field(field),
+            field: field.0,
         },
         case::Reading::Section { section, component } => Reading::Section {
             line: section,
-            component: axis(component),
+            component: component.0,
         },
     };
     Probe {
         name: probe.name.clone(),
         reading,
-    }
-}
-
-fn point_field(field: case::Field) -> PointField {
-    match field {
-        case::Field::Damage => PointField::Damage,
-        case::Field::DamageTension => PointField::DamageBy(Weakened::Opening),
-        case::Field::DamageCompression => PointField::DamageBy(Weakened::Crushing),
-        case::Field::DamageSliding => PointField::DamageBy(Weakened::Sliding),
-        case::Field::DisplacementX => PointField::Motion(Component::X),
-        case::Field::DisplacementY => PointField::Motion(Component::Y),
-        case::Field::Rotation => PointField::Motion(Component::Rotation),
-        case::Field::StrainEnergyDensity => PointField::StrainEnergyDensity,
-        case::Field::StressXx => PointField::Stress(StressComponent::Xx),
-        case::Field::StressYy => PointField::Stress(StressComponent::Yy),
-        case::Field::StressXy => PointField::Stress(StressComponent::Xy),
     }
 }
 
@@ -455,10 +410,7 @@ fn stepped(fracture: &case::Fracture, stepping: &Stepping) -> SteppedSettings {
         load_factors,
         refine_first_break: stepping.refine_first_break as usize,
         rule: BreakingRule {
-            order: match stepping.order {
-                BreakOrder::Excess => BreakingOrder::Excess,
-                BreakOrder::Ratio => BreakingOrder::Ratio,
-            },
+            order: stepping.order.0,
             bonds_per_iteration: stepping.bonds_per_iteration as usize,
             tie_tolerance: fracture.tie_tolerance,
         },
@@ -491,21 +443,9 @@ fn stop_rules(stop: &case::Stop) -> StopRules {
 fn solver(chosen: &case::Solver) -> SolverSettings {
     let default = SolverSettings::default();
     SolverSettings {
-        factorisation: match chosen.factorisation {
-            case::Factorisation::Auto => None,
-            case::Factorisation::Llt => Some(FactorKind::Llt),
-            case::Factorisation::Ldlt => Some(FactorKind::Ldlt),
-        },
-        ordering: match chosen.ordering {
-            case::Ordering::Auto => None,
-            case::Ordering::NestedDissection => Some(Ordering::NestedDissection),
-            case::Ordering::MinimumDegree => Some(Ordering::MinimumDegree),
-        },
-        update: match chosen.update {
-            case::Update::Auto => None,
-            case::Update::Incremental => Some(Update::Incremental),
-            case::Update::Refactor => Some(Update::Refactor),
-        },
+        factorisation: chosen.factorisation.0,
+        ordering: chosen.ordering.0,
+        update: chosen.update.0,
         rebuild_every: chosen
             .rebuild_every
             .map_or(default.rebuild_every, |bonds| bonds as usize),
@@ -516,11 +456,7 @@ fn solver(chosen: &case::Solver) -> SolverSettings {
 fn modal(modal: &case::Modal) -> ModalSettings {
     ModalSettings {
         modes: modal.modes as usize,
-        rotations: match modal.rotations {
-            case::Rotations::Auto => None,
-            case::Rotations::Inertia => Some(Rotations::Inertia),
-            case::Rotations::Massless => Some(Rotations::Massless),
-        },
+        rotations: modal.rotations.0,
         tolerance: modal.tolerance,
     }
 }

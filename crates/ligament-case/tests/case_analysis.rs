@@ -4,7 +4,8 @@
 
 use std::path::Path;
 
-use ligament_case::case::{Analysis, CaseFile, Modal, Rotations};
+use ligament_analysis::modal::Rotations;
+use ligament_case::case::{Analysis, CaseFile, Modal, Word};
 
 const MODAL: &str = include_str!("data/modal-plate.toml");
 
@@ -41,7 +42,7 @@ fn modes_have_defaults_and_need_no_load() {
     let case = read(MODAL, &[]).unwrap().case;
     let expected = Modal {
         modes: 10,
-        rotations: Rotations::Auto,
+        rotations: Word(None),
         tolerance: 1e-10,
     };
     assert_eq!(case.modal, Some(expected));
@@ -53,7 +54,7 @@ fn modes_have_defaults_and_need_no_load() {
     ];
     let expected = Modal {
         modes: 3,
-        rotations: Rotations::Massless,
+        rotations: Word(Some(Rotations::Massless)),
         tolerance: 1e-8,
     };
     assert_eq!(read(MODAL, &settings).unwrap().case.modal, Some(expected));

@@ -5,8 +5,9 @@
 use std::path::Path;
 
 use ligament_case::case::{
-    BodySection, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection, Plane,
+    BodySection, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection,
 };
+use ligament_model::Plane;
 
 const TEXT: &str = include_str!("data/lattice-plate.toml");
 
@@ -34,7 +35,7 @@ fn the_section_is_read_with_its_defaults() {
     let lattice = section(TEXT, &[]);
     assert_eq!((lattice.cells, lattice.spacing), ([20, 12], [0.01; 2]));
     assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], 1.0));
-    assert_eq!(lattice.plane, Plane::Stress);
+    assert_eq!(lattice.plane.0, Plane::Stress);
     let circle = |centre, radius| Circle { centre, radius };
     let hole = |name: Option<&str>, shape| Hole {
         name: name.map(str::to_owned),
@@ -73,7 +74,7 @@ fn the_section_is_read_with_its_defaults() {
         (lattice.spacing, lattice.corner),
         ([1e-3, 2.0], [-1.0, 5.0])
     );
-    assert_eq!((lattice.thickness, lattice.plane), (0.1, Plane::Strain));
+    assert_eq!((lattice.thickness, lattice.plane.0), (0.1, Plane::Strain));
 }
 
 #[test]

@@ -4,7 +4,9 @@
 
 use std::path::Path;
 
-use ligament_case::case::{Action, Axis, CaseFile, Field, Profile, Reading, StressField};
+use ligament::setup::Axis;
+use ligament_analysis::probe::{PointField, StressComponent};
+use ligament_case::case::{Action, CaseFile, Profile, Reading, StressField, Word};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -21,11 +23,16 @@ fn profiles_and_couples_are_read_and_written_back() {
     let read = &case.case.loads[0];
     assert_eq!(read.action, Action::Moment(-2.5));
     let profile = Profile {
-        along: Axis::X,
+        along: Word(Axis::X),
         zero: -0.01,
         one: 0.02,
     };
     assert_eq!(read.profile, Some(profile));
+    let profile = ligament::setup::Profile {
+        along: Axis::X,
+        zero: profile.zero,
+        one: profile.one,
+    };
     assert!((profile.at([0.005, 7.0]) - 0.5).abs() < 1e-15);
     let written = case.resolved_toml().unwrap();
     let again = CaseFile::parse(Path::new("case.toml"), written, &[]).unwrap();
@@ -142,7 +149,7 @@ fn stresses_are_asked_for_by_name() {
     let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
     let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
     let at = [0.0, 0.0];
-    let field = Field::StressXy;
+    let field = Word(PointField::Stress(StressComponent::Xy));
     assert_eq!(
         case.case.probes.last().unwrap().reading,
         Reading::At { at, field }

@@ -5,9 +5,11 @@
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{
-    Action, CaseFile, Control, CorrectionRule, CrackLine, Displacement, Ends, Place, Plane,
-    Precrack, Region, Steps, Vector,
+    Action, CaseFile, Control, CorrectionRule, CrackLine, Displacement, Place, Precrack, Region,
+    Steps, Vector, Word,
 };
+use ligament_model::Plane;
+use ligament_model::bonds::precrack::Ends;
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -64,7 +66,7 @@ fn the_case_is_read_as_it_is_written() {
             line: CrackLine::Polyline {
                 points: vec![[-0.015, 0.0], [0.015, 0.0]]
             },
-            ends: Ends::Excluded,
+            ends: Word(Ends::Excluded),
         }]
     );
     let held = Displacement {

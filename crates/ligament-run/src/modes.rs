@@ -8,7 +8,6 @@ use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::write_modes;
 
-use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
@@ -22,7 +21,6 @@ pub(crate) fn find_modes(
     out: &Path,
     force: bool,
     mut stages: Stages,
-    mut progress: Progress,
 ) -> anyhow::Result<ModalSummary> {
     let vibration = Vibration::new(&model.setup, &model.system.cloud);
     let vibration = vibration.map_err(|error| case.located(error))?;
@@ -50,6 +48,5 @@ pub(crate) fn find_modes(
     let text =
         serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
     folder.write_text("summary.json", &(text + "\n"))?;
-    progress.finish(&format!("{} modes found", outcome.modes.len()));
     Ok(summary)
 }

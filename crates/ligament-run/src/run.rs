@@ -51,10 +51,11 @@ fn run_here(
 ) -> anyhow::Result<Report> {
     ResultFolder::check(out, force)?;
     let mut stages = Stages::default();
-    let progress = Progress::new(mode);
+    let mut progress = Progress::new(mode);
     let model = build_model(case, &mut stages, &progress)?;
     if let Analysis::Modal(settings) = model.setup.analysis {
-        let summary = find_modes(case, settings, &model, out, force, stages, progress)?;
+        let summary = find_modes(case, settings, &model, out, force, stages)?;
+        progress.finish(&format!("{} modes found", summary.modes.len()));
         Ok(Report::Modes(Box::new(summary)))
     } else {
         let summary = follow_loads(case, &model, out, force, stages, progress)?;

@@ -176,7 +176,7 @@ impl<'a> Path<'a> {
         round: usize,
     ) -> Result<Breakage, SetupError> {
         let load_factor = self.state.load_factor;
-        let [displacement, reaction] = self.control(balanced);
+        let (displacement, reaction) = self.control(balanced);
         let criteria = &self.problem.criteria;
         let of_bond = |(place, &bond): (usize, &u32)| {
             let deformation = balanced.deformations[bond as usize];
@@ -219,17 +219,17 @@ impl<'a> Path<'a> {
     }
 
     /// Displacement and force of the control load in an equilibrium, m and N.
-    fn control(&self, balanced: &Balanced) -> [f64; 2] {
+    fn control(&self, balanced: &Balanced) -> (f64, f64) {
         let (loads, load_factor) = (&self.problem.loads, self.state.load_factor);
-        [
+        (
             loads.control_displacement(load_factor, &self.state.displacement),
             loads.control_force(load_factor, &balanced.internal),
-        ]
+        )
     }
 
     /// Whether the load of an equilibrium is rounding against the largest so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
-        let [_, reaction] = self.control(balanced);
+        let (_, reaction) = self.control(balanced);
         reaction <= NO_LOAD * self.peak
     }
 
@@ -245,7 +245,7 @@ impl<'a> Path<'a> {
 
     /// What ends the run with an equilibrium that is at rest.
     pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
-        let [displacement, reaction] = self.control(balanced);
+        let (displacement, reaction) = self.control(balanced);
         if let Some(displacement) = self
             .stop
             .displacement

@@ -27,7 +27,7 @@ pub(super) struct Energies {
     /// Forces and displacements of the loaded degrees of freedom in the last state.
     last_loaded: Vec<Loaded>,
     /// Load factor and [`InternalForces::thermal`] in the last state.
-    thermal: [f64; 2],
+    thermal: (f64, f64),
     /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
     last: Vec<(BondDeformation, Remaining)>,
 }
@@ -46,7 +46,7 @@ impl Energies {
         Self {
             external_work: 0.0,
             released: 0.0,
-            thermal: [0.0; 2],
+            thermal: (0.0, 0.0),
             last: Vec::new(),
             last_loaded: vec![Loaded::default(); loaded.len()],
             loaded,
@@ -68,9 +68,9 @@ impl Energies {
             work += mean_force * (state.displacement[dof] - last.displacement);
             (last.force, last.displacement) = (force, state.displacement[dof]);
         }
-        let [load_factor, force] = self.thermal;
-        self.thermal = [state.load_factor, balanced.internal.thermal];
-        work += 0.5 * (force + self.thermal[1]) * (state.load_factor - load_factor);
+        let (load_factor, force) = self.thermal;
+        self.thermal = (state.load_factor, balanced.internal.thermal);
+        work += 0.5 * (force + self.thermal.1) * (state.load_factor - load_factor);
         self.external_work += work;
     }
 

@@ -49,7 +49,7 @@ pub(super) struct Equations {
     /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
     point_stiffness: PointStiffness,
     /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
-    pub(super) largest_forces: [f64; 2],
+    pub(super) largest_forces: (f64, f64),
     pub(super) costs: Costs,
 }
 
@@ -72,7 +72,7 @@ impl Equations {
                 0.0
             },
             point_stiffness: system.largest_point_stiffness(),
-            largest_forces: [0.0; 2],
+            largest_forces: (0.0, 0.0),
             costs: Costs {
                 analysis: stiffness.analysis_time(),
                 ..Costs::default()
@@ -203,31 +203,32 @@ impl Equations {
         }
         // A load that no bond carries yet would be measured against nothing.
         let largest_load = self.problem.loads.largest_force(state.load_factor);
-        let [force, moment] = self.forces_of_rounding(state);
+        let (force, moment) = self.forces_of_rounding(state);
         let scales = InternalForces {
             values: Vec::new(),
             force_scale: (internal.force_scale)
                 .max(largest_load)
                 .max(force / RESIDUAL_TOLERANCE)
-                .max(UNLOADED * self.largest_forces[0]),
+                .max(UNLOADED * self.largest_forces.0),
             moment_scale: (internal.moment_scale)
                 .max(moment / RESIDUAL_TOLERANCE)
-                .max(UNLOADED * self.largest_forces[1]),
+                .max(UNLOADED * self.largest_forces.1),
             thermal: internal.thermal,
         };
         internal::relative_residual(&residual, self.degrees_of_freedom(), &scales)
     }
 
     /// Force and moment at a point that are rounding of the displacements, N and N m.
-    fn forces_of_rounding(&self, state: &State) -> [f64; 2] {
+    fn forces_of_rounding(&self, state: &State) -> (f64, f64) {
         let displacement = largest_displacement(state);
         let PointStiffness { force, moment } = self.point_stiffness;
-        [force, moment].map(|stiffness| ROUNDING * stiffness * displacement)
+        let rounding = |stiffness: f64| ROUNDING * stiffness * displacement;
+        (rounding(force), rounding(moment))
     }
 
     /// Energy that is rounding of the displacements, J.
     fn energy_of_rounding(&self, state: &State) -> f64 {
-        self.forces_of_rounding(state)[0] * largest_displacement(state)
+        self.forces_of_rounding(state).0 * largest_displacement(state)
     }
 
     /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives them.

@@ -92,11 +92,11 @@ fn measure(equations: &mut Equations, state: &mut State, is_one_way: bool) -> (b
 fn settle(equations: &mut Equations, state: &mut State, balanced: &Balanced) {
     state.softening.settle();
     let internal = &balanced.internal;
-    let [force, moment] = equations.largest_forces;
-    equations.largest_forces = [
+    let (force, moment) = equations.largest_forces;
+    equations.largest_forces = (
         force.max(internal.force_scale),
         moment.max(internal.moment_scale),
-    ];
+    );
 }
 
 /// Displacements and rotations of a state at the unknowns, shape (n_unknowns).

@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::word::Word;
+use ligament_analysis::modal::Rotations;
 
 /// Modes at most: each keeps three vectors of the search in memory.
 pub const MOST_MODES: u32 = 1000;
@@ -27,22 +29,9 @@ pub struct Modal {
     /// Number of modes, rigid ones included, lowest first.
     pub modes: u32,
     /// Inertia of the rotations of the points.
-    pub rotations: Rotations,
+    pub rotations: Word<Option<Rotations>>,
     /// Residual of the iteration below which a mode is found.
     pub tolerance: f64,
-}
-
-/// Inertia of the rotations of the points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Rotations {
-    /// `inertia` where no bond has a negative shear stiffness, `massless` otherwise.
-    #[default]
-    Auto,
-    /// Rotations have the inertia of a square with the point's volume.
-    Inertia,
-    /// Rotations have no inertia and follow the displacements.
-    Massless,
 }
 
 #[derive(Default, Deserialize, JsonSchema)]
@@ -52,7 +41,7 @@ pub(super) struct RawModal {
     #[schemars(range(min = 1, max = MOST_MODES), extend("default" = 10))]
     modes: Option<u32>,
     /// Inertia of the rotations of the points.
-    rotations: Rotations,
+    rotations: Word<Option<Rotations>>,
     /// Residual of the search, relative to 1/omega^2.
     #[schemars(extend("default" = 1e-10, "exclusiveMinimum" = 0))]
     tolerance: Option<f64>,

@@ -7,7 +7,8 @@ use serde::Serialize;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::lattice_section::{LatticeSection, RawLattice};
-use super::mesh_section::{MeshSection, Plane, RawMesh};
+use super::mesh_section::{MeshSection, RawMesh};
+use ligament_model::Plane;
 
 /// The body, meshed or on a regular lattice.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -31,8 +32,8 @@ impl BodySection {
     /// Plane stress or plane strain.
     pub fn plane(&self) -> Plane {
         match self {
-            Self::Mesh(mesh) => mesh.plane,
-            Self::Lattice(lattice) => lattice.plane,
+            Self::Mesh(mesh) => mesh.plane.0,
+            Self::Lattice(lattice) => lattice.plane.0,
         }
     }
 

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Place, no_place, place};
-use super::schema::exactly_one;
 use super::values::Point;
+use super::values::exactly_one;
 
 /// Prescribed displacements; a component that is not given is free.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

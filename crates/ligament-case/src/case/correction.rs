@@ -5,33 +5,23 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::model::{Calibration, Law, ModelSection};
+use super::model::{Law, ModelSection};
 use super::values::require;
+use super::word::Word;
+use ligament::setup::{Alpha, Calibration, CorrectionDomain};
 
 /// The corrections of the bonds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Correction {
     /// The factor alpha.
-    pub alpha: Alpha,
+    pub alpha: Word<Alpha>,
     /// What surfaces take from the families, given back by a factor Omega.
     pub surface: Surface,
     /// How the domain correction is iterated, if it is the one.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub iteration: Option<Iteration>,
     /// The body that the correction sees.
-    pub domain: CorrectionDomain,
-}
-
-/// The factor alpha of a bond.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Alpha {
-    /// 1.
-    None,
-    /// The share of the cell inside the horizon.
-    PartialVolume,
-    /// NHPD's factor by length.
-    Length,
+    pub domain: Word<CorrectionDomain>,
 }
 
 /// The correction of surfaces.
@@ -83,22 +73,11 @@ impl CorrectionRule {
     }
 }
 
-/// The body that the correction sees.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum CorrectionDomain {
-    /// Before the pre-cracks cut bonds.
-    #[default]
-    Whole,
-    /// After the pre-cracks cut bonds.
-    Cracked,
-}
-
 #[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawCorrection {
     /// The factor alpha of each bond; without it as in the paper of the law.
-    alpha: Option<Alpha>,
+    alpha: Option<Word<Alpha>>,
     /// The correction of surfaces; without it as in the paper of the law.
     surface: Option<Surface>,
     /// How the change of a sweep of the domain correction is measured.
@@ -111,7 +90,7 @@ pub(super) struct RawCorrection {
     max_sweeps: Option<u32>,
     /// The body that the correction sees.
     #[schemars(extend("default" = "whole"))]
-    domain: Option<CorrectionDomain>,
+    domain: Option<Word<CorrectionDomain>>,
 }
 
 impl RawCorrection {
@@ -119,7 +98,7 @@ impl RawCorrection {
     pub(super) fn check(self, key: &KeyPath, model: &ModelSection) -> Result<Correction, KeyFault> {
         let (alpha, surface) = corrections_of(model);
         let surface = self.surface.unwrap_or(surface);
-        let is_calibrated = model.calibration == Some(Calibration::Discrete);
+        let is_calibrated = model.calibration == Some(Word(Calibration::Discrete));
         if is_calibrated && surface == Surface::Volume {
             return Err(KeyFault::new(
                 key.child("surface"),
@@ -134,7 +113,7 @@ impl RawCorrection {
             }
         };
         Ok(Correction {
-            alpha: self.alpha.unwrap_or(alpha),
+            alpha: self.alpha.unwrap_or(Word(alpha)),
             surface,
             iteration,
             domain: self.domain.unwrap_or_default(),
@@ -188,7 +167,7 @@ fn corrections_of(model: &ModelSection) -> (Alpha, Surface) {
     match (model.law, model.calibration) {
         (Law::Nhpd, _) => (Alpha::Length, Surface::Domain),
         (Law::MbbPd, _) => (Alpha::None, Surface::None),
-        (_, Some(Calibration::Discrete)) => (Alpha::PartialVolume, Surface::None),
+        (_, Some(Word(Calibration::Discrete))) => (Alpha::PartialVolume, Surface::None),
         _ => (Alpha::PartialVolume, Surface::Volume),
     }
 }

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::mesh_section::Plane;
 use super::values::RANGE;
+use ligament_model::Plane;
 
 /// Beyond this, in 1/K, a coefficient was given in other units.
 const LARGEST: f64 = 0.01;

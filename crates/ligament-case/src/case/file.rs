@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Case;
+use super::checked::Case;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
 use super::keys::{check_ranges, unit_of};
+use super::sections::RawCase;
 use super::{overrides, resolved};
 
 /// A case with the text it was read from, so that faults found later can still be located.
@@ -67,7 +68,7 @@ impl CaseFile {
             })?;
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        let case = check_ranges(&document).and_then(|()| Case::from_document(&document, folder));
+        let case = check_ranges(&document).and_then(|()| RawCase::checked(&document, folder));
         let case = case.map_err(|fault| {
             Source {
                 path,

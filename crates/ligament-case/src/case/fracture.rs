@@ -13,6 +13,8 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::model::Law;
 use super::values::{require, require_at_least_one};
+use super::word::Word;
+use ligament_analysis::breaking::BreakingOrder;
 
 /// How bonds break while the load rises.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,22 +51,11 @@ pub struct Stepping {
     /// Bonds broken at most between two solutions.
     pub bonds_per_iteration: u32,
     /// Order in which the bonds beyond their critical stretch break.
-    pub order: BreakOrder,
+    pub order: Word<BreakingOrder>,
     /// Rounds of breaking allowed in a load step.
     pub max_iterations: u32,
     /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
     pub refine_first_break: u32,
-}
-
-/// Order in which the bonds beyond their critical stretch break.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum BreakOrder {
-    /// Bonds with the largest excess of stretch over critical stretch (the paper's).
-    #[default]
-    Excess,
-    /// Bonds with the largest ratio of stretch to critical stretch.
-    Ratio,
 }
 
 /// The load steps.
@@ -211,7 +202,7 @@ pub(super) struct RawFracture {
     bonds_per_iteration: Option<u32>,
     /// Order in which the bonds beyond their limit break.
     #[schemars(extend("default" = "excess"))]
-    order: Option<BreakOrder>,
+    order: Option<Word<BreakingOrder>>,
     /// Bonds closer than this (relative) to the worst one break together with it.
     #[schemars(extend("default" = 1e-8, "exclusiveMinimum" = 0))]
     tie_tolerance: Option<f64>,

@@ -11,10 +11,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::mesh_section::Plane;
 use super::region::ordered_box;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require, require_column_name, require_positive};
+use super::word::Word;
+use ligament_model::Plane;
 
 /// Cells of a lattice at most.
 pub const MOST_CELLS: u64 = 50_000_000;
@@ -34,7 +35,7 @@ pub struct LatticeSection {
     /// Thickness of the body, m.
     pub thickness: f64,
     /// Plane stress or plane strain.
-    pub plane: Plane,
+    pub plane: Word<Plane>,
     /// Holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remove: Vec<Hole>,
@@ -123,7 +124,7 @@ pub(super) struct RawLattice {
     thickness: Option<f64>,
     /// Plane stress or plane strain.
     #[schemars(extend("default" = "stress"))]
-    plane: Option<Plane>,
+    plane: Option<Word<Plane>>,
     /// Holes: cells whose centre lies in one are removed, and bonds across it.
     #[serde(default)]
     remove: Vec<RawHole>,

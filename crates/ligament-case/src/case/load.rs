@@ -8,8 +8,10 @@ use super::conditions::{Displacement, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Place, no_place, place};
-use super::schema::exactly_one;
-use super::values::{Axis, Point, not_exactly_one, require, require_column_name};
+use super::values::exactly_one;
+use super::values::{Point, not_exactly_one, require, require_column_name};
+use super::word::Word;
+use ligament::setup::Axis;
 
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -53,7 +55,7 @@ pub enum Action {
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// The coordinate.
-    pub along: Axis,
+    pub along: Word<Axis>,
     /// Coordinate in the mesh file at which the load is zero, m.
     pub zero: f64,
     /// Coordinate in the mesh file at which it is as given, m.
@@ -61,15 +63,6 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The factor at a position of the mesh file.
-    pub fn at(&self, [x, y]: Point) -> f64 {
-        let coordinate = match self.along {
-            Axis::X => x,
-            Axis::Y => y,
-        };
-        (coordinate - self.zero) / (self.one - self.zero)
-    }
-
     fn check(self, key: &KeyPath) -> Result<Self, KeyFault> {
         let expected = "another coordinate than `zero`: the load is as given there";
         require(

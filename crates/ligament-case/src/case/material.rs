@@ -13,11 +13,11 @@ use super::document::{Node, Value};
 use super::expansion::Expansion;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::mesh_section::Plane;
 use super::model::Law;
 use super::values::require_unique;
 use elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
 pub use elasticity::{Anisotropic, Elasticity, Orthotropic};
+use ligament_model::Plane;
 pub(super) use tables::schema;
 use tables::{RawAnisotropic, RawIsotropic, RawOrthotropic};
 

@@ -1,13 +1,16 @@
 //! What the law MBB-PD asks of the other sections of a case.
 
 use super::analysis::Analysis;
-use super::correction::{Alpha, Surface};
+use super::body_section::BodySection;
+use super::checked::Case;
+use super::correction::Surface;
 use super::fault::KeyFault;
 use super::fracture::StressField;
 use super::key_path::KeyPath;
-use super::model::{Form, Law, Strains};
+use super::model::Law;
 use super::probe::Reading;
-use super::{BodySection, Case};
+use super::word::Word;
+use ligament::setup::{Alpha, Form, Strains};
 
 /// The fault of a criterion that looks at what bonds of the law do not have.
 fn check_criteria(case: &Case) -> Result<(), KeyFault> {
@@ -42,8 +45,8 @@ fn check_criteria(case: &Case) -> Result<(), KeyFault> {
 fn check_variants(case: &Case) -> Result<(), KeyFault> {
     let model = KeyPath::default().child("model");
     let is_static = case.analysis == Analysis::Static;
-    let is_true = case.model.strains == Some(Strains::True);
-    if case.model.form == Some(Form::Pairwise) {
+    let is_true = case.model.strains == Some(Word(Strains::True));
+    if case.model.form == Some(Word(Form::Pairwise)) {
         let reason = if !is_static {
             "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be followed: it \
              is for elastic analyses; take \"full\""
@@ -84,7 +87,7 @@ pub(super) fn check(case: &Case) -> Result<(), KeyFault> {
         let reason = "the cells must be square for model.law = \"mbb-pd\"";
         return fault(section("lattice").child("spacing"), reason);
     }
-    if case.correction.alpha != Alpha::None {
+    if case.correction.alpha.0 != Alpha::None {
         let reason = "the factors psi of \"mbb-pd\" make all energies right: take \"none\"";
         return fault(section("correction").child("alpha"), reason);
     }

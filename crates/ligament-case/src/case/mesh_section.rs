@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::require;
+use super::word::Word;
+use ligament_model::Plane;
 
 /// The meshed body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -17,18 +19,7 @@ pub struct MeshSection {
     /// Thickness of the body, m.
     pub thickness: f64,
     /// Plane stress or plane strain.
-    pub plane: Plane,
-}
-
-/// Planar problem that the body is an instance of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Plane {
-    /// No stress out of the plane: thin bodies.
-    #[default]
-    Stress,
-    /// No strain out of the plane: long bodies.
-    Strain,
+    pub plane: Word<Plane>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -42,7 +33,7 @@ pub(super) struct RawMesh {
     thickness: Option<f64>,
     /// Plane stress or plane strain.
     #[schemars(extend("default" = "stress"))]
-    plane: Option<Plane>,
+    plane: Option<Word<Plane>>,
 }
 
 impl RawMesh {

@@ -1,14 +1,15 @@
 //! `[model]`: the bond model.
 
-use ligament::setup;
-use ligament_model::law::rotational;
+use ligament::setup::{self, Calibration, Form, Strains};
+use ligament_model::law::rotational::RotationalStiffness;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::not_exactly_one;
+use super::word::Word;
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,16 +24,16 @@ pub struct ModelSection {
     pub horizon: Option<f64>,
     /// Where the constants of the law come from, for laws that leave it open.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub calibration: Option<Calibration>,
+    pub calibration: Option<Word<Calibration>>,
     /// The rotational stiffness, for laws that leave it open.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotational_stiffness: Option<RotationalStiffness>,
+    pub rotational_stiffness: Option<Word<RotationalStiffness>>,
     /// The form of MBB-PD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub form: Option<Form>,
+    pub form: Option<Word<Form>>,
     /// The strains of MBB-PD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub strains: Option<Strains>,
+    pub strains: Option<Word<Strains>>,
 }
 
 /// A bond law.
@@ -57,65 +58,12 @@ pub enum Law {
     MbbPd,
 }
 
-/// Where the constants of a law come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Calibration {
-    /// Integrals over a full circle (the papers').
-    Integral,
-    /// Sums over the family of each point.
-    Discrete,
-}
-
-/// The rotational stiffness k_theta beside a shear stiffness k_t.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RotationalStiffness {
-    /// k_t l (1 - l/H)/2.
-    Decaying,
-    /// k_t l/4.
-    Quarter,
-    /// k_t l/12.
-    Beam,
-    /// None.
-    None,
-}
-
-/// How the bonds of MBB-PD resist their strains.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Form {
-    /// All bonds all three strains.
-    Full,
-    /// Bonds along x and y only their own.
-    Rows,
-    /// As printed, with forces on the two ends alone.
-    Pairwise,
-}
-
-/// What the strains of MBB-PD are taken over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Strains {
-    /// The distances before the deformation.
-    Small,
-    /// The distances after the deformation.
-    True,
-}
-
 impl ModelSection {
     /// The bond law with its open choices, as a setup has it.
     pub fn bond_law(&self) -> setup::Law {
-        let calibration = match self.calibration {
-            Some(Calibration::Discrete) => setup::Calibration::Discrete,
-            Some(Calibration::Integral) | None => setup::Calibration::Integral,
-        };
-        let rotational_stiffness = match self.rotational_stiffness {
-            Some(RotationalStiffness::Decaying) => rotational::RotationalStiffness::Decaying,
-            Some(RotationalStiffness::Quarter) => rotational::RotationalStiffness::Quarter,
-            Some(RotationalStiffness::Beam) => rotational::RotationalStiffness::Beam,
-            Some(RotationalStiffness::None) | None => rotational::RotationalStiffness::Zero,
-        };
+        let calibration = (self.calibration).map_or_else(Calibration::default, |it| it.0);
+        let rotational_stiffness =
+            (self.rotational_stiffness).map_or(RotationalStiffness::Zero, |it| it.0);
         match self.law {
             Law::Nhpd => setup::Law::Nhpd,
             Law::Bbpd => setup::Law::Bbpd { calibration },
@@ -130,15 +78,8 @@ impl ModelSection {
                 rotational_stiffness,
             },
             Law::MbbPd => setup::Law::MbbPd {
-                form: match self.form {
-                    Some(Form::Rows) => setup::Form::Rows,
-                    Some(Form::Pairwise) => setup::Form::Pairwise,
-                    Some(Form::Full) | None => setup::Form::Full,
-                },
-                strains: match self.strains {
-                    Some(Strains::True) => setup::Strains::True,
-                    Some(Strains::Small) | None => setup::Strains::Small,
-                },
+                form: self.form.map_or_else(Form::default, |it| it.0),
+                strains: self.strains.map_or_else(Strains::default, |it| it.0),
             },
         }
     }
@@ -221,13 +162,13 @@ pub(super) struct RawModel {
     #[schemars(extend("exclusiveMinimum" = 0))]
     horizon: Option<f64>,
     /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
-    calibration: Option<Calibration>,
+    calibration: Option<Word<Calibration>>,
     /// Stiffness against relative rotation; of `mppd` and `orthotropic`.
-    rotational_stiffness: Option<RotationalStiffness>,
+    rotational_stiffness: Option<Word<RotationalStiffness>>,
     /// How the bonds of `mbb-pd` resist their strains.
-    form: Option<Form>,
+    form: Option<Word<Form>>,
     /// What the strains of `mbb-pd` are taken over.
-    strains: Option<Strains>,
+    strains: Option<Word<Strains>>,
 }
 
 impl RawModel {
@@ -255,7 +196,7 @@ impl RawModel {
                 "calibration",
                 law,
                 self.calibration,
-                law.calibration(),
+                law.calibration().map(Word),
                 "its constants are those of the paper",
             )?,
             rotational_stiffness: open(
@@ -263,7 +204,7 @@ impl RawModel {
                 "rotational_stiffness",
                 law,
                 self.rotational_stiffness,
-                law.rotational_stiffness(),
+                law.rotational_stiffness().map(Word),
                 "the law says what it is",
             )?,
             form: open(
@@ -271,7 +212,7 @@ impl RawModel {
                 "form",
                 law,
                 self.form,
-                (law == Law::MbbPd).then_some(Form::Full),
+                (law == Law::MbbPd).then_some(Word(Form::Full)),
                 "only \"mbb-pd\" has several",
             )?,
             strains: open(
@@ -279,7 +220,7 @@ impl RawModel {
                 "strains",
                 law,
                 self.strains,
-                (law == Law::MbbPd).then_some(Strains::Small),
+                (law == Law::MbbPd).then_some(Word(Strains::Small)),
                 "only \"mbb-pd\" has true strains",
             )?,
         })

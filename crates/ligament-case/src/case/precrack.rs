@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require};
+use super::word::Word;
+use ligament_model::bonds::precrack::Ends;
 
 /// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
 /// axis lie on a crack along it.
@@ -21,7 +23,7 @@ pub struct Precrack {
     #[serde(flatten)]
     pub line: CrackLine,
     /// Whether it cuts bonds that only touch it.
-    pub ends: Ends,
+    pub ends: Word<Ends>,
 }
 
 /// Where a pre-crack runs.
@@ -42,17 +44,6 @@ pub enum CrackLine {
         /// From the x axis to it, counter-clockwise, rad.
         angle: f64,
     },
-}
-
-/// Whether the ends of a pre-crack belong to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Ends {
-    /// Bonds that pass through the crack are cut.
-    #[default]
-    Excluded,
-    /// Bonds that have a point in common with the crack are cut.
-    Included,
 }
 
 impl Precrack {
@@ -112,7 +103,7 @@ pub(super) struct RawPrecrack {
     angle: Option<f64>,
     /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
-    ends: Ends,
+    ends: Word<Ends>,
 }
 
 impl RawPrecrack {

@@ -5,8 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
-use super::values::{Axis, Point, not_exactly_one, require, require_column_name};
+use super::values::exactly_one;
+use super::values::{Point, not_exactly_one, require, require_column_name};
+use super::word::Word;
+use ligament::setup::Axis;
+use ligament_analysis::Component;
+use ligament_analysis::probe::PointField;
 
 /// A column of the history.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,62 +31,22 @@ pub enum Reading {
         /// Two positions: the second point's displacement minus the first's, at the nearest points.
         between: [Point; 2],
         /// The component read, m or rad.
-        component: Component,
+        component: Word<Component>,
     },
     /// A field at a point.
     At {
         /// The position; the nearest point is read.
         at: Point,
         /// The field read.
-        field: Field,
+        field: Word<PointField>,
     },
     /// The force that the bonds carry through a line.
     Section {
         /// The ends of the line.
         section: [Point; 2],
         /// The component read, N.
-        component: Axis,
+        component: Word<Axis>,
     },
-}
-
-/// A component of the motion of a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Component {
-    /// Displacement along x, m.
-    X,
-    /// Displacement along y, m.
-    Y,
-    /// Rotation, rad, counter-clockwise.
-    Rotation,
-}
-
-/// A field that a probe can read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Field {
-    /// Share of the point's bonds that are broken, 0 to 1.
-    Damage,
-    /// Damage by opening of bonds, d_t, 0 to 1.
-    DamageTension,
-    /// Damage by crushing of bonds, d_c.
-    DamageCompression,
-    /// Damage by sliding of bonds, d_gamma.
-    DamageSliding,
-    /// Displacement along x, m.
-    DisplacementX,
-    /// Displacement along y, m.
-    DisplacementY,
-    /// Rotation, rad, counter-clockwise.
-    Rotation,
-    /// Strain energy density, J/m^3.
-    StrainEnergyDensity,
-    /// Virial stress xx, Pa.
-    StressXx,
-    /// Virial stress yy, Pa.
-    StressYy,
-    /// Virial stress xy, Pa.
-    StressXy,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -99,9 +63,9 @@ pub(super) struct RawProbe {
     /// A line, m, through which the bonds carry a force, N; with `component`.
     section: Option<[Point; 2]>,
     /// The component that `between` (m or rad) or `section` (N; `x` or `y`) reads.
-    component: Option<Component>,
+    component: Option<Word<Component>>,
     /// The field that is read `at` the position.
-    field: Option<Field>,
+    field: Option<Word<PointField>>,
 }
 
 impl RawProbe {
@@ -143,7 +107,7 @@ impl RawProbe {
         })
     }
 
-    fn component(&self, key: &KeyPath) -> Result<Component, KeyFault> {
+    fn component(&self, key: &KeyPath) -> Result<Word<Component>, KeyFault> {
         self.component.ok_or_else(|| {
             let reason = "with `between` or `section`, to say what to read";
             KeyFault::new(
@@ -156,10 +120,10 @@ impl RawProbe {
         })
     }
 
-    fn axis(&self, key: &KeyPath) -> Result<Axis, KeyFault> {
-        match self.component(key)? {
-            Component::X => Ok(Axis::X),
-            Component::Y => Ok(Axis::Y),
+    fn axis(&self, key: &KeyPath) -> Result<Word<Axis>, KeyFault> {
+        match self.component(key)?.0 {
+            Component::X => Ok(Word(Axis::X)),
+            Component::Y => Ok(Word(Axis::Y)),
             Component::Rotation => {
                 let reason = "the force through a section has the components \"x\" and \"y\" only";
                 Err(KeyFault::new(key.child("component"), reason))
@@ -167,7 +131,7 @@ impl RawProbe {
         }
     }
 
-    fn field(&self, key: &KeyPath) -> Result<Field, KeyFault> {
+    fn field(&self, key: &KeyPath) -> Result<Word<PointField>, KeyFault> {
         if self.component.is_some() {
             let reason = "a probe `at` a point takes `field`, not `component`";
             return Err(KeyFault::new(key.child("component"), reason));

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require};
 
 /// Where a support or a load acts.

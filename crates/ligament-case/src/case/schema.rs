@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::{Value, json};
 
-use super::RawCase;
+use super::sections::RawCase;
 
 /// The JSON schema of a case file.
 ///
@@ -19,13 +19,6 @@ pub fn schema() -> Value {
         .into_root_schema_for::<RawCase>();
     schema.insert("title".to_owned(), "Case file of Ligament".into());
     schema.to_value()
-}
-
-/// The rule that exactly one of the keys is there, as a value of `oneOf`.
-pub(super) fn exactly_one(keys: &[&str]) -> Value {
-    keys.iter()
-        .map(|key| json!({ "required": [key] }))
-        .collect()
 }
 
 /// What JSON and TOML do not share: TOML has no null, and formats of numbers are of no use to editors. Words become one

@@ -8,6 +8,9 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::word::Word;
+use ligament_analysis::solver::{FactorKind, Ordering, Update};
+
 /// Threads at most: with thousands of them waking up takes the time of the work, and the program seems to hang.
 pub const MOST_THREADS: u32 = 1024;
 
@@ -15,11 +18,11 @@ pub const MOST_THREADS: u32 = 1024;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Solver {
     /// The factorisation of the stiffness.
-    pub factorisation: Factorisation,
+    pub factorisation: Word<Option<FactorKind>>,
     /// The order of elimination.
-    pub ordering: Ordering,
+    pub ordering: Word<Option<Ordering>>,
     /// What happens to the factor when bonds break.
-    pub update: Update,
+    pub update: Word<Option<Update>>,
     /// Bonds broken between two factors that are made anew, counted from the start of the run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rebuild_every: Option<u32>,
@@ -29,55 +32,16 @@ pub struct Solver {
     pub threads: Option<u32>,
 }
 
-/// A factorisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Factorisation {
-    /// `llt` where every bond has a positive shear stiffness, `ldlt` otherwise.
-    #[default]
-    Auto,
-    /// L L^T, for positive definite stiffness.
-    Llt,
-    /// L D L^T, also for indefinite stiffness.
-    Ldlt,
-}
-
-/// An order of elimination.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Ordering {
-    /// `nested-dissection` from 10,000 points on, `minimum-degree` below.
-    #[default]
-    Auto,
-    /// Nested dissection of the points.
-    NestedDissection,
-    /// Approximate minimum degree of the unknowns.
-    MinimumDegree,
-}
-
-/// What happens to the factor when bonds break.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Update {
-    /// `incremental`.
-    #[default]
-    Auto,
-    /// The factor is changed in place, unless so many bonds break at once that making it anew costs less.
-    Incremental,
-    /// The factor is made anew every time.
-    Refactor,
-}
-
 /// Keys of the section.
 #[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct Keys {
     /// The factorisation of the stiffness.
-    factorisation: Factorisation,
+    factorisation: Word<Option<FactorKind>>,
     /// The order of elimination.
-    ordering: Ordering,
+    ordering: Word<Option<Ordering>>,
     /// What happens to the factor when bonds break.
-    update: Update,
+    update: Word<Option<Update>>,
     /// Broken bonds between two factors that are made anew.
     #[schemars(range(min = 1))]
     rebuild_every: Option<u32>,

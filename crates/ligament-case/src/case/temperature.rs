@@ -9,7 +9,7 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::mesh_section::absolute;
 use super::region::{RawRegion, Region};
-use super::schema::exactly_one;
+use super::values::exactly_one;
 use super::values::{Point, not_exactly_one, require};
 
 /// A change of temperature at load factor 1. Where several reach, the last of them holds.

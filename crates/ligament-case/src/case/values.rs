@@ -1,8 +1,5 @@
 //! Checks on single values that several sections share.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 
@@ -12,14 +9,11 @@ pub type Point = [f64; 2];
 /// Keyword of the schema for a range in words, where these say more than its bounds.
 pub(super) const RANGE: &str = "x-range";
 
-/// A direction in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
+/// The rule that exactly one of the keys is there, as a value of `oneOf`.
+pub(super) fn exactly_one(keys: &[&str]) -> serde_json::Value {
+    keys.iter()
+        .map(|key| serde_json::json!({ "required": [key] }))
+        .collect()
 }
 
 /// Fails at `table.key` unless the condition holds; `expected` is the condition in words.

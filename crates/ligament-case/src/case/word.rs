@@ -4,14 +4,23 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-use ligament_model::failure::softening::{LAWS, Law, brittle};
-use ligament_model::failure::{Calibration, KINDS, Kind};
+use ligament::setup::{Alpha, Axis, Calibration, CorrectionDomain, Form, Strains};
+use ligament_analysis::Component;
+use ligament_analysis::breaking::BreakingOrder;
+use ligament_analysis::modal::Rotations;
+use ligament_analysis::probe::{PointField, StressComponent};
+use ligament_analysis::solver::{FactorKind, Ordering, Update};
+use ligament_model::Plane;
+use ligament_model::bonds::precrack::Ends;
+use ligament_model::failure::softening::{LAWS, Law};
+use ligament_model::failure::{self, KINDS, Kind, Weakened};
+use ligament_model::law::rotational::RotationalStiffness;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A value that stands as a word.
-pub(super) trait Worded: Copy + 'static {
+pub trait Worded: Copy + 'static {
     /// All words.
     const WORDS: &'static [&'static str];
 
@@ -59,33 +68,131 @@ impl Worded for Law {
     }
 }
 
-impl Worded for Calibration {
-    const WORDS: &'static [&'static str] = &["printed", "two-point"];
+/// Values of a type with their words and what these mean.
+macro_rules! worded {
+    ($value:ty: $([$($variant:tt)+] $word:literal $meaning:literal;)+) => {
+        impl Worded for $value {
+            const WORDS: &'static [&'static str] = &[$($word),+];
 
-    fn all() -> impl Iterator<Item = Self> {
-        [Self::Printed, Self::TwoPoint].into_iter()
-    }
+            fn all() -> impl Iterator<Item = Self> {
+                [$($($variant)+),+].into_iter()
+            }
 
-    fn word(&self) -> [&'static str; 2] {
-        match self {
-            Self::Printed => ["printed", "As printed: exact without lateral strain alone."],
-            Self::TwoPoint => [
-                "two-point",
-                "From the strains of a bar under both strengths.",
-            ],
+            fn word(&self) -> [&'static str; 2] {
+                match self {
+                    $($($variant)+ => [$word, $meaning],)+
+                }
+            }
         }
-    }
+    };
+}
+
+worded! { failure::Calibration:
+    [Self::Printed] "printed" "As printed: exact without lateral strain alone.";
+    [Self::TwoPoint] "two-point" "From the strains of a bar under both strengths.";
+}
+
+worded! { Plane:
+    [Self::Stress] "stress" "No stress out of the plane: thin bodies.";
+    [Self::Strain] "strain" "No strain out of the plane: long bodies.";
+}
+
+worded! { Calibration:
+    [Self::Integral] "integral" "Integrals over a full circle (the papers').";
+    [Self::Discrete] "discrete" "Sums over the family of each point.";
+}
+
+worded! { RotationalStiffness:
+    [Self::Decaying] "decaying" "k_t l (1 - l/H)/2.";
+    [Self::Quarter] "quarter" "k_t l/4.";
+    [Self::Beam] "beam" "k_t l/12.";
+    [Self::Zero] "none" "None.";
+}
+
+worded! { Form:
+    [Self::Full] "full" "All bonds all three strains.";
+    [Self::Rows] "rows" "Bonds along x and y only their own.";
+    [Self::Pairwise] "pairwise" "As printed, with forces on the two ends alone.";
+}
+
+worded! { Strains:
+    [Self::Small] "small" "The distances before the deformation.";
+    [Self::True] "true" "The distances after the deformation.";
+}
+
+worded! { Alpha:
+    [Self::None] "none" "1.";
+    [Self::PartialVolume] "partial-volume" "The share of the cell inside the horizon.";
+    [Self::Length] "length" "NHPD's factor by length.";
+}
+
+worded! { CorrectionDomain:
+    [Self::Whole] "whole" "Before the pre-cracks cut bonds.";
+    [Self::Cracked] "cracked" "After the pre-cracks cut bonds.";
+}
+
+worded! { Ends:
+    [Self::Excluded] "excluded" "Bonds that pass through the crack are cut.";
+    [Self::Included] "included" "Bonds that have a point in common with the crack are cut.";
+}
+
+worded! { BreakingOrder:
+    [Self::Excess] "excess" "Bonds with the largest excess of stretch over critical stretch (the paper's).";
+    [Self::Ratio] "ratio" "Bonds with the largest ratio of stretch to critical stretch.";
+}
+
+worded! { Option<FactorKind>:
+    [None] "auto" "`llt` where every bond has a positive shear stiffness, `ldlt` otherwise.";
+    [Some(FactorKind::Llt)] "llt" "L L^T, for positive definite stiffness.";
+    [Some(FactorKind::Ldlt)] "ldlt" "L D L^T, also for indefinite stiffness.";
+}
+
+worded! { Option<Ordering>:
+    [None] "auto" "`nested-dissection` from 10,000 points on, `minimum-degree` below.";
+    [Some(Ordering::NestedDissection)] "nested-dissection" "Nested dissection of the points.";
+    [Some(Ordering::MinimumDegree)] "minimum-degree" "Approximate minimum degree of the unknowns.";
+}
+
+worded! { Option<Update>:
+    [None] "auto" "`incremental`.";
+    [Some(Update::Incremental)] "incremental" "The factor is changed in place, unless so many bonds break at once that making it anew costs less.";
+    [Some(Update::Refactor)] "refactor" "The factor is made anew every time.";
+}
+
+worded! { Option<Rotations>:
+    [None] "auto" "`inertia` where no bond has a negative shear stiffness, `massless` otherwise.";
+    [Some(Rotations::Inertia)] "inertia" "Rotations have the inertia of a square with the point's volume.";
+    [Some(Rotations::Massless)] "massless" "Rotations have no inertia and follow the displacements.";
+}
+
+worded! { Axis:
+    [Self::X] "x" "Along x.";
+    [Self::Y] "y" "Along y.";
+}
+
+worded! { Component:
+    [Self::X] "x" "Displacement along x, m.";
+    [Self::Y] "y" "Displacement along y, m.";
+    [Self::Rotation] "rotation" "Rotation, rad, counter-clockwise.";
+}
+
+worded! { PointField:
+    [Self::Damage] "damage" "Share of the point's bonds that are broken, 0 to 1.";
+    [Self::DamageBy(Weakened::Opening)] "damage_tension" "Damage by opening of bonds, d_t, 0 to 1.";
+    [Self::DamageBy(Weakened::Crushing)] "damage_compression" "Damage by crushing of bonds, d_c.";
+    [Self::DamageBy(Weakened::Sliding)] "damage_sliding" "Damage by sliding of bonds, d_gamma.";
+    [Self::Motion(Component::X)] "displacement_x" "Displacement along x, m.";
+    [Self::Motion(Component::Y)] "displacement_y" "Displacement along y, m.";
+    [Self::Motion(Component::Rotation)] "rotation" "Rotation, rad, counter-clockwise.";
+    [Self::StrainEnergyDensity] "strain_energy_density" "Strain energy density, J/m^3.";
+    [Self::Stress(StressComponent::Xx)] "stress_xx" "Virial stress xx, Pa.";
+    [Self::Stress(StressComponent::Yy)] "stress_yy" "Virial stress yy, Pa.";
+    [Self::Stress(StressComponent::Xy)] "stress_xy" "Virial stress xy, Pa.";
 }
 
 /// A value that is read and written as its word.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Word<T>(pub(super) T);
-
-impl Default for Word<Law> {
-    fn default() -> Self {
-        Self(brittle::LAW)
-    }
-}
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Word<T>(pub T);
 
 impl<T: Worded> Serialize for Word<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -9,7 +9,7 @@ use ligament_analysis::solver::{
 };
 use ligament_analysis::stiffness::Stiffness;
 
-use ligament_case::case::{self, CaseFile, Factorisation};
+use ligament_case::case::CaseFile;
 use ligament_run::memory;
 use ligament_run::model::Model;
 
@@ -63,7 +63,7 @@ fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> 
             "  factorisation         L U: the printed forces are not those of an energy; entries and order are those of its energy form"
         );
     }
-    let is_named = case.case.solver.factorisation != Factorisation::Auto;
+    let is_named = case.case.solver.factorisation.0.is_some();
     let why = match (is_named, choice.factorisation) {
         (true, _) => "as the case says",
         (false, FactorKind::Llt) => {
@@ -109,7 +109,7 @@ fn analyse(stiffness: &Stiffness, ordering: Ordering) -> Result<Analysis, SetupE
 }
 
 fn ordering_reason(case: &CaseFile, model: &Model) -> String {
-    if case.case.solver.ordering != case::Ordering::Auto {
+    if case.case.solver.ordering.0.is_some() {
         return "as the case says".to_owned();
     }
     let side = if model.system.cloud.len() < POINTS_FOR_DISSECTION {

@@ -28,9 +28,10 @@ pub struct PreCrack {
 }
 
 /// Treatment of bonds that only touch a pre-crack.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ends {
     /// Only bonds that pass through the pre-crack are cut.
+    #[default]
     Excluded,
     /// Every bond that has a point in common with the pre-crack is cut.
     Included,

@@ -5,9 +5,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::anisotropic::Anisotropic;
 
 /// State of the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Plane {
     /// Plane stress: no stress out of the plane.
+    #[default]
     Stress,
     /// Plane strain: no strain out of the plane.
     Strain,

@@ -5,7 +5,9 @@ use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
 use ligament::Model;
-use ligament_case::case::{Alpha, Calibration, CaseFile, Form, RotationalStiffness, Surface};
+use ligament::setup::{Alpha, Calibration, Form};
+use ligament_case::case::{CaseFile, Surface, Word};
+use ligament_model::law::rotational::RotationalStiffness;
 
 /// The numbers of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,7 +51,7 @@ pub struct Spread {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CorrectionSummary {
     /// The factor alpha.
-    pub alpha: Alpha,
+    pub alpha: Word<Alpha>,
     /// The correction of surfaces.
     pub surface: Surface,
     /// Sweeps.
@@ -162,20 +164,20 @@ pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
             "two displacements a point, the strains of a rectangle around each bond, the printed forces on its ends"
         }
     };
-    let constants = match model.calibration {
+    let constants = match model.calibration.map(|it| it.0) {
         Some(Calibration::Discrete) => ", constants from sums over the families",
         Some(Calibration::Integral) | None => "",
     };
-    let rotational = match model.rotational_stiffness {
+    let rotational = match model.rotational_stiffness.map(|it| it.0) {
         Some(RotationalStiffness::Decaying) => ", k_theta = k_t l (1 - l/H)/2",
         Some(RotationalStiffness::Quarter) => ", k_theta = k_t l/4",
         Some(RotationalStiffness::Beam) => ", k_theta = k_t l/12",
-        Some(RotationalStiffness::None) => ", k_theta = 0",
+        Some(RotationalStiffness::Zero) => ", k_theta = 0",
         None => "",
     };
     format!(
         "law {}: {unknowns}{constants}{rotational}",
-        match model.form {
+        match model.form.map(|it| it.0) {
             Some(Form::Rows) => "mbb-pd (rows)",
             Some(Form::Pairwise) => "mbb-pd (pairwise)",
             Some(Form::Full) | None => model.law.word(),
@@ -186,7 +188,7 @@ pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
 /// Line on the corrections of the bonds, and on how the iterated one went.
 pub fn correction_line(case: &CaseFile, report: Option<&CorrectionReport>) -> String {
     let correction = &case.case.correction;
-    let alpha = match correction.alpha {
+    let alpha = match correction.alpha.0 {
         Alpha::None => "no factor alpha",
         Alpha::PartialVolume => "alpha by partial volume",
         Alpha::Length => "alpha by length",

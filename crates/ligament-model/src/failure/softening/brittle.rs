@@ -14,3 +14,9 @@ pub const LAW: Law = Law {
     end: |_| 1.0,
     total: |_| 1.0,
 };
+
+impl Default for Law {
+    fn default() -> Self {
+        LAW
+    }
+}
