@@ -64,7 +64,7 @@ impl CaseFile {
                 thickness: case.body.thickness(),
             },
             materials: case.materials.iter().map(region).collect(),
-            law: case.model.bond_law(),
+            law: (&case.model).into(),
             horizon: horizon(&case.model),
             correction: correction(&case.correction),
             precracks: case.precracks.iter().map(precrack).collect(),

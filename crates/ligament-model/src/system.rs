@@ -44,6 +44,42 @@ pub enum Kinematics {
 }
 
 impl Kinematics {
+    /// Kinematics of `bonds` between the points of a cloud, with their weights (n_bonds) and, on a lattice, the densities
+    /// of their stiffness over the strains (n_bonds).
+    fn new(
+        kind: ElementKind,
+        cloud: &PointCloud,
+        bonds: &BondSet,
+        weight: &[f64],
+        densities: Vec<StrainStiffness>,
+    ) -> Self {
+        let lattice = || {
+            let of_bond = |(bond, density): (usize, StrainStiffness)| {
+                let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
+                let factor = weight[bond] * a * b * bonds.length[bond];
+                StrainStiffness {
+                    entries: density.entries.map(|entry| factor * entry),
+                    ..density
+                }
+            };
+            let stiffness = densities.into_iter().enumerate().map(of_bond).collect();
+            ImaginaryElements::new(bonds, cloud.positions.clone(), stiffness)
+        };
+        match kind {
+            ElementKind::Beam => Kinematics::Beam(Pairs::default()),
+            ElementKind::Spring => Kinematics::Spring(Pairs::default()),
+            ElementKind::Imaginary => Kinematics::Imaginary(lattice()),
+            ElementKind::TrueStrain => {
+                Kinematics::TrueStrain(TrueStrainElements { lattice: lattice() })
+            }
+            ElementKind::Pairwise => Kinematics::Pairwise(PairwiseElements {
+                lattice: lattice(),
+                row_factors: mbb_pd::pairwise::row_factors(bonds, cloud),
+                spacing: cloud.spacing.clone(),
+            }),
+        }
+    }
+
     /// Kind of the bonds' elements.
     pub fn kind(&self) -> ElementKind {
         match self {
@@ -97,36 +133,12 @@ impl BondSystem {
                 *shear = factor * *shear * l;
                 *rotational *= factor;
             });
-        let lattice = || {
-            let of_bond = |(bond, density): (usize, StrainStiffness)| {
-                let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
-                let factor = weight[bond] * a * b * bonds.length[bond];
-                StrainStiffness {
-                    entries: density.entries.map(|entry| factor * entry),
-                    ..density
-                }
-            };
-            let stiffness = strain.into_iter().enumerate().map(of_bond).collect();
-            ImaginaryElements::new(&bonds, cloud.positions.clone(), stiffness)
-        };
-        let kinematics = match element {
-            ElementKind::Beam => Kinematics::Beam(Pairs::default()),
-            ElementKind::Spring => Kinematics::Spring(Pairs::default()),
-            ElementKind::Imaginary => Kinematics::Imaginary(lattice()),
-            ElementKind::TrueStrain => {
-                Kinematics::TrueStrain(TrueStrainElements { lattice: lattice() })
-            }
-            ElementKind::Pairwise => Kinematics::Pairwise(PairwiseElements {
-                lattice: lattice(),
-                row_factors: mbb_pd::pairwise::row_factors(&bonds, &cloud),
-                spacing: cloud.spacing.clone(),
-            }),
-        };
         let rigidities = Rigidities {
             axial,
             shear,
             rotational,
         };
+        let kinematics = Kinematics::new(element, &cloud, &bonds, &weight, strain);
         Self {
             rigidities,
             weight,

@@ -190,6 +190,35 @@ impl Summary {
             "  points {}, bonds {}, volume {:.6e} m^3",
             self.model.points, self.model.bonds, self.model.volume
         )?;
+        self.write_loads(out)?;
+        let unit = if self.exact_path {
+            "states of the exact path"
+        } else {
+            "load steps"
+        };
+        writeln!(
+            out,
+            "  broken bonds       {} in {} {unit}",
+            self.broken_bonds, self.steps
+        )?;
+        writeln!(
+            out,
+            "  energy balance     off by {:.1e} of the work",
+            self.energy_balance_error
+        )?;
+        writeln!(out, "  ended because      {}", self.termination.message)?;
+        for warning in self.warnings.iter().take(WARNINGS_SHOWN) {
+            writeln!(out, "  warning: {warning}")?;
+        }
+        if self.warnings.len() > WARNINGS_SHOWN {
+            let more = self.warnings.len() - WARNINGS_SHOWN;
+            writeln!(out, "  warning: {more} more in summary.json")?;
+        }
+        Ok(())
+    }
+
+    /// The lines of the temperature, the stiffness and the loads that stand out.
+    fn write_loads(&self, out: &mut dyn Write) -> io::Result<()> {
         let Units {
             displacement: along,
             force,
@@ -225,29 +254,6 @@ impl Summary {
                     "  {name:<18} {reaction:.6e} {force} at {displacement:.6e} {along}"
                 )?;
             }
-        }
-        let unit = if self.exact_path {
-            "states of the exact path"
-        } else {
-            "load steps"
-        };
-        writeln!(
-            out,
-            "  broken bonds       {} in {} {unit}",
-            self.broken_bonds, self.steps
-        )?;
-        writeln!(
-            out,
-            "  energy balance     off by {:.1e} of the work",
-            self.energy_balance_error
-        )?;
-        writeln!(out, "  ended because      {}", self.termination.message)?;
-        for warning in self.warnings.iter().take(WARNINGS_SHOWN) {
-            writeln!(out, "  warning: {warning}")?;
-        }
-        if self.warnings.len() > WARNINGS_SHOWN {
-            let more = self.warnings.len() - WARNINGS_SHOWN;
-            writeln!(out, "  warning: {more} more in summary.json")?;
         }
         Ok(())
     }

@@ -56,7 +56,7 @@ impl Published {
         extent: Extent,
         compute: impl FnMut(Labels<'_>) -> anyhow::Result<f64>,
     ) -> anyhow::Result<Table> {
-        Known::parse(self.name, self.text)?.judge(extent, compute)
+        known_values(self.name, self.text)?.judge(extent, compute)
     }
 }
 
@@ -113,37 +113,35 @@ pub enum TableFault {
     },
 }
 
-impl Known {
-    /// Reads a table; `name` is that of its file.
-    ///
-    /// # Errors
-    ///
-    /// If a line of the heading is missing, or a cell does not hold what its column takes; with the line.
-    pub fn parse(name: &str, text: &str) -> Result<Self, TableError> {
-        let at = |line: usize| {
-            move |fault| TableError {
-                name: name.to_owned(),
-                line: line + 1,
-                fault,
-            }
-        };
-        let is_note = |(_, line): &(usize, &str)| line.starts_with('#');
-        let mut lines = text.lines().enumerate().skip_while(is_note);
-        let (line, columns) = lines.next().ok_or_else(|| at(0)(TableFault::Columns))?;
-        let columns = cells(columns);
-        let n_keys = columns.len().saturating_sub(COLUMNS.len());
-        if columns[n_keys..] != COLUMNS || n_keys == 0 {
-            return Err(at(line)(TableFault::Columns));
+/// The known values of a table in a file of this name.
+///
+/// # Errors
+///
+/// If a line of the heading is missing, or a cell does not hold what its column takes; with the line.
+pub fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
+    let at = |line: usize| {
+        move |fault| TableError {
+            name: name.to_owned(),
+            line: line + 1,
+            fault,
         }
-        let heading = heading(name, text, &columns[..n_keys]).map_err(at(line))?;
-        let entries = lines
-            .map(|(line, row)| entry(&cells(row), n_keys).map_err(at(line)))
-            .collect::<Result<Vec<_>, _>>()?;
-        if entries.is_empty() {
-            return Err(at(line)(TableFault::Empty));
-        }
-        Ok(Self { heading, entries })
+    };
+    let is_note = |(_, line): &(usize, &str)| line.starts_with('#');
+    let mut lines = text.lines().enumerate().skip_while(is_note);
+    let (line, columns) = lines.next().ok_or_else(|| at(0)(TableFault::Columns))?;
+    let columns = cells(columns);
+    let n_keys = columns.len().saturating_sub(COLUMNS.len());
+    if columns[n_keys..] != COLUMNS || n_keys == 0 {
+        return Err(at(line)(TableFault::Columns));
     }
+    let heading = heading(name, text, &columns[..n_keys]).map_err(at(line))?;
+    let entries = lines
+        .map(|(line, row)| entry(&cells(row), n_keys).map_err(at(line)))
+        .collect::<Result<Vec<_>, _>>()?;
+    if entries.is_empty() {
+        return Err(at(line)(TableFault::Empty));
+    }
+    Ok(Known { heading, entries })
 }
 
 /// The rows of a table of numbers below a line of `N` column names.
@@ -303,7 +301,7 @@ nu,law,known,allowed,subset,standing,instead,reason
 ";
 
     fn parse(rows: &str) -> Result<Known, TableError> {
-        Known::parse("t4", &format!("{HEAD}{rows}"))
+        known_values("t4", &format!("{HEAD}{rows}"))
     }
 
     #[test]
@@ -402,15 +400,15 @@ nu,law,known,allowed,subset,standing,instead,reason
             );
         }
         let text = HEAD.replace("# known: printed\n", "");
-        let error = Known::parse("t4", &text).unwrap_err();
+        let error = known_values("t4", &text).unwrap_err();
         assert_eq!(error.fault, TableFault::NoHeading { key: "known" });
         let text = HEAD.replace("nu,law,known", "nu,law,value");
         assert_eq!(
-            Known::parse("t4", &text).unwrap_err().fault,
+            known_values("t4", &text).unwrap_err().fault,
             TableFault::Columns
         );
         assert_eq!(
-            Known::parse("t4", "").unwrap_err().fault,
+            known_values("t4", "").unwrap_err().fault,
             TableFault::Columns
         );
     }

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::model::{Law, ModelSection};
+use super::model::ModelSection;
 use super::values::require;
 use super::word::Word;
-use ligament::setup::{Alpha, Calibration, CorrectionDomain};
+use ligament::setup::{self, Alpha, Calibration, CorrectionDomain};
 
 /// The corrections of the bonds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -96,8 +96,12 @@ pub(super) struct RawCorrection {
 impl RawCorrection {
     /// Checks the section; what it leaves open follows from the bond model.
     pub(super) fn check(self, key: &KeyPath, model: &ModelSection) -> Result<Correction, KeyFault> {
-        let (alpha, surface) = corrections_of(model);
-        let surface = self.surface.unwrap_or(surface);
+        let of_paper = setup::Correction::of_paper(&model.into());
+        let surface = self.surface.unwrap_or(match of_paper.surface {
+            setup::Surface::None => Surface::None,
+            setup::Surface::Volume => Surface::Volume,
+            setup::Surface::Domain(_) => Surface::Domain,
+        });
         let is_calibrated = model.calibration == Some(Word(Calibration::Discrete));
         if is_calibrated && surface == Surface::Volume {
             return Err(KeyFault::new(
@@ -113,7 +117,7 @@ impl RawCorrection {
             }
         };
         Ok(Correction {
-            alpha: self.alpha.unwrap_or(Word(alpha)),
+            alpha: self.alpha.unwrap_or(Word(of_paper.alpha)),
             surface,
             iteration,
             domain: self.domain.unwrap_or_default(),
@@ -135,7 +139,7 @@ impl RawCorrection {
         Ok(Iteration {
             rule,
             tolerance: self.tolerance.or(rule.default_tolerance()),
-            max_sweeps: self.max_sweeps.unwrap_or(500),
+            max_sweeps: (self.max_sweeps).unwrap_or(setup::Iteration::default().max_sweeps as u32),
         })
     }
 
@@ -159,15 +163,5 @@ impl RawCorrection {
                 },
             )),
         }
-    }
-}
-
-/// The corrections that the papers take with a law.
-fn corrections_of(model: &ModelSection) -> (Alpha, Surface) {
-    match (model.law, model.calibration) {
-        (Law::Nhpd, _) => (Alpha::Length, Surface::Domain),
-        (Law::MbbPd, _) => (Alpha::None, Surface::None),
-        (_, Some(Word(Calibration::Discrete))) => (Alpha::PartialVolume, Surface::None),
-        _ => (Alpha::PartialVolume, Surface::Volume),
     }
 }

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use ligament::setup;
 use ligament_model::failure::Choice;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{SeqAccess, Visitor};
@@ -232,11 +233,12 @@ impl RawFracture {
                 Control::Event
             }
         };
+        let default = setup::event();
         Ok(Fracture {
             criteria: criteria(self.criterion, &key.child("criterion"), &control, law)?,
             control,
-            tie_tolerance: self.tie_tolerance.unwrap_or(1e-8),
-            energy_tolerance: self.energy_tolerance.unwrap_or(1e-4),
+            tie_tolerance: self.tie_tolerance.unwrap_or(default.tie_tolerance),
+            energy_tolerance: (self.energy_tolerance).unwrap_or(default.energy_tolerance),
             stop: self.stop,
         })
     }
@@ -250,12 +252,14 @@ impl RawFracture {
             };
             return Err(KeyFault::new(key.child("steps"), fault));
         };
+        let default = setup::stepped(Vec::new());
+        let count = |given: Option<u32>, default: usize| given.unwrap_or(default as u32);
         let stepping = Stepping {
             steps,
-            bonds_per_iteration: self.bonds_per_iteration.unwrap_or(5),
-            order: self.order.unwrap_or_default(),
-            max_iterations: self.max_iterations.unwrap_or(10_000),
-            refine_first_break: self.refine_first_break.unwrap_or(0),
+            bonds_per_iteration: count(self.bonds_per_iteration, default.rule.bonds_per_iteration),
+            order: self.order.unwrap_or(Word(default.rule.order)),
+            max_iterations: count(self.max_iterations, default.round_limit),
+            refine_first_break: count(self.refine_first_break, default.refine_first_break),
         };
         stepping.steps.check(key)?;
         Ok(stepping)

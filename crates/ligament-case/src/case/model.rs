@@ -1,7 +1,5 @@
 //! `[model]`: the bond model.
 
-use ligament::setup::{self, Calibration, Form, Strains};
-use ligament_model::law::rotational::RotationalStiffness;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -10,6 +8,8 @@ use super::key_path::KeyPath;
 use super::values::exactly_one;
 use super::values::not_exactly_one;
 use super::word::Word;
+use ligament::setup::{Calibration, Form, Strains};
+use ligament_model::law::rotational::RotationalStiffness;
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -56,33 +56,6 @@ pub enum Law {
     Orthotropic,
     /// All strains of a small rectangle around each bond of a square lattice.
     MbbPd,
-}
-
-impl ModelSection {
-    /// The bond law with its open choices, as a setup has it.
-    pub fn bond_law(&self) -> setup::Law {
-        let calibration = (self.calibration).map_or_else(Calibration::default, |it| it.0);
-        let rotational_stiffness =
-            (self.rotational_stiffness).map_or(RotationalStiffness::Zero, |it| it.0);
-        match self.law {
-            Law::Nhpd => setup::Law::Nhpd,
-            Law::Bbpd => setup::Law::Bbpd { calibration },
-            Law::BbpdConical => setup::Law::BbpdConical { calibration },
-            Law::Pds => setup::Law::Pds { calibration },
-            Law::Mppd => setup::Law::Mppd {
-                calibration,
-                rotational_stiffness,
-            },
-            Law::MppdBeam => setup::Law::MppdBeam { calibration },
-            Law::Orthotropic => setup::Law::Orthotropic {
-                rotational_stiffness,
-            },
-            Law::MbbPd => setup::Law::MbbPd {
-                form: self.form.map_or_else(Form::default, |it| it.0),
-                strains: self.strains.map_or_else(Strains::default, |it| it.0),
-            },
-        }
-    }
 }
 
 impl Law {
@@ -224,6 +197,35 @@ impl RawModel {
                 "only \"mbb-pd\" has true strains",
             )?,
         })
+    }
+}
+
+impl From<&ModelSection> for ligament::setup::Law {
+    fn from(model: &ModelSection) -> Self {
+        let calibration = model
+            .calibration
+            .map_or_else(Calibration::default, |it| it.0);
+        let rotational_stiffness = model
+            .rotational_stiffness
+            .map_or(RotationalStiffness::Zero, |it| it.0);
+        match model.law {
+            Law::Nhpd => Self::Nhpd,
+            Law::Bbpd => Self::Bbpd { calibration },
+            Law::BbpdConical => Self::BbpdConical { calibration },
+            Law::Pds => Self::Pds { calibration },
+            Law::Mppd => Self::Mppd {
+                calibration,
+                rotational_stiffness,
+            },
+            Law::MppdBeam => Self::MppdBeam { calibration },
+            Law::Orthotropic => Self::Orthotropic {
+                rotational_stiffness,
+            },
+            Law::MbbPd => Self::MbbPd {
+                form: model.form.map_or_else(Form::default, |it| it.0),
+                strains: model.strains.map_or_else(Strains::default, |it| it.0),
+            },
+        }
     }
 }
 

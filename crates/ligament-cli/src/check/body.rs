@@ -64,3 +64,17 @@ fn write_lattice(
     }
     Ok(())
 }
+
+/// Writes a group of points that are held or loaded.
+pub(super) fn write_group(
+    out: &mut dyn Write,
+    body: &dyn Body,
+    name: &str,
+    points: &[u32],
+) -> io::Result<()> {
+    let where_at = match points {
+        [only] => body.place(*only),
+        points => format!("{} points", points.len()),
+    };
+    writeln!(out, "  {name:<21} {where_at}")
+}

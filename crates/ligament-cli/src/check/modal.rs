@@ -5,7 +5,8 @@ use std::io::Write;
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
-use super::{Extent, equations, write_group, write_model};
+use super::body::write_group;
+use super::{Extent, equations, model};
 use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
@@ -26,7 +27,7 @@ pub(super) fn check(
         Extent::Model => None,
         Extent::Matrix => Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?),
     };
-    write_model(out, case, model)?;
+    model::write(out, case, model)?;
     writeln!(out, "supports")?;
     for group in &vibration.supports.groups {
         write_group(out, model.body(), &group.name, &group.points)?;

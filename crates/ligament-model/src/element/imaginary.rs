@@ -19,6 +19,7 @@
 //! end itself. A corner of the rectangle of an S bond counts while one of its two edges is unbroken. A bond without any support for one of its
 //! derivatives drops out: it has no stiffness and no strain.
 
+mod class;
 mod quotients;
 mod surroundings;
 
@@ -26,6 +27,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
 use crate::bonds::{BondSet, Incidence};
+pub use class::BondClass;
 pub(super) use quotients::{Axis, Quotient, Quotients};
 pub use surroundings::Surroundings;
 
@@ -158,30 +160,6 @@ pub fn matrix([d11, d12, d16, d22, d26, d66]: SymmetricEntries) -> Matrix3<f64> 
 /// The entries of a symmetric matrix.
 pub fn entries(matrix: &Matrix3<f64>) -> SymmetricEntries {
     [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|place| matrix[place])
-}
-
-/// The class of a bond.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BondClass {
-    /// Along x.
-    Horizontal,
-    /// Along y.
-    Vertical,
-    /// Any other.
-    Shear,
-}
-
-impl BondClass {
-    /// The class of a bond with these direction cosines: rows and columns of a lattice have equal coordinates to the last
-    /// bit.
-    #[inline]
-    pub fn from_direction(direction: [f64; 2]) -> Self {
-        match direction {
-            [_, 0.0] => Self::Horizontal,
-            [0.0, _] => Self::Vertical,
-            _ => Self::Shear,
-        }
-    }
 }
 
 /// One bond with its surroundings as they are left.

@@ -1,7 +1,7 @@
 //! The runs of a study: all combinations of the values of its axes, each with a name and a checked case.
 
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use super::axis::{Axis, AxisPoint, Setting, short_words};
 use super::error::StudyError;
@@ -161,19 +161,8 @@ fn run(
     let case = CaseFile::parse(&study.case, text.to_owned(), &overrides)
         .map_err(|error| blame(study, &name, &settings, error))?;
     let content = mesh.as_ref().map(|plan| plan.content.as_str());
-    let inputs = Inputs::from_case(&case, content, contents).map_err(|(path, source)| {
-        let names_it = |it: &&Setting| {
-            let stem = path.file_name().unwrap_or_default().to_string_lossy();
-            it.given.contains(&*stem)
-        };
-        let by = settings.iter().rev().find(names_it);
-        StudyError::Input {
-            location: study.location(&by.map_or_else(case_key, |it| it.place.clone())),
-            run: name.clone(),
-            path,
-            source,
-        }
-    })?;
+    let inputs = Inputs::from_case(&case, content, contents)
+        .map_err(|(path, source)| blame_input(study, &name, &settings, path, source))?;
     Ok(Run {
         name,
         place,
@@ -247,6 +236,24 @@ fn blame(study: &Study, run: &str, settings: &[Setting], source: CaseError) -> S
         location: study.location(&setting.map_or_else(case_key, |it| it.place.clone())),
         run: run.to_owned(),
         source: Box::new(source),
+    }
+}
+
+/// The error of an input that cannot be read, at the last value of the study that names it.
+fn blame_input(
+    study: &Study,
+    run: &str,
+    settings: &[Setting],
+    path: PathBuf,
+    source: io::Error,
+) -> StudyError {
+    let stem = path.file_name().unwrap_or_default().to_string_lossy();
+    let by = settings.iter().rfind(|it| it.given.contains(&*stem));
+    StudyError::Input {
+        location: study.location(&by.map_or_else(case_key, |it| it.place.clone())),
+        run: run.to_owned(),
+        source,
+        path,
     }
 }
 

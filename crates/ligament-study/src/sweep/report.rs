@@ -72,9 +72,32 @@ pub(super) fn write(
     let mut problems: Vec<String> = (unknown_names(study, run, results).iter())
         .map(ToString::to_string)
         .collect();
+    let drawn = curves_of_plots(study, runs, &table, &mut problems);
+    for curves in &drawn {
+        write_pivot(study, curves, out)?;
+        write_fits(curves, out)?;
+        let plot = curves.drawn(&title);
+        match plot.for_paper(WIDTH) {
+            Ok(svg) => write_plot(folder, &curves.name, &svg)?,
+            Err(error) => problems.push(error.to_string()),
+        }
+    }
+    if drawn.iter().any(|curves| curves.plot.fit.is_some()) {
+        replace_file(&folder.path().join("fits.csv"), fits(&drawn).as_bytes())?;
+    }
+    Ok(problems)
+}
+
+/// The curves of the plots that can be made, each with a name of its own; adds why others cannot, where no problem tells it.
+fn curves_of_plots<'a>(
+    study: &'a Study,
+    runs: &[Run],
+    table: &StudyTable,
+    problems: &mut Vec<String>,
+) -> Vec<Curves<'a>> {
     let mut drawn: Vec<Curves<'_>> = Vec::new();
     for (index, plot) in study.plots.iter().enumerate() {
-        match Curves::over_runs(study, plot, runs, &table) {
+        match Curves::over_runs(study, plot, runs, table) {
             Ok(mut curves) => {
                 let same = drawn
                     .iter()
@@ -93,19 +116,7 @@ pub(super) fn write(
             }
         }
     }
-    for curves in &drawn {
-        write_pivot(study, curves, out)?;
-        write_fits(curves, out)?;
-        let plot = curves.drawn(&title);
-        match plot.for_paper(WIDTH) {
-            Ok(svg) => write_plot(folder, &curves.name, &svg)?,
-            Err(error) => problems.push(error.to_string()),
-        }
-    }
-    if drawn.iter().any(|curves| curves.plot.fit.is_some()) {
-        replace_file(&folder.path().join("fits.csv"), fits(&drawn).as_bytes())?;
-    }
-    Ok(problems)
+    drawn
 }
 
 /// Results that the study names and a run does not have, each at its place in the study.

@@ -80,7 +80,8 @@ mod tests {
     use super::*;
     use crate::entry::Verdict;
     use crate::experiment::{Experiment, Findings};
-    use crate::table::{Extent, Known, Labels};
+    use crate::published::known_values;
+    use crate::table::{Extent, Labels};
     use crate::tally::Tally;
 
     const TABLE: &str = "\
@@ -105,7 +106,7 @@ nu,known,allowed,subset,standing,instead,reason
     };
 
     fn findings() -> anyhow::Result<Findings> {
-        let known = Known::parse("t4", TABLE)?;
+        let known = known_values("t4", TABLE)?;
         let values = [("0", 2294.86), ("0.1", 2053.2), ("0.25", 1500.0)];
         let compute = |labels: Labels<'_>| {
             let nu = labels.text("nu")?;

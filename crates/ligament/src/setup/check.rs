@@ -46,6 +46,10 @@ impl Setup {
         let loads = self.loads.iter().map(|it| it.name.as_str());
         require_unique("loads", loads)?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
+        self.check_loads()
+    }
+
+    fn check_loads(&self) -> Result<(), SetupError> {
         for (index, load) in self.loads.iter().enumerate() {
             let field = Field::element("loads", index);
             if let Some(profile) = load.profile {

@@ -1,0 +1,10 @@
+//! How far `ligament check` goes.
+
+/// How far a check goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Points, bonds and their correction; no matrix.
+    Model,
+    /// The symbolic analysis of the matrix as well.
+    Matrix,
+}

@@ -1,0 +1,109 @@
+//! What `ligament check` tells of a case with loads.
+
+use std::io::{self, Write};
+
+use ligament::Loading;
+use ligament::body::Body;
+use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
+use ligament_analysis::gauges;
+use ligament_analysis::probe::Reading;
+use ligament_analysis::{ControlKind, Equilibrium};
+use ligament_case::case::{CaseFile, Control, Steps};
+use ligament_run::gauges::words;
+use ligament_run::model::Model;
+use ligament_run::stages::Stages;
+use ligament_run::summary::{Spread, temperature_change};
+
+use super::body::write_group;
+use super::{Extent, equations, model};
+
+/// Checks supports, loads and equations.
+pub(super) fn check(
+    case: &CaseFile,
+    extent: Extent,
+    model: &Model,
+    stages: &mut Stages,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
+    let problem = loading.problem(&model.system, &model.criteria);
+    let equilibrium = match extent {
+        Extent::Model => None,
+        Extent::Matrix => Some(stages.time("analysis", || {
+            Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)
+        })?),
+    };
+
+    model::write(out, case, model)?;
+    write_boundary(out, case, model.body(), &loading)?;
+    for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
+        writeln!(out, "  not held: {}", words(&free, model.body()))?;
+    }
+    write_loading(out, case)?;
+    if let Some(equilibrium) = &equilibrium {
+        equations::write(out, case, model, equilibrium.stiffness())?;
+    }
+    Ok(())
+}
+
+fn write_boundary(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    body: &dyn Body,
+    loading: &Loading,
+) -> io::Result<()> {
+    writeln!(out, "supports and loads")?;
+    for group in &loading.boundary.groups {
+        write_group(out, body, &group.name, &group.points)?;
+    }
+    if let Some(Spread { min, mean, max }) = temperature_change(&loading.boundary) {
+        writeln!(
+            out,
+            "  temperature change    {min:.4e} to {max:.4e} K, mean {mean:.4e}"
+        )?;
+    }
+    let control = &loading.boundary.control;
+    let (count, size, units) = (control.points.len(), control.magnitude, case.case.units());
+    match control.kind {
+        ControlKind::Temperature => writeln!(
+            out,
+            "  controlled by         the temperature, size {size:.4e} {}",
+            units.displacement
+        )?,
+        ControlKind::Displacement => writeln!(
+            out,
+            "  controlled by         {count} points, size {size:.4e} {}",
+            units.displacement
+        )?,
+        ControlKind::Force => writeln!(
+            out,
+            "  controlled by         {count} points, size {size:.4e} {}",
+            units.force
+        )?,
+    }
+    for probe in loading.probes.iter() {
+        let reads = match &probe.reading {
+            Reading::RelativeDisplacement { points, .. } => {
+                points.map(|point| body.place(point)).join(" to ")
+            }
+            Reading::Field { point, .. } => body.place(*point),
+            Reading::SectionForce { bonds, .. } => format!("{} bonds", bonds.len()),
+        };
+        writeln!(out, "  probe {:<15} {reads}", probe.name)?;
+    }
+    Ok(())
+}
+
+fn write_loading(out: &mut dyn Write, case: &CaseFile) -> io::Result<()> {
+    let loading = match case.case.fracture.as_ref().map(|it| &it.control) {
+        None => "one elastic solution at load factor 1".to_owned(),
+        Some(Control::Stepped(stepping)) => match &stepping.steps {
+            Steps::Uniform(count) => format!("{count} load steps"),
+            Steps::Factors(factors) => format!("{} load steps", factors.len()),
+        },
+        Some(Control::Event) => {
+            "exact path from breakage to breakage, up to load factor 1".to_owned()
+        }
+    };
+    writeln!(out, "  followed in           {loading}")
+}

@@ -1,0 +1,137 @@
+//! What `ligament check` tells of a model before supports and loads.
+
+use std::io::{self, Write};
+
+use ligament_case::case::CaseFile;
+use ligament_case::setup::materials;
+use ligament_model::Elasticity;
+use ligament_run::model::Model;
+use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
+
+use super::{body, criteria};
+
+/// Writes what is known before supports and loads.
+pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
+    writeln!(out, "{}", heading(&case.case.title))?;
+    let volume = model.system.cloud.volumes.iter().sum();
+    body::write(out, model.body(), volume)?;
+    write_materials(out, case, model)?;
+    write_bonds(out, case, model)?;
+    criteria::write(out, case, model)?;
+    Ok(write_energy_ratios(out, model)?)
+}
+
+fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+    let cloud = &model.system.cloud;
+    writeln!(out, "materials")?;
+    for (index, material) in materials(case).iter().enumerate() {
+        let volume: f64 = (0..cloud.len())
+            .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
+            .sum();
+        let name = if material.name.is_empty() {
+            "the whole body"
+        } else {
+            &material.name
+        };
+        let constants = match material.elasticity {
+            Elasticity::Isotropic(it) => format!("E = {:.4e} Pa, nu = {}", it.young, it.poisson),
+            Elasticity::Orthotropic(it) => {
+                let [young_1, young_2] = it.young;
+                format!(
+                    "E_1 = {young_1:.4e} Pa, E_2 = {young_2:.4e} Pa, nu_12 = {}, G = {:.4e} Pa, axis 1 at {} rad",
+                    it.poisson, it.shear_modulus, it.angle
+                )
+            }
+            Elasticity::Anisotropic(it) => {
+                let c = it.stiffness;
+                let of_rows = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+                let values = of_rows.map(|place| format!("{:.4e}", c[place]));
+                format!("c11, c12, c16, c22, c26, c66 = {} Pa", values.join(", "))
+            }
+        };
+        write!(out, "  {name}: {constants}, volume {volume:.6e} m^3")?;
+        for (name, value, unit) in [
+            ("F_t", material.tensile_strength, "Pa"),
+            ("F_c", material.compressive_strength, "Pa"),
+            ("G_c", material.fracture_energy, "J/m^2"),
+            ("G_IIc", material.fracture_energy_sliding, "J/m^2"),
+        ] {
+            if let Some(value) = value {
+                write!(out, ", {name} = {value:.4e} {unit}")?;
+            }
+        }
+        if let Some(expansion) = material.expansion {
+            let [one, two] = expansion.in_plane;
+            write!(out, ", alpha = {one:.4e}")?;
+            if one != two {
+                write!(out, " and {two:.4e}")?;
+            }
+            write!(out, " 1/K")?;
+        }
+        match material.density {
+            Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,
+            None => writeln!(out)?,
+        }
+    }
+    Ok(())
+}
+
+fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+    let spread = |out: &mut dyn Write, name: &str, values: Spread, unit: &str| {
+        writeln!(
+            out,
+            "  {name:<21} {:.4e} to {:.4e}{unit}, mean {:.4e}",
+            values.min, values.max, values.mean
+        )
+    };
+    writeln!(out, "bonds")?;
+    writeln!(
+        out,
+        "  bonds                 {} ({} cut by pre-cracks)",
+        model.system.bonds.len(),
+        model.cut_bonds
+    )?;
+    if !model.body().holes().is_empty() {
+        writeln!(out, "  pairs across holes    {}", model.across_holes)?;
+    }
+    writeln!(out, "  points with no_fail   {}", model.no_fail_points)?;
+    spread(
+        out,
+        "nearest distance",
+        Spread::over(model.system.cloud.spacing.iter().copied()),
+        " m",
+    )?;
+    spread(
+        out,
+        "horizon",
+        Spread::over(model.fixed.horizon.iter().copied()),
+        " m",
+    )?;
+    spread(out, "bonds of a point", family(model), "")?;
+    writeln!(
+        out,
+        "  {}",
+        formulation_line(case, model.setup.law.element())
+    )?;
+    writeln!(
+        out,
+        "  {}",
+        correction_line(case, model.correction.as_ref())
+    )?;
+    spread(
+        out,
+        "correction factor",
+        Spread::over(model.fixed.domain_factor.iter().copied()),
+        "",
+    )
+}
+
+fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    writeln!(out, "strain energy of the points over the continuum's")?;
+    let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
+    for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
+        let Spread { min, mean, max } = Spread::over(ratios.iter().copied());
+        writeln!(out, "  {mode:<21} {min:.6} to {max:.6}, mean {mean:.6}")?;
+    }
+    Ok(())
+}
