@@ -57,8 +57,10 @@ impl Breakage {
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Vec<(usize, f64)> {
-        let force = |it: &Box<dyn ChangedElements>| it.unbalanced_force(displacement, expansion);
-        self.elements.as_ref().map_or_else(Vec::new, force)
+        match &self.elements {
+            None => Vec::new(),
+            Some(elements) => elements.unbalanced_force(displacement, expansion),
+        }
     }
 
     /// Energy released at a fixed load, with the displacements after it (n_degrees_of_freedom), J:

@@ -23,11 +23,17 @@ impl Component {
     }
 
     /// The component at a position of the arrays over (3 n_points).
+    #[inline]
     pub fn at(degree_of_freedom: usize) -> Self {
-        Self::ALL[degree_of_freedom % UNKNOWNS]
+        match degree_of_freedom % UNKNOWNS {
+            0 => Self::X,
+            1 => Self::Y,
+            _ => Self::Rotation,
+        }
     }
 
     /// Whether the component is an angle.
+    #[inline]
     pub fn is_rotation(self) -> bool {
         self == Self::Rotation
     }

@@ -1,5 +1,7 @@
 //! The bond system: everything the equations are made of.
 
+mod answers;
+
 use rayon::prelude::*;
 
 use crate::bonds::BondSet;

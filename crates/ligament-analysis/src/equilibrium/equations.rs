@@ -269,8 +269,7 @@ impl Equations {
 fn largest_displacement(state: &State) -> f64 {
     state
         .displacement
-        .iter()
-        .enumerate()
-        .filter(|&(dof, _)| !Component::at(dof).is_rotation())
-        .fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()))
+        .chunks(COMPONENTS)
+        .flat_map(|motion| &motion[..Component::Rotation.index()])
+        .fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

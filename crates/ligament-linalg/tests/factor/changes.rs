@@ -28,7 +28,7 @@ fn assert_like_new(
 
 /// Some weights of terms changed: pairs lose a part or all of what they have, or gain.
 fn random_terms(system: &mut System, count: usize, random: &mut Random) -> Vec<RankOne> {
-    let pairs = system.from_pairs();
+    let pairs = system.terms_of_pairs();
     (0..count)
         .map(|_| {
             let on_ground = pairs.is_empty() || random.below(4) == 0;
@@ -127,7 +127,7 @@ fn entries_of_one_unknown_add_up() {
     let symbolic = system.symbolic(Elimination::MinimumDegree);
     for kind in KINDS {
         let mut factor = system.factor(kind, &symbolic);
-        let term = system.from_pairs().start + 2;
+        let term = system.terms_of_pairs().start + 2;
         let mut change = system.add(term, 0.75);
         let (unknown, value) = change.entries[0];
         change.entries[0].1 = 0.25 * value;
@@ -217,7 +217,7 @@ fn an_indefinite_matrix_is_changed() {
     for _ in 0..20 {
         let mut system = System::new(&Graph::lattice(5, 2.0), 3, &mut random);
         let n = system.n();
-        let pairs = system.from_pairs();
+        let pairs = system.terms_of_pairs();
         let [_, order] = orders(n, &mut random);
         let symbolic = system.symbolic(order);
         for _ in 0..n / 2 {
@@ -269,10 +269,10 @@ fn two_thousand_changes_keep_the_residual_small() {
     for kind in KINDS {
         let mut system = original.clone();
         let mut factor = system.factor(kind, &symbolic);
-        let bonds = system.from_pairs().len() / 3;
+        let bonds = system.terms_of_pairs().len() / 3;
         let mut error: f64 = 0.0;
         for step in 0..2000 {
-            let first = system.from_pairs().start + 3 * random.below(bonds);
+            let first = system.terms_of_pairs().start + 3 * random.below(bonds);
             let target = [0.0, 0.3, 1.0, 2.0][random.below(4)];
             let terms: Vec<RankOne> = (first..first + 3)
                 .map(|term| system.add(term, target - system.terms[term].weight))

@@ -241,7 +241,7 @@ fn terms_that_are_no_numbers_are_refused() {
             for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 for in_weight in [true, false] {
                     let mut factor = system.factor(kind, &symbolic);
-                    let pairs = system.from_pairs();
+                    let pairs = system.terms_of_pairs();
                     let mut terms: Vec<RankOne> = (0..35)
                         .map(|_| system.terms[pairs.start + random.below(pairs.len())].clone())
                         .collect();

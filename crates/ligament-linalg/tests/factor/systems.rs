@@ -154,7 +154,7 @@ impl System {
     }
 
     /// Terms of pairs, as a range of `terms`.
-    pub(crate) fn from_pairs(&self) -> std::ops::Range<usize> {
+    pub(crate) fn terms_of_pairs(&self) -> std::ops::Range<usize> {
         self.n()..self.terms.len()
     }
 

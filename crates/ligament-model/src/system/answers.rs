@@ -1,0 +1,440 @@
+//! What a bond system answers to the equations: one dispatch to the type of its elements a call.
+
+use super::{BondSystem, BondsLeft, Kinematics, Typed};
+use crate::bonds::Incidence;
+use crate::change::ChangedElements;
+use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
+use crate::failure::{Criterion, Weakened};
+use crate::interface::{
+    Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
+};
+use crate::layout::Component;
+use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
+use crate::sweep::BondSweep;
+use crate::thermal::ThermalStrain;
+
+/// Evaluates an expression with the elements of a bond system as a type.
+macro_rules! typed {
+    ($system:expr, $typed:ident => $value:expr) => {{
+        let system: &BondSystem = $system;
+        match &system.kinematics {
+            Kinematics::Beam(elements) => {
+                let $typed = Typed { system, elements };
+                $value
+            }
+            Kinematics::Spring(elements) => {
+                let $typed = Typed { system, elements };
+                $value
+            }
+            Kinematics::Imaginary(elements) => {
+                let $typed = Typed { system, elements };
+                $value
+            }
+            Kinematics::TrueStrain(elements) => {
+                let $typed = Typed { system, elements };
+                $value
+            }
+            Kinematics::Pairwise(elements) => {
+                let $typed = Typed { system, elements };
+                $value
+            }
+        }
+    }};
+}
+
+impl Bonds for BondSystem {
+    fn n_points(&self) -> usize {
+        self.cloud.len()
+    }
+
+    fn components(&self) -> &'static [Component] {
+        &Component::ALL
+    }
+
+    fn strain_names(&self) -> &'static [&'static str] {
+        self.kinematics.kind().strain_names()
+    }
+
+    fn ends(&self) -> &[[u32; 2]] {
+        &self.bonds.ends
+    }
+
+    fn incidence(&self) -> &Incidence {
+        &self.bonds.incidence
+    }
+
+    fn elements_at_points(&self) -> &Incidence {
+        let couplings = typed!(self, it => it.elements.couplings());
+        couplings.map_or(&self.bonds.incidence, |[elements, _]| elements)
+    }
+
+    fn coupled_points(&self) -> CoupledPoints<'_> {
+        match typed!(self, it => it.elements.couplings()) {
+            Some([_, points]) => CoupledPoints {
+                lists: points,
+                ends: None,
+            },
+            None => CoupledPoints {
+                lists: &self.bonds.incidence,
+                ends: Some(&self.bonds.ends),
+            },
+        }
+    }
+
+    fn volumes(&self) -> &[f64] {
+        &self.cloud.volumes
+    }
+
+    fn spacing(&self) -> &[f64] {
+        &self.cloud.spacing
+    }
+
+    fn horizons(&self) -> &[f64] {
+        &self.bonds.horizon
+    }
+
+    fn weights(&self) -> &[f64] {
+        &self.weight
+    }
+
+    fn share(&self, bond: u32, point: u32) -> f64 {
+        typed!(self, it => it.elements.share(&self.bonds, bond, point))
+    }
+
+    fn is_linear(&self) -> bool {
+        typed!(self, it => it.elements.is_linear())
+    }
+
+    fn has_energy(&self) -> bool {
+        typed!(self, it => it.elements.has_energy())
+    }
+
+    fn all_positive(&self) -> bool {
+        self.rigidities.of_springs().all(|&rigidity| rigidity > 0.0)
+    }
+
+    fn some_negative(&self) -> bool {
+        typed!(self, it => it.elements.some_negative(&self.rigidities))
+    }
+
+    fn some_negative_shear(&self) -> bool {
+        self.rigidities.shear.iter().any(|&rigidity| rigidity < 0.0)
+    }
+
+    fn resisted(&self) -> Vec<bool> {
+        let components = self.components();
+        let resisted =
+            (0..self.n_points()).flat_map(|_| components.iter().map(|it| !it.is_rotation()));
+        let mut resisted: Vec<bool> = resisted.collect();
+        if typed!(self, it => it.elements.turns_points()) {
+            for (bond, ends) in self.bonds.ends.iter().enumerate() {
+                if self.resists_rotations(bond) {
+                    for end in ends {
+                        let first = components.len() * *end as usize;
+                        resisted[first..first + components.len()].fill(true);
+                    }
+                }
+            }
+        }
+        resisted
+    }
+
+    /// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
+    fn largest_point_stiffness(&self) -> PointStiffness {
+        let mut largest = PointStiffness {
+            force: 0.0,
+            moment: 0.0,
+        };
+        for point in 0..self.cloud.len() as u32 {
+            let (mut force, mut moment) = (0.0, 0.0);
+            for &bond in self.bonds.incidence.at(point) {
+                let bond = bond as usize;
+                let (length, shear) = (self.bonds.length[bond], self.rigidities.shear[bond].abs());
+                force += (self.rigidities.axial[bond].abs() + shear) / length.powi(2);
+                moment += (shear + self.rigidities.rotational[bond].abs()) / length;
+            }
+            largest.force = largest.force.max(force);
+            largest.moment = largest.moment.max(moment);
+        }
+        largest
+    }
+
+    fn halve(&self, points: &mut [u32]) {
+        let positions = &self.cloud.positions;
+        let extent = |axis: usize| {
+            let (lowest, highest) = (points.iter())
+                .map(|&point| positions[point as usize][axis])
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            highest - lowest
+        };
+        let axis = usize::from(extent(1) > extent(0));
+        points.select_nth_unstable_by(points.len() / 2, |&one, &other| {
+            let [first, second] = [one, other].map(|point| positions[point as usize][axis]);
+            first.total_cmp(&second).then(one.cmp(&other))
+        });
+    }
+
+    fn holds(
+        &self,
+        points: &[u32],
+        is_fixed: &dyn Fn(usize) -> bool,
+        can_hold: &dyn Fn(usize) -> bool,
+    ) -> Vec<usize> {
+        self.rigid_motions(points).holds(points, is_fixed, can_hold)
+    }
+
+    fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {
+        self.rigid_motions(points).free_shapes(points, is_fixed)
+    }
+
+    fn free_motions(
+        &self,
+        points: &[u32],
+        is_fixed: &dyn Fn(usize) -> bool,
+        force: &dyn Fn(usize) -> f64,
+    ) -> Vec<FreeMotion> {
+        let motions = self.rigid_motions(points);
+        motions.free_motions(points, is_fixed, force)
+    }
+
+    fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {
+        let total: f64 = masses.iter().sum();
+        let middle = [0, 1].map(|axis| {
+            let weighted = masses.iter().zip(&self.cloud.positions);
+            weighted.map(|(mass, p)| mass * p[axis]).sum::<f64>() / total
+        });
+        let motion = |of_point: &dyn Fn([f64; 2]) -> [f64; 3]| -> Vec<f64> {
+            let from_middle = |p: &[f64; 2]| [p[0] - middle[0], p[1] - middle[1]];
+            let components = self.components();
+            let positions = self.cloud.positions.iter();
+            let moved = positions.map(|p| of_point(from_middle(p)));
+            moved
+                .flat_map(|motion| components.iter().map(move |it| motion[it.index()]))
+                .collect()
+        };
+        CentralMotions {
+            centre: [0, 1]
+                .map(|axis| middle[axis] + self.cloud.origin[axis])
+                .to_vec(),
+            motions: vec![
+                motion(&|_| [1.0, 0.0, 0.0]),
+                motion(&|_| [0.0, 1.0, 0.0]),
+                motion(&|[x, y]| [-y, x, 1.0]),
+            ],
+        }
+    }
+
+    fn deformations(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+    ) -> Vec<BondDeformation> {
+        typed!(self, it => it.deformations(intact, displacement, expansion))
+    }
+
+    fn forces(
+        &self,
+        bonds: BondsLeft<'_>,
+        deformations: Vec<BondDeformation>,
+        expansion: ThermalStrain<'_>,
+    ) -> BondSweep {
+        typed!(self, it => it.forces(bonds, deformations, expansion))
+    }
+
+    fn mutual_energy(
+        &self,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        [one, other]: [&BondDeformation; 2],
+    ) -> f64 {
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(one, other))
+    }
+
+    fn energy_density(
+        &self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        point: u32,
+    ) -> f64 {
+        typed!(self, it => it.energy_density(bonds, deformations, point))
+    }
+
+    fn stress(
+        &self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        point: u32,
+    ) -> Vec<f64> {
+        typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
+    }
+
+    fn stresses(
+        &self,
+        reading: StressReading,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+    ) -> Stresses {
+        match reading {
+            StressReading::Virial => Stresses {
+                names: &["xx", "yy", "xy"],
+                values: self.virial_stresses(bonds, deformations).into_flattened(),
+            },
+            StressReading::Traction => Stresses {
+                names: &["xx", "yx", "yy", "xy"],
+                values: self.tractions(bonds, deformations).into_flattened(),
+            },
+        }
+    }
+
+    fn force_through(
+        &self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        crossing: &[(u32, bool)],
+        component: Component,
+    ) -> f64 {
+        typed!(self, it => it.force_through(bonds, deformations, crossing, component))
+    }
+
+    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
+        let rigidity = match criterion.measure.weakens() {
+            Weakened::Opening | Weakened::Crushing => self.rigidities.axial[bond],
+            Weakened::Sliding => self.rigidities.shear[bond],
+        };
+        let limit = criterion.limit[bond];
+        if limit.is_finite() {
+            0.5 * rigidity * limit * limit
+        } else {
+            0.0
+        }
+    }
+
+    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).terms().to_vec())
+    }
+
+    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
+        typed!(self, it => it.add_blocks(bonds, point, lower, blocks));
+    }
+
+    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
+        typed!(self, it => {
+            for bond in 0..self.bonds.len() {
+                it.whole(intact, bond).derivatives(&mut *add);
+            }
+        });
+    }
+
+    fn changed(
+        &self,
+        left: BondsLeft<'_>,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        bonds: &[u32],
+    ) -> Box<dyn ChangedElements> {
+        typed!(self, it => it.changed(left, displacement, expansion, bonds))
+    }
+}
+
+impl BondSystem {
+    /// The rigid motions of some points that their bonds let be free.
+    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_> {
+        let mut bonds = points
+            .iter()
+            .flat_map(|&point| self.bonds.incidence.at(point));
+        let resist = bonds.any(|&bond| self.resists_rotations(bond as usize));
+        let (turn_points, turn_freely) =
+            typed!(self, it => (it.elements.turns_points(), it.elements.turns_freely()));
+        let turn = match (resist, turn_freely) {
+            (true, true) if turn_points => Turn::OfPointsAlong,
+            (true, false) => Turn::Costly,
+            (false, _) | (true, true) => Turn::OfPositions,
+        };
+        RigidMotions::new(&self.cloud.positions, points, turn)
+    }
+
+    /// Whether a bond resists rotations of its ends, if these can turn.
+    fn resists_rotations(&self, bond: usize) -> bool {
+        self.rigidities.shear[bond] != 0.0 || self.rigidities.rotational[bond] != 0.0
+    }
+
+    /// Virial stress of every point, xx, yy and xy, shape (n_points), Pa.
+    pub fn virial_stresses(
+        &self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+    ) -> Vec<crate::stress::virial::SymmetricStress> {
+        typed!(self, it => it.virial_stresses(bonds, deformations))
+    }
+
+    /// Traction at every point on the planes with normal x and with normal y, shape (n_points), Pa.
+    pub fn tractions(
+        &self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+    ) -> Vec<crate::stress::traction::Tractions> {
+        typed!(self, it => it.tractions(bonds, deformations))
+    }
+}
+
+impl<E: Elements> Typed<'_, E> {
+    fn energy_density(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        point: u32,
+    ) -> f64 {
+        let family = self.system.bonds.incidence.at(point).iter();
+        let shares = family.filter_map(|&bond| {
+            let element = self.left(bonds, bond as usize)?;
+            let deformation = &deformations[bond as usize];
+            let energy = element.mutual_energy(deformation, deformation);
+            Some(self.elements.share(&self.system.bonds, bond, point) * energy)
+        });
+        shares.sum::<f64>() / self.system.cloud.volumes[point as usize]
+    }
+
+    fn force_through(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: &[BondDeformation],
+        crossing: &[(u32, bool)],
+        component: Component,
+    ) -> f64 {
+        let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
+            let element = self.left(bonds, bond as usize)?;
+            let forces = element.end_forces(&deformations[bond as usize])?;
+            // The end force is what holds the end in place against the bond: the bond pulls the other way.
+            Some(-forces[usize::from(!first_is_near)][component.index()])
+        });
+        pulls.sum()
+    }
+
+    fn add_blocks(self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
+        let elements = self.elements.couplings().map(|[elements, _]| elements);
+        let elements = elements.unwrap_or(&self.system.bonds.incidence);
+        for &bond in elements.at(point) {
+            let Some(element) = self.left(bonds, bond as usize) else {
+                continue;
+            };
+            element.upper_blocks(point, |other, block| {
+                let place = if other == point {
+                    Ok(lower.len())
+                } else {
+                    lower.binary_search(&other)
+                };
+                if let Ok(place) = place {
+                    let values = block.as_flattened();
+                    let sums = &mut blocks[place * values.len()..];
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        *sum += value;
+                    }
+                }
+            });
+        }
+    }
+}
