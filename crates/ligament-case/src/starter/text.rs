@@ -195,11 +195,11 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
             );
             isotropic("0.2 #", &failure)
         }
-        Law::Bbpd | Law::BbpdConical => isotropic(
+        law if law.fixes_poisson() => isotropic(
             "0.3333 # the law has 1/3 (plane strain: 1/4) whatever stands here;",
             &strength,
         ),
-        Law::Nhpd | Law::Pds | Law::Mppd | Law::MppdBeam => isotropic("0.2 #", &strength),
+        _ => isotropic("0.2 #", &strength),
     }
 }
 

@@ -134,35 +134,6 @@ impl Choice {
         }
     }
 
-    /// Keys that mean nothing with the others: a user who gives one expects what will not happen.
-    fn refuse_keys(&self) -> Result<(), Unfit> {
-        let calibration = ("calibration", self.calibration.map(|_| 0.0));
-        let given = self.own_limits().into_iter().chain([calibration]);
-        let mut refused =
-            given.filter(|(key, value)| value.is_some() && !self.kind.keys.contains(key));
-        let Some((key, _)) = refused.next() else {
-            return Ok(());
-        };
-        let reason = match (key, self.kind.keys) {
-            ("limit", ["critical_stretch", ..]) => {
-                "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
-            }
-            ("limit", _) => {
-                "its limits come from the material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one"
-            }
-            ("calibration", _) => {
-                "only the limit of \"frictional\" can come from the strengths in two ways"
-            }
-            _ => "only \"mixed-mode\" has a limit for opening and one for shear",
-        };
-        Err(Unfit::NotWith {
-            key,
-            named: key.to_owned(),
-            setting: format!("kind = \"{}\"", self.kind.word),
-            reason,
-        })
-    }
-
     /// What bonds may do after their limit depends on the criterion and on what drives the load.
     fn refuse_softening(&self, on_exact_path: bool) -> Result<(), Unfit> {
         let law = &self.after.law;

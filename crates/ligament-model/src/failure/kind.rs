@@ -186,6 +186,39 @@ impl Choice {
         if is_given { &[] } else { self.kind.takes }
     }
 
+    /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.
+    ///
+    /// # Errors
+    ///
+    /// If one is given that only other kinds take.
+    pub(super) fn refuse_keys(&self) -> Result<(), Unfit> {
+        let calibration = ("calibration", self.calibration.map(|_| 0.0));
+        let given = self.own_limits().into_iter().chain([calibration]);
+        let mut refused =
+            given.filter(|(key, value)| value.is_some() && !self.kind.keys.contains(key));
+        let Some((key, _)) = refused.next() else {
+            return Ok(());
+        };
+        let reason = match (key, self.kind.keys) {
+            ("limit", ["critical_stretch", ..]) => {
+                "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
+            }
+            ("limit", _) => {
+                "its limits come from the material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one"
+            }
+            ("calibration", _) => {
+                "only the limit of \"frictional\" can come from the strengths in two ways"
+            }
+            _ => "only \"mixed-mode\" has a limit for opening and one for shear",
+        };
+        Err(Unfit::NotWith {
+            key,
+            named: key.to_owned(),
+            setting: format!("kind = \"{}\"", self.kind.word),
+            reason,
+        })
+    }
+
     /// Whether a bond takes all of the fracture energy up to its limit.
     pub fn spends_fracture_energy(&self) -> bool {
         let mut takes = self.takes().iter();

@@ -2,6 +2,8 @@
 
 use crate::element::BondDeformation;
 
+const NO_DIRECTION: &str = "a bond with strains of its own has no worst direction";
+
 /// The equivalent deformation of a bond that a criterion compares with its limit.
 ///
 /// All are homogeneous of degree one: under proportional loading each grows with the load factor, so that the load at which a
@@ -131,6 +133,54 @@ impl Measure {
             Self::Tension | Self::Energy | Self::MixedModeX | Self::MixedModeY => Weakened::Opening,
             Self::Compression => Weakened::Crushing,
             Self::Sliding | Self::Friction => Weakened::Sliding,
+        }
+    }
+
+    /// Directions in which the measure with the coefficient q may be largest under a uniform strain, as cos 2x of the angle x to the
+    /// axis of the larger principal stretch:
+    ///
+    /// | measure | worst direction x | measure there |
+    /// |---|---|---|
+    /// | tension, compression | a principal axis | max(s_1, s_2), -min(s_1, s_2) |
+    /// | sliding | 45 degrees | abs(s_1 - s_2)/2 |
+    /// | friction | cos 2x = +-sin(beta), q = tan(beta) | s_m q + s_d/cos(beta) |
+    /// | energy | an axis, 45 degrees, where s = 0, or cos 2x = s_m/(s_d (q - 1)) | the largest of these |
+    ///
+    /// with the mean s_m = (s_1 + s_2)/2 and the deviator s_d = |s_1 - s_2|/2 (for friction MPPD Fig. 10). One direction alone stands
+    /// five times; values that are not finite are no directions, and the first is always one.
+    ///
+    /// # Panics
+    ///
+    /// Panics for a measure of strains of the bond's own, which are those of the body in all directions.
+    pub fn worst_directions(self, coefficient: f64, mean: f64, deviator: f64) -> [f64; 5] {
+        match self {
+            Self::Tension => [1.0; 5],
+            Self::Compression => [-1.0; 5],
+            Self::Sliding => [0.0; 5],
+            Self::Friction => [coefficient / (1.0 + coefficient * coefficient).sqrt(); 5],
+            Self::Energy => [
+                1.0,
+                -1.0,
+                0.0,
+                -mean / deviator,
+                mean / (deviator * (coefficient - 1.0)),
+            ],
+            Self::MixedModeX | Self::MixedModeY => panic!("{NO_DIRECTION}"),
+        }
+    }
+
+    /// Largest slope of the measure with the coefficient q over the orientation of a strain, per radian and unit of s_d: 2 for
+    /// stretch and sliding, 2/cos(beta) for friction, 2 max(1, sqrt(q)) for the energy.
+    ///
+    /// # Panics
+    ///
+    /// Panics like [`Measure::worst_directions`].
+    pub fn steepest_slope(self, coefficient: f64) -> f64 {
+        2.0 * match self {
+            Self::Tension | Self::Compression | Self::Sliding => 1.0,
+            Self::Friction => (1.0 + coefficient * coefficient).sqrt(),
+            Self::Energy => coefficient.max(1.0).sqrt(),
+            Self::MixedModeX | Self::MixedModeY => panic!("{NO_DIRECTION}"),
         }
     }
 }

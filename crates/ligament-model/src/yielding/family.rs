@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::PrincipalStretches;
-use super::theory::{critical_deformation, steepest_slope};
+use super::theory::critical_deformation;
 use crate::element::BondDeformation;
 use crate::failure::{Criteria, Criterion};
 use crate::system::BondSystem;
@@ -200,7 +200,7 @@ impl<'a> Family<'a> {
     fn steepest_slope(&self) -> f64 {
         let of = |criterion: &Criterion, bond: &Bond| {
             let coefficient = coefficient_of(criterion, bond.number);
-            steepest_slope(criterion.measure, coefficient) / criterion.limit[bond.number]
+            criterion.measure.steepest_slope(coefficient) / criterion.limit[bond.number]
         };
         (self.criteria.list.iter())
             .flat_map(|criterion| self.bonds.iter().map(move |bond| of(criterion, bond)))

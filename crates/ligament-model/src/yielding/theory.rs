@@ -4,30 +4,18 @@ use super::PrincipalStretches;
 use crate::element::BondDeformation;
 use crate::failure::Measure;
 
-const NO_DIRECTION: &str = "a bond with strains of its own has no worst direction";
-
-/// Deformation of the bond, of bonds in all directions, at which a measure with the coefficient q is largest:
-///
-/// | measure | worst direction x | measure there |
-/// |---|---|---|
-/// | tension, compression | a principal axis | max(s_1, s_2), -min(s_1, s_2) |
-/// | sliding | 45 degrees | abs(s_1 - s_2)/2 |
-/// | friction | cos 2x = +-sin(beta), q = tan(beta) | s_m q + s_d/cos(beta) |
-/// | energy | an axis, 45 degrees, where s = 0, or cos 2x = s_m/(s_d (q - 1)) | the largest of these |
-///
-/// with s_m = (s_1 + s_2)/2 and s_d = |s_1 - s_2|/2 (for friction MPPD Fig. 10). Of the two signs of the sliding it
-/// is the positive one.
+/// Deformation of the bond, of bonds in all directions, at which a measure with the coefficient q is largest: in the worst of its
+/// [directions](Measure::worst_directions). Of the two signs of the sliding the positive one.
 ///
 /// # Panics
 ///
-/// Panics for a measure of strains of the bond's own, which are those of the body in all directions.
+/// Panics for a measure of strains of the bond's own, like [`Measure::worst_directions`].
 pub fn critical_deformation(
     measure: Measure,
     coefficient: f64,
     strains: PrincipalStretches,
 ) -> BondDeformation {
     let (mean, deviator) = (strains.mean(), strains.deviator());
-    // By the cosine of twice the angle to the axis of the larger principal stretch.
     let at = |cosine: f64| {
         let cosine = cosine.clamp(-1.0, 1.0);
         BondDeformation {
@@ -36,45 +24,16 @@ pub fn critical_deformation(
             rotation: 0.0,
         }
     };
-    match measure {
-        Measure::Tension => at(1.0),
-        Measure::Compression => at(-1.0),
-        Measure::Sliding => at(0.0),
-        Measure::Friction => at(coefficient / (1.0 + coefficient * coefficient).sqrt()),
-        Measure::Energy => {
-            let candidates = [
-                1.0,
-                -1.0,
-                0.0,
-                -mean / deviator,
-                mean / (deviator * (coefficient - 1.0)),
-            ];
-            let finite = candidates.into_iter().filter(|cosine| cosine.is_finite());
-            let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient]);
-            finite.map(at).fold(
-                at(1.0),
-                |best, it| {
-                    if value(&it) > value(&best) { it } else { best }
-                },
-            )
+    let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient]);
+    let [first, others @ ..] = measure.worst_directions(coefficient, mean, deviator);
+    let finite = others.into_iter().filter(|cosine| cosine.is_finite());
+    finite.map(at).fold(at(first), |worst, it| {
+        if value(&it) > value(&worst) {
+            it
+        } else {
+            worst
         }
-        Measure::MixedModeX | Measure::MixedModeY => panic!("{NO_DIRECTION}"),
-    }
-}
-
-/// Largest slope of a measure with the coefficient q over the orientation of a strain, per radian and unit of s_d: 2 for
-/// stretch and sliding, 2/cos(beta) for friction, 2 max(1, sqrt(q)) for the energy.
-///
-/// # Panics
-///
-/// Panics like [`critical_deformation`].
-pub fn steepest_slope(measure: Measure, coefficient: f64) -> f64 {
-    2.0 * match measure {
-        Measure::Tension | Measure::Compression | Measure::Sliding => 1.0,
-        Measure::Friction => (1.0 + coefficient * coefficient).sqrt(),
-        Measure::Energy => coefficient.max(1.0).sqrt(),
-        Measure::MixedModeX | Measure::MixedModeY => panic!("{NO_DIRECTION}"),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -129,7 +88,7 @@ mod tests {
         let strains = PrincipalStretches::new(0.2, -1.3);
         let step = 1e-5;
         for (measure, reached) in ALL.into_iter().zip([true, true, true, true, false]) {
-            let bound = steepest_slope(measure, 2.0) * strains.deviator();
+            let bound = measure.steepest_slope(2.0) * strains.deviator();
             let value = |x: f64| {
                 let twice = [(2.0 * x).cos(), (2.0 * x).sin()];
                 measure.value(&strains.along(twice), &[2.0])
