@@ -128,7 +128,7 @@ impl RawCase {
         Ok(case)
     }
 
-    /// Which of the sections that not every analysis has are there.
+    /// Presence of the sections that not every analysis has.
     fn given(&self) -> analysis::Given {
         analysis::Given {
             fracture: self.fracture.is_some(),
