@@ -39,7 +39,7 @@ pub struct Balanced {
     pub residual: f64,
     /// Newton-Raphson iterations.
     pub iterations: usize,
-    /// The energy that the motions of the points cost ([`BondSweep::energy_of_motion`], the stored one unless the temperature
+    /// The energy that the motions of the points cost ([`BondSweep::energy_of_motion`](ligament_model::sweep::BondSweep::energy_of_motion), the stored one unless the temperature
     /// changes) where it is negative, beyond rounding, J.
     pub negative_energy: Option<f64>,
     /// Degrees of freedom that turned out to be mechanisms and are held from now on.

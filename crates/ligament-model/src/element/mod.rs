@@ -26,15 +26,15 @@ pub const UNKNOWNS: usize = 3;
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementKind {
-    /// Bonds between points with rotations: [`BeamBond`].
+    /// Bonds between points with rotations: [`beam`].
     Beam,
-    /// Bonds between points without rotations: [`SpringBond`].
+    /// Bonds between points without rotations: [`spring`].
     Spring,
-    /// Bonds without rotations that couple points beside their ends: [`ImaginaryElement`].
+    /// Bonds without rotations that couple points beside their ends: [`imaginary`].
     Imaginary,
-    /// Imaginary elements with true strains: [`TrueStrainElement`].
+    /// Imaginary elements with true strains: [`true_strain`].
     TrueStrain,
-    /// Imaginary elements with forces on the two ends alone: [`PairwiseElement`].
+    /// Imaginary elements with forces on the two ends alone: [`pairwise`].
     Pairwise,
 }
 

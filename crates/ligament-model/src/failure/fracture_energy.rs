@@ -78,7 +78,7 @@ fn shear_ratios(system: &BondSystem) -> Vec<f64> {
 /// bonds of a point, weighted by what each has of that sum ([`mean_lengths`]). A continuous family with a constant k_n has
 /// h = 3 H/4, and then this is s_0 = sqrt(4 G_c/(t k_n H^4)), the two-dimensional form of Silling and Askari (2005, eq. 26).
 ///
-/// What shear stores in those bonds comes on top. With [`Measure::Energy`](super::Measure::Energy) it is counted, and G_c holds
+/// What shear stores in those bonds comes on top. With [`Measure::Energy`] it is counted, and G_c holds
 /// for every Poisson's ratio up to that of central forces; with the plain stretch it holds where k_t = 0.
 pub fn critical_stretch(fracture_energy: f64, opening_modulus: f64, mean_length: f64) -> f64 {
     (fracture_energy / (opening_modulus * mean_length)).sqrt()
