@@ -88,7 +88,7 @@ impl ProportionalLoading {
 
     /// Adds a group to the history, with the resultant of its own given forces at load factor 1.
     ///
-    /// The same points under the same name are one group however many supports and loads act on them; other points
+    /// Equal points under one name are one group however many supports and loads act on them; other points
     /// under the same name get a number.
     pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: [f64; COMPONENTS]) {
         let mut same_name = self.groups.iter_mut().filter(|group| group.name == name);
