@@ -11,6 +11,7 @@ pub mod domain;
 mod families;
 pub mod length;
 pub mod partial_volume;
+pub mod patch;
 mod strain_mode;
 pub mod surface;
 

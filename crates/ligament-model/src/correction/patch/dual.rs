@@ -1,0 +1,346 @@
+//! The factors nearest to given ones for which linear equations hold: Newton's method on the dual problem.
+//!
+//! minimise sum over the bonds of q_0 h(q/q_0) under G q = f, with h' = z - z_0 and
+//!
+//! q(z) = q_0 (lo + (hi - lo)/(1 + exp(-z))), q(z_0) = q_0,
+//!
+//! which keeps every factor between lo q_0 and hi q_0. It is convex. With one multiplier mu an equation z = z_0 + G^T mu, and its
+//! dual is smooth:
+//!
+//! minimise sum of q_0 [lo z + (hi - lo) log(1 + e^z)] - f.mu + r/2 |(mu - mu_k)/d|^2
+//!
+//! with the scales d of the equations, the gradient G q - f + r (mu - mu_k)/d^2 and the Hessian G diag(dq/dz) G^T + r/d^2. Outer
+//! steps k (of multipliers) take the bias of r away.
+
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
+use rayon::prelude::*;
+
+use super::members::{BLOCK, Members};
+use super::{PatchFactors, Settings};
+
+/// Linear equations in two factors a bond, N a point. Points go by their ranks, bonds by the members of families.
+pub(super) trait Equations<const N: usize>: Sync {
+    /// The members of the families.
+    fn members(&self) -> &Members<'_>;
+
+    /// Uncorrected factors q_0 of the members.
+    fn start(&self) -> &[f64];
+
+    /// The factor of the body that the uncorrected factors contain.
+    fn body_factor(&self) -> f64;
+
+    /// Right-hand sides f, shape (n_points, N).
+    fn right(&self) -> &[[f64; N]];
+
+    /// Scales d of the equations of a point.
+    fn scale(&self, rank: usize) -> [f64; N];
+
+    /// The entries of G^T mu of a member's bond, from the multipliers of its point and of the other end.
+    fn exponents(&self, member: usize, own: &[f64; N], other: &[f64; N]) -> [f64; 2];
+
+    /// Adds what a member with the given factors has in the equations of its point.
+    fn add(&self, member: usize, factors: [f64; 2], sum: &mut [f64; N]);
+
+    /// Coefficients of the two factors of a member in the equations of its point.
+    fn rows(&self, member: usize) -> [[f64; N]; 2] {
+        [[1.0, 0.0], [0.0, 1.0]].map(|factors| {
+            let mut row = [0.0; N];
+            self.add(member, factors, &mut row);
+            row
+        })
+    }
+}
+
+/// The iteration for the factors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Newton steps.
+    pub steps: usize,
+    /// Products with the Hessian.
+    pub products: usize,
+    /// Root mean square of what is left of the scaled equations.
+    pub left: f64,
+    /// Largest of what is left.
+    pub largest_left: f64,
+}
+
+struct Dual<'a, E, const N: usize> {
+    equations: &'a E,
+    lowest: f64,
+    span: f64,
+    offset: f64,
+    /// r/d^2 by rank.
+    regularisation: Vec<[f64; N]>,
+}
+
+/// A number for each equation, by rank.
+type Multipliers<const N: usize> = Vec<[f64; N]>;
+
+pub(super) fn minimise<const N: usize, E: Equations<N>>(equations: &E, settings: &Settings) -> PatchFactors {
+    let (lowest, span) = (settings.lowest, settings.highest - settings.lowest);
+    let n = equations.members().n_points();
+    let mut dual = Dual {
+        equations,
+        lowest,
+        span,
+        offset: ((1.0 - lowest) / (settings.highest - 1.0)).ln(),
+        regularisation: Vec::new(),
+    };
+    let mut mu = vec![[0.0; N]; n];
+    let trace = std::env::var_os("PATCH_TRACE").is_some();
+    let (mut steps, mut products) = (0, 0);
+    for &r in &settings.regularisation {
+        dual.regularise(r);
+        let center = mu.clone();
+        let mut z = dual.exponents(&mu);
+        let mut value = dual.value(&z, &mu, &center);
+        let mut gradient = dual.gradient(&z, &mu, &center);
+        let first = dual.rms(&gradient);
+        if trace {
+            eprintln!("outer {r}: {first:.3e}");
+        }
+        let target = settings.tolerance.max(settings.reduction * first);
+        for _ in 0..60 {
+            let size = dual.rms(&gradient);
+            if size <= target {
+                break;
+            }
+            let accuracy = (size / first).sqrt().min(0.1).max(0.5 * target / size);
+            let (step, done) = dual.newton_step(&z, &gradient, accuracy);
+            products += done;
+            steps += 1;
+            let slope = dot(&gradient, &step);
+            let mut length = 1.0;
+            loop {
+                let trial = moved(&mu, &step, length);
+                let trial_z = dual.exponents(&trial);
+                let trial_value = dual.value(&trial_z, &trial, &center);
+                // Near the end the values differ by rounding only.
+                if trial_value <= value + 1e-4 * length * slope + 1e-13 * value.abs() || length < 1e-6 {
+                    (mu, z, value) = (trial, trial_z, trial_value);
+                    break;
+                }
+                length *= 0.5;
+            }
+            gradient = dual.gradient(&z, &mu, &center);
+            if trace {
+                eprintln!("  step {steps} products {done} length {length} rms {:.3e}", dual.rms(&gradient));
+            }
+        }
+    }
+    let z = dual.exponents(&mu);
+    let left = dual.left(&z);
+    let residual: Vec<f64> = (left.iter().enumerate())
+        .map(|(rank, left)| {
+            let scaled = left.iter().zip(equations.scale(rank)).take(6);
+            scaled.fold(0.0, |most: f64, (left, scale)| most.max((left * scale).abs()))
+        })
+        .collect();
+    let report = Report {
+        steps,
+        products,
+        left: dual.rms(&left),
+        largest_left: residual.iter().copied().fold(0.0, f64::max),
+    };
+    let factors = |k: usize| {
+        let of_members: Vec<f64> = (z.iter().zip(equations.start()))
+            .map(|(z, start)| start * (dual.lowest + dual.span * logistic(z[k])))
+            .collect();
+        equations.members().of_bonds(&of_members)
+    };
+    PatchFactors {
+        axial: factors(0),
+        shear: factors(1),
+        residual: equations.members().of_points(&residual),
+        body_factor: equations.body_factor(),
+        report,
+    }
+}
+
+impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
+    fn regularise(&mut self, r: f64) {
+        let of_rank = |rank: usize| {
+            self.equations.scale(rank).map(|scale| if scale > 0.0 { r / (scale * scale) } else { 1.0 })
+        };
+        self.regularisation = (0..self.equations.members().n_points()).map(of_rank).collect();
+    }
+
+    /// Root mean square of scaled numbers.
+    fn rms(&self, values: &Multipliers<N>) -> f64 {
+        let squares = (values.iter().enumerate()).map(|(rank, values)| {
+            let scaled = values.iter().zip(self.equations.scale(rank));
+            scaled.map(|(value, scale)| (value * scale).powi(2)).sum::<f64>()
+        });
+        (squares.sum::<f64>() / (values.len() * N) as f64).sqrt()
+    }
+
+    /// z of the two factors of every member.
+    fn exponents(&self, mu: &Multipliers<N>) -> Vec<[f64; 2]> {
+        let members = self.equations.members();
+        let mut z = vec![[0.0; 2]; members.neighbour.len()];
+        members.over_blocks(&mut z, |rank, z| {
+            let own = &mu[rank];
+            for (member, z) in members.family(rank).zip(z) {
+                let other = &mu[members.neighbour[member] as usize];
+                *z = self.equations.exponents(member, own, other).map(|it| it + self.offset);
+            }
+        });
+        z
+    }
+
+    /// A sum over the family of each point.
+    fn sums(&self, sum: impl Fn(usize) -> [f64; N] + Sync + Send) -> Multipliers<N> {
+        let n = self.equations.members().n_points();
+        (0..n).into_par_iter().with_min_len(64).map(sum).collect()
+    }
+
+    /// What is left of the equations, G q - f.
+    fn left(&self, z: &[[f64; 2]]) -> Multipliers<N> {
+        let (members, start) = (self.equations.members(), self.equations.start());
+        self.sums(|rank| {
+            let mut sum = self.equations.right()[rank].map(|right| -right);
+            for member in members.family(rank) {
+                let q = z[member].map(|z| start[member] * (self.lowest + self.span * logistic(z)));
+                self.equations.add(member, q, &mut sum);
+            }
+            sum
+        })
+    }
+
+    fn gradient(&self, z: &[[f64; 2]], mu: &Multipliers<N>, center: &Multipliers<N>) -> Multipliers<N> {
+        let mut gradient = self.left(z);
+        let all = gradient.as_flattened_mut().iter_mut().zip(mu.as_flattened());
+        let all = all.zip(center.as_flattened()).zip(self.regularisation.as_flattened());
+        for (((gradient, mu), center), r) in all {
+            *gradient += r * (mu - center);
+        }
+        gradient
+    }
+
+    fn value(&self, z: &[[f64; 2]], mu: &Multipliers<N>, center: &Multipliers<N>) -> f64 {
+        let of_members: Vec<f64> = (z.par_chunks(BLOCK).zip(self.equations.start().par_chunks(BLOCK)))
+            .map(|(z, start)| {
+                (z.iter().zip(start))
+                    .map(|(z, start)| {
+                        start * z.map(|z| self.lowest * z + self.span * softplus(z)).iter().sum::<f64>()
+                    })
+                    .sum()
+            })
+            .collect();
+        let right = self.equations.right().as_flattened();
+        let all = mu.as_flattened().iter().zip(center.as_flattened());
+        let all = all.zip(self.regularisation.as_flattened()).zip(right);
+        let of_points: f64 =
+            all.map(|(((mu, center), r), right)| 0.5 * r * (mu - center).powi(2) - right * mu).sum();
+        // Every bond stands in two families.
+        0.5 * of_members.iter().sum::<f64>() + of_points
+    }
+
+    /// Conjugate gradients for the Newton step, with the blocks of the points as preconditioner.
+    fn newton_step(&self, z: &[[f64; 2]], gradient: &Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
+        let members = self.equations.members();
+        let slopes: Vec<[f64; 2]> = (z.par_iter().zip(self.equations.start()))
+            .map(|(z, start)| z.map(|z| start * self.span * logistic(z) * logistic(-z)))
+            .collect();
+        let blocks = self.blocks(&slopes);
+        let n = gradient.len();
+        let mut step = vec![[0.0; N]; n];
+        let mut left: Multipliers<N> = gradient.iter().map(|it| it.map(|it| -it)).collect();
+        let mut solved = precondition(&blocks, &left);
+        let mut direction = solved.clone();
+        let mut size = dot(&left, &solved);
+        let target = accuracy * accuracy * size;
+        let mut products = 0;
+        while products < 400 {
+            let product = self.sums(|rank| {
+                let own = &direction[rank];
+                let regularisation = &self.regularisation[rank];
+                let mut sum = std::array::from_fn(|k| regularisation[k] * own[k]);
+                for member in members.family(rank) {
+                    let other = &direction[members.neighbour[member] as usize];
+                    let z = self.equations.exponents(member, own, other);
+                    let slope = slopes[member];
+                    self.equations.add(member, [z[0] * slope[0], z[1] * slope[1]], &mut sum);
+                }
+                sum
+            });
+            products += 1;
+            let length = size / dot(&direction, &product);
+            add(&mut step, &direction, length);
+            add(&mut left, &product, -length);
+            solved = precondition(&blocks, &left);
+            let next = dot(&left, &solved);
+            if next <= target {
+                break;
+            }
+            let share = next / size;
+            size = next;
+            direction.par_iter_mut().zip(&solved).with_min_len(BLOCK).for_each(|(direction, solved)| {
+                for k in 0..N {
+                    direction[k] = solved[k] + share * direction[k];
+                }
+            });
+        }
+        (step, products)
+    }
+
+    fn blocks(&self, slopes: &[[f64; 2]]) -> Vec<SMatrix<f64, N, N>> {
+        let members = self.equations.members();
+        (0..members.n_points())
+            .into_par_iter()
+            .map(|rank| {
+                let diagonal = SVector::<f64, N>::from(self.regularisation[rank]);
+                let mut block = SMatrix::<f64, N, N>::from_diagonal(&diagonal);
+                for member in members.family(rank) {
+                    let rows = self.equations.rows(member);
+                    for (row, slope) in rows.iter().zip(slopes[member]) {
+                        let row = SVector::<f64, N>::from(*row);
+                        block.ger(slope, &row, &row, 1.0);
+                    }
+                }
+                Cholesky::<f64, Const<N>>::new(block).map_or_else(SMatrix::identity, |it| it.inverse())
+            })
+            .collect()
+    }
+}
+
+fn precondition<const N: usize>(blocks: &[SMatrix<f64, N, N>], values: &Multipliers<N>) -> Multipliers<N> {
+    (blocks.par_iter().zip(values))
+        .with_min_len(BLOCK)
+        .map(|(block, value)| <[f64; N]>::from(block * SVector::<f64, N>::from(*value)))
+        .collect()
+}
+
+fn logistic(z: f64) -> f64 {
+    1.0 / (1.0 + (-z).exp())
+}
+
+/// log(1 + e^z).
+fn softplus(z: f64) -> f64 {
+    z.max(0.0) + (-z.abs()).exp().ln_1p()
+}
+
+fn dot<const N: usize>(one: &Multipliers<N>, other: &Multipliers<N>) -> f64 {
+    let parts: Vec<f64> = (one.par_chunks(BLOCK).zip(other.par_chunks(BLOCK)))
+        .map(|(one, other)| {
+            (one.as_flattened().iter().zip(other.as_flattened()))
+                .map(|(one, other)| one * other)
+                .sum()
+        })
+        .collect();
+    parts.iter().sum()
+}
+
+fn add<const N: usize>(values: &mut Multipliers<N>, other: &Multipliers<N>, factor: f64) {
+    values.par_iter_mut().zip(other).with_min_len(BLOCK).for_each(|(value, other)| {
+        for k in 0..N {
+            value[k] += factor * other[k];
+        }
+    });
+}
+
+fn moved<const N: usize>(values: &Multipliers<N>, step: &Multipliers<N>, length: f64) -> Multipliers<N> {
+    let mut moved = values.clone();
+    add(&mut moved, step, length);
+    moved
+}

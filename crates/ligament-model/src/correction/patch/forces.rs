@@ -1,0 +1,66 @@
+//! The forces of uniform strains, as the cells of a body know them.
+
+use ligament_mesh::Cell;
+use nalgebra::Matrix3;
+
+use crate::cloud::PointCloud;
+
+/// Forces on the points in the uniform strains eps_xx, eps_yy and eps_xy = eps_yx = 1/sqrt(2), which are orthonormal as tensors, so that
+/// nothing depends on the axes; shape (n_points, 3, 2), N.
+pub type CellForces = Vec<[[f64; 2]; 3]>;
+
+/// Stresses (xx, yy, xy) of a stiffness over (eps_xx, eps_yy, gamma_xy) in the three strains, Pa.
+fn stresses(stiffness: &Matrix3<f64>) -> [[f64; 3]; 3] {
+    let root = std::f64::consts::SQRT_2;
+    let column = |k: usize, size: f64| std::array::from_fn(|row| size * stiffness[(row, k)]);
+    [column(0, 1.0), column(1, 1.0), column(2, root)]
+}
+
+/// Forces of the cells of a mesh with the stiffness of each material, of which each cell has one (n_cells).
+///
+/// The integral of the gradient of N_P over a cell is half of the side from its last corner before P to the next one after it, turned
+/// by a right angle, for triangles and for quadrangles.
+pub fn of_mesh(
+    cells: &[Cell],
+    cloud: &PointCloud,
+    material_of_cell: &[u32],
+    stiffness: &[Matrix3<f64>],
+) -> CellForces {
+    let stresses: Vec<_> = stiffness.iter().map(stresses).collect();
+    let mut forces = vec![[[0.0; 2]; 3]; cloud.len()];
+    for (cell, &material) in cells.iter().zip(material_of_cell) {
+        let corners = cell.corners();
+        let n = corners.len();
+        for (k, &corner) in corners.iter().enumerate() {
+            let [[x0, y0], [x1, y1]] = [corners[(k + n - 1) % n], corners[(k + 1) % n]]
+                .map(|corner| cloud.positions[corner as usize]);
+            let half = 0.5 * cloud.thickness;
+            let gradient = [half * (y1 - y0), half * (x0 - x1)];
+            add_traction(&mut forces[corner as usize], &stresses[material as usize], gradient);
+        }
+    }
+    forces
+}
+
+/// Forces of the cells of a lattice: the tractions on the faces of each cell, of which two neighbours take their share of the jump of
+/// their stresses.
+pub fn of_lattice(
+    cloud: &PointCloud,
+    faces: impl Iterator<Item = (u32, [f64; 2], usize)>,
+    stiffness: &[Matrix3<f64>],
+) -> CellForces {
+    let stresses: Vec<_> = stiffness.iter().map(stresses).collect();
+    let mut forces = vec![[[0.0; 2]; 3]; cloud.len()];
+    for (point, normal, material) in faces {
+        add_traction(&mut forces[point as usize], &stresses[material], normal);
+    }
+    forces
+}
+
+/// Adds sigma times a vector for each of the strains.
+fn add_traction(forces: &mut [[f64; 2]; 3], stresses: &[[f64; 3]; 3], [x, y]: [f64; 2]) {
+    for (force, [xx, yy, xy]) in forces.iter_mut().zip(stresses) {
+        force[0] += xx * x + xy * y;
+        force[1] += xy * x + yy * y;
+    }
+}

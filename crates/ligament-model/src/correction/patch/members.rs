@@ -1,0 +1,109 @@
+//! The families of the points one after the other along the curve: what sweeps read, in the order in which they read it.
+
+use rayon::prelude::*;
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+
+/// Points whose sums one thread makes; fixed, so that sums are the same for any number of threads.
+pub(super) const BLOCK: usize = 1024;
+
+/// The bonds seen from their points: each stands in the family of either end. `rank` is the place of a point on the curve.
+pub(super) struct Members<'a> {
+    bonds: &'a BondSet,
+    cloud: &'a PointCloud,
+    /// Index of the first member of the family of each rank, and behind the last family the number of all members.
+    starts: Vec<usize>,
+    /// Rank of the other end of each member.
+    pub(super) neighbour: Vec<u32>,
+}
+
+impl<'a> Members<'a> {
+    /// The members of the families of all points.
+    pub(super) fn new(bonds: &'a BondSet, cloud: &'a PointCloud) -> Self {
+        let mut ranks = vec![0; cloud.len()];
+        let mut starts = vec![0];
+        let mut size = 0;
+        for (rank, &point) in cloud.curve.iter().enumerate() {
+            ranks[point as usize] = rank as u32;
+            size += bonds.incidence.at(point).len();
+            starts.push(size);
+        }
+        let mut members = Self {
+            bonds,
+            cloud,
+            starts,
+            neighbour: Vec::new(),
+        };
+        members.neighbour = members.values(|point, bond| ranks[bonds.neighbour(bond, point) as usize]);
+        members
+    }
+
+    /// Number of points.
+    pub(super) fn n_points(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Members of the family of a rank.
+    #[inline(always)]
+    pub(super) fn family(&self, rank: usize) -> std::ops::Range<usize> {
+        self.starts[rank]..self.starts[rank + 1]
+    }
+
+    /// A value of each member, from its point and its bond.
+    pub(super) fn values<T: Clone + Default + Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
+        let mut values = vec![T::default(); self.starts[self.n_points()]];
+        self.over_blocks(&mut values, |rank, values| {
+            let point = self.cloud.curve[rank];
+            for (slot, &bond) in values.iter_mut().zip(self.bonds.incidence.at(point)) {
+                *slot = value(point, bond);
+            }
+        });
+        values
+    }
+
+    /// Does something with the values of each family, in parallel.
+    pub(super) fn over_blocks<T: Send>(&self, values: &mut [T], each: impl Fn(usize, &mut [T]) + Sync) {
+        (self.blocks(values)).into_par_iter().enumerate().for_each(|(number, mut values)| {
+            let last = ((number + 1) * BLOCK).min(self.n_points());
+            for rank in number * BLOCK..last {
+                let own;
+                (own, values) = values.split_at_mut(self.family(rank).len());
+                each(rank, own);
+            }
+        });
+    }
+
+    /// An array over the members, cut into those of the points of each block.
+    fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
+        let mut blocks = Vec::new();
+        for first in (0..self.n_points()).step_by(BLOCK) {
+            let last = (first + BLOCK).min(self.n_points());
+            let block;
+            (block, values) = values.split_at_mut(self.starts[last] - self.starts[first]);
+            blocks.push(block);
+        }
+        blocks
+    }
+
+    /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
+    pub(super) fn of_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+        let mut of_bonds = vec![T::default(); self.bonds.len()];
+        for (rank, &point) in self.cloud.curve.iter().enumerate() {
+            let family = self.family(rank);
+            for (&bond, &value) in self.bonds.incidence.at(point).iter().zip(&values[family]) {
+                of_bonds[bond as usize] = value;
+            }
+        }
+        of_bonds
+    }
+
+    /// The value of each point from those by rank, shape (n_points).
+    pub(super) fn of_points<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+        let mut of_points = vec![T::default(); values.len()];
+        for (&point, &value) in self.cloud.curve.iter().zip(values) {
+            of_points[point as usize] = value;
+        }
+        of_points
+    }
+}
