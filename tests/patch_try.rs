@@ -29,5 +29,33 @@ fn try_it() {
         stiffness.axial[bond] *= n; stiffness.shear[bond] *= t; stiffness.rotational[bond] *= t;
     }
     let one = vec![1.0; bonds.len()];
-    let _system = BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, one.clone(), &one);
+    let system = BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, one.clone(), &one);
+    let strain = 1e-3;
+    let mut setup = Setup::new(MeshBody::from(mesh), Material::isotropic(1.0, nu), Law::Nhpd);
+    setup.horizon = Horizon::Factor(lambda);
+    setup.supports = vec![Support::new("bottom", &[Component::Y])];
+    let up = Displacement { y: Some(strain * 0.2), ..Displacement::default() };
+    setup.loads = vec![Load::new("top", Action::Displacement(up))];
+    let mut model = Model::build(setup, &mut ()).unwrap();
+    for patched in [false, true] {
+        if patched { model.system = std::sync::Arc::new(system.clone()); }
+        let loading = ligament::loading::Loading::new(&model.setup, &model.system).unwrap();
+        let problem = loading.problem(&model.system, &model.criteria);
+        let outcome = ligament::run::follow(&problem, &model.setup.analysis, &mut Unobserved).unwrap();
+        let row = outcome.history.last().unwrap();
+        let modulus = row.reaction.abs() / 0.1 / strain;
+        let u = &outcome.state.displacement;
+        let at = |x: f64| {
+            let side: Vec<f64> = (model.system.cloud.positions.iter().enumerate()).filter(|(_, p)| (p[0] - x).abs() < 1e-9 && p[1].abs() < 0.05).map(|(k, _)| u[3 * k]).collect();
+            side.iter().sum::<f64>() / side.len() as f64
+        };
+        let contraction = (at(-0.05) - at(0.05)) / 0.1 / strain;
+        // Bond strains against the uniform strain of uniaxial tension.
+        let deformations = ligament_model::Bonds::deformations(&*model.system, &vec![true; model.system.bonds.len()], u, ligament_model::thermal::ThermalStrain::NONE);
+        let mut square = 0.0;
+        for (d, [a, b]) in deformations.iter().zip(&model.system.bonds.direction) {
+            square += (d.stretch - strain * (b * b - nu * a * a)).powi(2);
+        }
+        println!("patched {patched}: E {modulus:.5} nu {contraction:.4} rms {:.5}", (square / deformations.len() as f64).sqrt() / strain);
+    }
 }

@@ -156,7 +156,7 @@ pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 }
 
 /// (b - a) x (c - a), with the right sign.
-fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+pub(crate) fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
     orient2d(coord(a), coord(b), coord(c))
 }

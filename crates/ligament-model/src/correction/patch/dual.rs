@@ -76,7 +76,10 @@ struct Dual<'a, E, const N: usize> {
 /// A number for each equation, by rank.
 type Multipliers<const N: usize> = Vec<[f64; N]>;
 
-pub(super) fn minimise<const N: usize, E: Equations<N>>(equations: &E, settings: &Settings) -> PatchFactors {
+pub(super) fn minimise<const N: usize, E: Equations<N>>(
+    equations: &E,
+    settings: &Settings,
+) -> PatchFactors {
     let (lowest, span) = (settings.lowest, settings.highest - settings.lowest);
     let n = equations.members().n_points();
     let mut dual = Dual {
@@ -116,7 +119,9 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(equations: &E, settings:
                 let trial_z = dual.exponents(&trial);
                 let trial_value = dual.value(&trial_z, &trial, &center);
                 // Near the end the values differ by rounding only.
-                if trial_value <= value + 1e-4 * length * slope + 1e-13 * value.abs() || length < 1e-6 {
+                if trial_value <= value + 1e-4 * length * slope + 1e-13 * value.abs()
+                    || length < 1e-6
+                {
                     (mu, z, value) = (trial, trial_z, trial_value);
                     break;
                 }
@@ -124,7 +129,10 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(equations: &E, settings:
             }
             gradient = dual.gradient(&z, &mu, &center);
             if trace {
-                eprintln!("  step {steps} products {done} length {length} rms {:.3e}", dual.rms(&gradient));
+                eprintln!(
+                    "  step {steps} products {done} length {length} rms {:.3e}",
+                    dual.rms(&gradient)
+                );
             }
         }
     }
@@ -133,7 +141,9 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(equations: &E, settings:
     let residual: Vec<f64> = (left.iter().enumerate())
         .map(|(rank, left)| {
             let scaled = left.iter().zip(equations.scale(rank)).take(6);
-            scaled.fold(0.0, |most: f64, (left, scale)| most.max((left * scale).abs()))
+            scaled.fold(0.0, |most: f64, (left, scale)| {
+                most.max((left * scale).abs())
+            })
         })
         .collect();
     let report = Report {
@@ -160,16 +170,26 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(equations: &E, settings:
 impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
     fn regularise(&mut self, r: f64) {
         let of_rank = |rank: usize| {
-            self.equations.scale(rank).map(|scale| if scale > 0.0 { r / (scale * scale) } else { 1.0 })
+            self.equations.scale(rank).map(|scale| {
+                if scale > 0.0 {
+                    r / (scale * scale)
+                } else {
+                    1.0
+                }
+            })
         };
-        self.regularisation = (0..self.equations.members().n_points()).map(of_rank).collect();
+        self.regularisation = (0..self.equations.members().n_points())
+            .map(of_rank)
+            .collect();
     }
 
     /// Root mean square of scaled numbers.
     fn rms(&self, values: &Multipliers<N>) -> f64 {
         let squares = (values.iter().enumerate()).map(|(rank, values)| {
             let scaled = values.iter().zip(self.equations.scale(rank));
-            scaled.map(|(value, scale)| (value * scale).powi(2)).sum::<f64>()
+            scaled
+                .map(|(value, scale)| (value * scale).powi(2))
+                .sum::<f64>()
         });
         (squares.sum::<f64>() / (values.len() * N) as f64).sqrt()
     }
@@ -182,7 +202,10 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
             let own = &mu[rank];
             for (member, z) in members.family(rank).zip(z) {
                 let other = &mu[members.neighbour[member] as usize];
-                *z = self.equations.exponents(member, own, other).map(|it| it + self.offset);
+                *z = self
+                    .equations
+                    .exponents(member, own, other)
+                    .map(|it| it + self.offset);
             }
         });
         z
@@ -207,10 +230,20 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
         })
     }
 
-    fn gradient(&self, z: &[[f64; 2]], mu: &Multipliers<N>, center: &Multipliers<N>) -> Multipliers<N> {
+    fn gradient(
+        &self,
+        z: &[[f64; 2]],
+        mu: &Multipliers<N>,
+        center: &Multipliers<N>,
+    ) -> Multipliers<N> {
         let mut gradient = self.left(z);
-        let all = gradient.as_flattened_mut().iter_mut().zip(mu.as_flattened());
-        let all = all.zip(center.as_flattened()).zip(self.regularisation.as_flattened());
+        let all = gradient
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(mu.as_flattened());
+        let all = all
+            .zip(center.as_flattened())
+            .zip(self.regularisation.as_flattened());
         for (((gradient, mu), center), r) in all {
             *gradient += r * (mu - center);
         }
@@ -218,26 +251,37 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
     }
 
     fn value(&self, z: &[[f64; 2]], mu: &Multipliers<N>, center: &Multipliers<N>) -> f64 {
-        let of_members: Vec<f64> = (z.par_chunks(BLOCK).zip(self.equations.start().par_chunks(BLOCK)))
-            .map(|(z, start)| {
-                (z.iter().zip(start))
-                    .map(|(z, start)| {
-                        start * z.map(|z| self.lowest * z + self.span * softplus(z)).iter().sum::<f64>()
-                    })
-                    .sum()
-            })
-            .collect();
+        let of_members: Vec<f64> = (z
+            .par_chunks(BLOCK)
+            .zip(self.equations.start().par_chunks(BLOCK)))
+        .map(|(z, start)| {
+            (z.iter().zip(start))
+                .map(|(z, start)| {
+                    start
+                        * z.map(|z| self.lowest * z + self.span * softplus(z))
+                            .iter()
+                            .sum::<f64>()
+                })
+                .sum()
+        })
+        .collect();
         let right = self.equations.right().as_flattened();
         let all = mu.as_flattened().iter().zip(center.as_flattened());
         let all = all.zip(self.regularisation.as_flattened()).zip(right);
-        let of_points: f64 =
-            all.map(|(((mu, center), r), right)| 0.5 * r * (mu - center).powi(2) - right * mu).sum();
+        let of_points: f64 = all
+            .map(|(((mu, center), r), right)| 0.5 * r * (mu - center).powi(2) - right * mu)
+            .sum();
         // Every bond stands in two families.
         0.5 * of_members.iter().sum::<f64>() + of_points
     }
 
     /// Conjugate gradients for the Newton step, with the blocks of the points as preconditioner.
-    fn newton_step(&self, z: &[[f64; 2]], gradient: &Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
+    fn newton_step(
+        &self,
+        z: &[[f64; 2]],
+        gradient: &Multipliers<N>,
+        accuracy: f64,
+    ) -> (Multipliers<N>, usize) {
         let members = self.equations.members();
         let slopes: Vec<[f64; 2]> = (z.par_iter().zip(self.equations.start()))
             .map(|(z, start)| z.map(|z| start * self.span * logistic(z) * logistic(-z)))
@@ -260,7 +304,8 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
                     let other = &direction[members.neighbour[member] as usize];
                     let z = self.equations.exponents(member, own, other);
                     let slope = slopes[member];
-                    self.equations.add(member, [z[0] * slope[0], z[1] * slope[1]], &mut sum);
+                    self.equations
+                        .add(member, [z[0] * slope[0], z[1] * slope[1]], &mut sum);
                 }
                 sum
             });
@@ -275,11 +320,15 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
             }
             let share = next / size;
             size = next;
-            direction.par_iter_mut().zip(&solved).with_min_len(BLOCK).for_each(|(direction, solved)| {
-                for k in 0..N {
-                    direction[k] = solved[k] + share * direction[k];
-                }
-            });
+            direction
+                .par_iter_mut()
+                .zip(&solved)
+                .with_min_len(BLOCK)
+                .for_each(|(direction, solved)| {
+                    for k in 0..N {
+                        direction[k] = solved[k] + share * direction[k];
+                    }
+                });
         }
         (step, products)
     }
@@ -298,13 +347,17 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
                         block.ger(slope, &row, &row, 1.0);
                     }
                 }
-                Cholesky::<f64, Const<N>>::new(block).map_or_else(SMatrix::identity, |it| it.inverse())
+                Cholesky::<f64, Const<N>>::new(block)
+                    .map_or_else(SMatrix::identity, |it| it.inverse())
             })
             .collect()
     }
 }
 
-fn precondition<const N: usize>(blocks: &[SMatrix<f64, N, N>], values: &Multipliers<N>) -> Multipliers<N> {
+fn precondition<const N: usize>(
+    blocks: &[SMatrix<f64, N, N>],
+    values: &Multipliers<N>,
+) -> Multipliers<N> {
     (blocks.par_iter().zip(values))
         .with_min_len(BLOCK)
         .map(|(block, value)| <[f64; N]>::from(block * SVector::<f64, N>::from(*value)))
@@ -332,14 +385,22 @@ fn dot<const N: usize>(one: &Multipliers<N>, other: &Multipliers<N>) -> f64 {
 }
 
 fn add<const N: usize>(values: &mut Multipliers<N>, other: &Multipliers<N>, factor: f64) {
-    values.par_iter_mut().zip(other).with_min_len(BLOCK).for_each(|(value, other)| {
-        for k in 0..N {
-            value[k] += factor * other[k];
-        }
-    });
+    values
+        .par_iter_mut()
+        .zip(other)
+        .with_min_len(BLOCK)
+        .for_each(|(value, other)| {
+            for k in 0..N {
+                value[k] += factor * other[k];
+            }
+        });
 }
 
-fn moved<const N: usize>(values: &Multipliers<N>, step: &Multipliers<N>, length: f64) -> Multipliers<N> {
+fn moved<const N: usize>(
+    values: &Multipliers<N>,
+    step: &Multipliers<N>,
+    length: f64,
+) -> Multipliers<N> {
     let mut moved = values.clone();
     add(&mut moved, step, length);
     moved

@@ -82,7 +82,13 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
         let start = members.values(|_, bond| body_factor * alpha[bond as usize]);
         let right = cloud.curve.iter().map(|&point| {
             let forces = &forces[point as usize];
-            std::array::from_fn(|row| if row < 6 { forces[row / 2][row % 2] } else { 0.0 })
+            std::array::from_fn(|row| {
+                if row < 6 {
+                    forces[row / 2][row % 2]
+                } else {
+                    0.0
+                }
+            })
         });
         let mut equations = Self {
             right: right.collect(),
@@ -92,7 +98,9 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
             start,
             body_factor,
         };
-        equations.scale = (0..cloud.len()).map(|rank| equations.scale_of(rank, moment_weight)).collect();
+        equations.scale = (0..cloud.len())
+            .map(|rank| equations.scale_of(rank, moment_weight))
+            .collect();
         equations
     }
 

@@ -36,7 +36,11 @@ pub fn of_mesh(
                 .map(|corner| cloud.positions[corner as usize]);
             let half = 0.5 * cloud.thickness;
             let gradient = [half * (y1 - y0), half * (x0 - x1)];
-            add_traction(&mut forces[corner as usize], &stresses[material as usize], gradient);
+            add_traction(
+                &mut forces[corner as usize],
+                &stresses[material as usize],
+                gradient,
+            );
         }
     }
     forces

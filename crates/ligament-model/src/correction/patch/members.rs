@@ -35,7 +35,8 @@ impl<'a> Members<'a> {
             starts,
             neighbour: Vec::new(),
         };
-        members.neighbour = members.values(|point, bond| ranks[bonds.neighbour(bond, point) as usize]);
+        members.neighbour =
+            members.values(|point, bond| ranks[bonds.neighbour(bond, point) as usize]);
         members
     }
 
@@ -51,7 +52,10 @@ impl<'a> Members<'a> {
     }
 
     /// A value of each member, from its point and its bond.
-    pub(super) fn values<T: Clone + Default + Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
+    pub(super) fn values<T: Clone + Default + Send>(
+        &self,
+        value: impl Fn(u32, u32) -> T + Sync,
+    ) -> Vec<T> {
         let mut values = vec![T::default(); self.starts[self.n_points()]];
         self.over_blocks(&mut values, |rank, values| {
             let point = self.cloud.curve[rank];
@@ -63,15 +67,22 @@ impl<'a> Members<'a> {
     }
 
     /// Does something with the values of each family, in parallel.
-    pub(super) fn over_blocks<T: Send>(&self, values: &mut [T], each: impl Fn(usize, &mut [T]) + Sync) {
-        (self.blocks(values)).into_par_iter().enumerate().for_each(|(number, mut values)| {
-            let last = ((number + 1) * BLOCK).min(self.n_points());
-            for rank in number * BLOCK..last {
-                let own;
-                (own, values) = values.split_at_mut(self.family(rank).len());
-                each(rank, own);
-            }
-        });
+    pub(super) fn over_blocks<T: Send>(
+        &self,
+        values: &mut [T],
+        each: impl Fn(usize, &mut [T]) + Sync,
+    ) {
+        (self.blocks(values))
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(number, mut values)| {
+                let last = ((number + 1) * BLOCK).min(self.n_points());
+                for rank in number * BLOCK..last {
+                    let own;
+                    (own, values) = values.split_at_mut(self.family(rank).len());
+                    each(rank, own);
+                }
+            });
     }
 
     /// An array over the members, cut into those of the points of each block.

@@ -87,10 +87,24 @@ pub fn factors(
     settings: &Settings,
 ) -> PatchFactors {
     if turns_points {
-        let equations = PlaneEquations::<9>::new(bonds, cloud, stiffness, alpha, forces, settings.moment_weight);
+        let equations = PlaneEquations::<9>::new(
+            bonds,
+            cloud,
+            stiffness,
+            alpha,
+            forces,
+            settings.moment_weight,
+        );
         dual::minimise(&equations, settings)
     } else {
-        let equations = PlaneEquations::<6>::new(bonds, cloud, stiffness, alpha, forces, settings.moment_weight);
+        let equations = PlaneEquations::<6>::new(
+            bonds,
+            cloud,
+            stiffness,
+            alpha,
+            forces,
+            settings.moment_weight,
+        );
         dual::minimise(&equations, settings)
     }
 }
