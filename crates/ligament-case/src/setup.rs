@@ -66,6 +66,7 @@ impl CaseFile {
             materials: case.materials.iter().map(region).collect(),
             law: (&case.model).into(),
             horizon: horizon(&case.model),
+            bonds_through_voids: false,
             correction: correction(&case.correction),
             precracks: case.precracks.iter().map(precrack).collect(),
             no_fail: case.no_fail.iter().map(|it| place_of(Some(it))).collect(),

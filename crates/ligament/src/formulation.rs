@@ -1,14 +1,19 @@
 //! The formulation that a setup chooses: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
-use ligament_model::correction::{Continuum, Correction, domain, length, partial_volume, surface};
+use ligament_model::correction::patch::CellForces;
+use ligament_model::correction::{
+    Continuum, Correction, domain, length, partial_volume, patch, surface,
+};
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::{
-    BondStiffness, BondSystem, Elasticity, Horizons, Isotropic, Material, Plane, PointCloud,
+    BondStiffness, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Material, Plane,
+    PointCloud,
 };
 
+use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
 
@@ -74,16 +79,17 @@ pub fn constants(material: &Material, law: &Law, plane: Plane) -> Option<Isotrop
     })
 }
 
-/// The correction with factors alpha (n_bonds).
+/// The correction with factors alpha (n_bonds), and the stiffness densities that go with it.
 pub fn correction(
     setup: &Setup,
     bonds: &BondSet,
     cloud: &PointCloud,
     horizons: &Horizons,
-    stiffness: &BondStiffness,
+    stiffness: BondStiffness,
     alpha: Vec<f64>,
-) -> Correction {
-    match setup.correction.surface {
+    material_of_cell: &[u32],
+) -> (Correction, BondStiffness) {
+    let correction = match setup.correction.surface {
         Surface::Domain(iteration) => {
             let sweeps = iteration.sweeps(bonds.len());
             let (materials, plane) = (setup.materials(), setup.plane());
@@ -91,13 +97,47 @@ pub fn correction(
                 materials: &materials,
                 plane,
             };
-            domain::iterate(bonds, cloud, stiffness, alpha, continuum, sweeps)
+            domain::iterate(bonds, cloud, &stiffness, alpha, continuum, sweeps)
         }
         Surface::Volume => {
             let factors = surface::surface_factors(bonds, cloud, horizons, &alpha);
             Correction::fixed(alpha, factors)
         }
         Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
+        Surface::Patch(settings) => {
+            let forces = cell_forces(setup, cloud, material_of_cell);
+            let turns_points = setup.law.element() == ElementKind::Beam;
+            let patch = patch::correct(
+                bonds,
+                cloud,
+                stiffness,
+                alpha,
+                &forces,
+                turns_points,
+                &settings,
+            );
+            return (patch.correction, patch.stiffness);
+        }
+    };
+    (correction, stiffness)
+}
+
+/// Forces of uniform strains on the points, as the cells of the body with the materials of the law know them.
+fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) -> CellForces {
+    let plane = setup.plane();
+    let stiffness: Vec<_> = (setup.materials.iter())
+        .map(
+            |region| match constants(&region.material, &setup.law, plane) {
+                Some(isotropic) => isotropic.plane_stiffness(plane),
+                None => region.material.elasticity.plane_stiffness(plane),
+            },
+        )
+        .collect();
+    match setup.body.origin() {
+        Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, material_of_cell, &stiffness),
+        Origin::Mesh(_) | Origin::Points => {
+            patch::of_mesh(setup.body.cells(), cloud, material_of_cell, &stiffness)
+        }
     }
 }
 

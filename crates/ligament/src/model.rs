@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
+use ligament_model::bonds::outline::bonds_outside;
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
@@ -56,7 +57,7 @@ impl Model {
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell));
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, mut absent) = stage(watcher, "bonds", || {
-            around_holes(BondSet::search(&cloud, &horizons), body, &cloud)
+            inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
         let across_holes = absent.len();
         require_neighbours(body, &bonds)?;
@@ -75,7 +76,7 @@ impl Model {
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            correct(&setup, &cloud, &horizons, bonds, &is_cut)
+            correct(&setup, &cloud, &horizons, bonds, &is_cut, &material_of_cell)
         });
         watcher.found(&Finding::Correction(correction.report.as_ref()));
 
@@ -149,12 +150,19 @@ fn bond_system(
     BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
 }
 
-/// The bonds without those across holes of the body, and those.
-fn around_holes(bonds: BondSet, body: &dyn Body, cloud: &PointCloud) -> (BondSet, Vec<AbsentBond>) {
-    if body.holes().is_empty() {
+/// The bonds without those across holes and other voids of the body, and those.
+fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, Vec<AbsentBond>) {
+    let (holes, cells) = (setup.body.holes(), setup.body.cells());
+    let crosses = if !holes.is_empty() {
+        bonds_across(holes, &bonds, cloud)
+    } else if setup.bonds_through_voids || cells.is_empty() {
+        return (bonds, Vec::new());
+    } else {
+        bonds_outside(cells, &bonds, cloud)
+    };
+    if !crosses.contains(&true) {
         return (bonds, Vec::new());
     }
-    let crosses = bonds_across(body.holes(), &bonds, cloud);
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
     let absent = absent_bonds(&bonds, &crosses, Absence::Hole);
     (bonds.retained(&keep), absent)
@@ -203,6 +211,7 @@ fn correct(
     horizons: &Horizons,
     bonds: BondSet,
     is_cut: &[bool],
+    material_of_cell: &[u32],
 ) -> Corrected {
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     let any_is_cut = is_cut.contains(&true);
@@ -214,7 +223,15 @@ fn correct(
     };
     let alpha = formulation::alpha(setup, &bonds, cloud);
     let stiffness = formulation::stiffness(setup, &bonds, cloud, &alpha);
-    let correction = formulation::correction(setup, &bonds, cloud, horizons, &stiffness, alpha);
+    let (correction, stiffness) = formulation::correction(
+        setup,
+        &bonds,
+        cloud,
+        horizons,
+        stiffness,
+        alpha,
+        material_of_cell,
+    );
     let (materials, plane) = (setup.materials(), setup.plane());
     let continuum = Continuum {
         materials: &materials,

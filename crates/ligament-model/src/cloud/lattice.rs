@@ -86,21 +86,35 @@ impl Lattice {
         })
     }
 
+    /// The number of the point in a cell that may lie beyond the rectangle; None where there is none.
+    fn point_in(&self, [column, row]: [i64; 2]) -> Option<u32> {
+        let place = |&[column, row]: &[u32; 2]| [i64::from(row), i64::from(column)];
+        let found = self.cells.binary_search_by_key(&[row, column], place);
+        found.ok().map(|point| point as u32)
+    }
+
+    /// The faces between two cells: the point on the left or below, the normal towards the other and the other point.
+    pub fn inner_faces(&self) -> Vec<(u32, [i8; 2], u32)> {
+        let of_cell = |(point, cell): (u32, &[u32; 2])| {
+            let [column, row] = cell.map(i64::from);
+            let right = self.point_in([column + 1, row]);
+            let above = self.point_in([column, row + 1]);
+            [([1, 0], right), ([0, 1], above)]
+                .into_iter()
+                .filter_map(move |(normal, next)| Some((point, normal, next?)))
+        };
+        (0..).zip(&self.cells).flat_map(of_cell).collect()
+    }
+
     /// The faces of cells behind which there is no cell, by the numbers of the points, then left, right, below, above.
     pub fn outline(&self) -> Vec<Face> {
         let (slack, size) = (self.slack(), self.size.map(i64::from));
         let holes: Vec<Shape> = self.holes.iter().map(|hole| self.local(hole)).collect();
-        let has = |cell: [i64; 2]| {
-            let is_in = |&[column, row]: &[u32; 2]| [i64::from(row), i64::from(column)];
-            self.cells
-                .binary_search_by_key(&[cell[1], cell[0]], is_in)
-                .is_ok()
-        };
         let mut faces = Vec::new();
         for (point, cell) in (0..).zip(&self.cells) {
             for normal in [[-1, 0], [1, 0], [0, -1], [0, 1]] {
                 let next = [0, 1].map(|axis| i64::from(cell[axis]) + i64::from(normal[axis]));
-                if has(next) {
+                if self.point_in(next).is_some() {
                     continue;
                 }
                 let centre = self.centre(next);

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use ligament_mesh::{Mesh, NodeField};
+use ligament_mesh::{Cell, Mesh, NodeField};
 use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
@@ -75,6 +75,11 @@ pub trait Body: Debug + Send + Sync {
     ///
     /// If an edge of the group is none of the outline.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline>;
+
+    /// Cells of a meshed body, whose points are their corners; empty for others.
+    fn cells(&self) -> &[Cell] {
+        &[]
+    }
 
     /// Holes across which there is no bond.
     fn holes(&self) -> &[Shape] {

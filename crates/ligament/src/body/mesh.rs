@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligament_mesh::{Group, Mesh, NodeField};
+use ligament_mesh::{Cell, Group, Mesh, NodeField};
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
 use super::interface::{Body, OffOutline, Origin};
@@ -96,6 +96,10 @@ impl Body for MeshBody {
             }
         }
         lengths.into_iter().collect()
+    }
+
+    fn cells(&self) -> &[Cell] {
+        &self.0.cells
     }
 
     fn fields(&self) -> &[NodeField] {

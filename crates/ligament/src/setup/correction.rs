@@ -1,6 +1,6 @@
 //! The corrections of the bonds: factors alpha and Omega.
 
-use ligament_model::correction::{StopRule, Sweeps};
+use ligament_model::correction::{StopRule, Sweeps, patch};
 
 use super::law::{Calibration, Law};
 
@@ -29,7 +29,7 @@ pub enum Alpha {
     Length,
 }
 
-/// The correction of surfaces.
+/// The correction of surfaces and irregular meshes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Surface {
     /// No correction.
@@ -38,6 +38,8 @@ pub enum Surface {
     Volume,
     /// NHPD's iterative domain correction.
     Domain(Iteration),
+    /// Two factors a bond for which every uniform strain is an equilibrium; of bodies with cells.
+    Patch(patch::Settings),
 }
 
 /// How the domain correction is iterated.

@@ -40,6 +40,8 @@ pub struct Setup {
     pub law: Law,
     /// Horizon of the points.
     pub horizon: Horizon,
+    /// Whether bonds run through holes, notches and other voids of a meshed body.
+    pub bonds_through_voids: bool,
     /// Corrections of the bonds.
     pub correction: Correction,
     /// Cracks that are there from the start.
@@ -110,6 +112,7 @@ impl Setup {
             }],
             law,
             horizon: Horizon::Factor(3.0),
+            bonds_through_voids: false,
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
             no_fail: Vec::new(),

@@ -15,8 +15,8 @@
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use rayon::prelude::*;
 
+use super::Settings;
 use super::members::{BLOCK, Members};
-use super::{PatchFactors, Settings};
 
 /// Linear equations in two factors a bond, N a point. Points go by their ranks, bonds by the members of families.
 pub(super) trait Equations<const N: usize>: Sync {
@@ -25,9 +25,6 @@ pub(super) trait Equations<const N: usize>: Sync {
 
     /// Uncorrected factors q_0 of the members.
     fn start(&self) -> &[f64];
-
-    /// The factor of the body that the uncorrected factors contain.
-    fn body_factor(&self) -> f64;
 
     /// Right-hand sides f, shape (n_points, N).
     fn right(&self) -> &[[f64; N]];
@@ -51,6 +48,21 @@ pub(super) trait Equations<const N: usize>: Sync {
     }
 }
 
+/// Regularisation of the first outer step.
+const FIRST_REGULARISATION: f64 = 1e-2;
+
+/// Reduction of the gradient in an outer step.
+const REDUCTION: f64 = 0.1;
+
+/// Newton steps of an outer step at most.
+const MOST_STEPS: usize = 60;
+
+/// Share of a Newton step below which none is tried: the value is then as low as rounding lets it be.
+const SHORTEST: f64 = 1e-6;
+
+/// Products for the direction of a Newton step at most.
+const MOST_PRODUCTS: usize = 400;
+
 /// The iteration for the factors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
@@ -64,107 +76,81 @@ pub struct Report {
     pub largest_left: f64,
 }
 
+/// Factors of the bonds, and what they leave of the equations.
+pub(super) struct Factors {
+    /// First and second factors, each of shape (n_bonds).
+    pub(super) axial: Vec<f64>,
+    pub(super) shear: Vec<f64>,
+    /// Largest scaled force that is left at each point, shape (n_points).
+    pub(super) residual: Vec<f64>,
+    pub(super) report: Report,
+}
+
 struct Dual<'a, E, const N: usize> {
     equations: &'a E,
     lowest: f64,
     span: f64,
+    /// z_0.
     offset: f64,
-    /// r/d^2 by rank.
-    regularisation: Vec<[f64; N]>,
+    /// mu_k.
+    center: Multipliers<N>,
+    /// r/d^2.
+    regularisation: Multipliers<N>,
 }
 
 /// A number for each equation, by rank.
 type Multipliers<const N: usize> = Vec<[f64; N]>;
 
+/// A place on the way, around the centre of its outer step.
+struct Place<const N: usize> {
+    mu: Multipliers<N>,
+    /// z of the members.
+    z: Vec<[f64; 2]>,
+    value: f64,
+}
+
+/// The factors that meet the equations as far as they can.
 pub(super) fn minimise<const N: usize, E: Equations<N>>(
     equations: &E,
     settings: &Settings,
-) -> PatchFactors {
-    let (lowest, span) = (settings.lowest, settings.highest - settings.lowest);
-    let n = equations.members().n_points();
+) -> Factors {
     let mut dual = Dual {
         equations,
-        lowest,
-        span,
-        offset: ((1.0 - lowest) / (settings.highest - 1.0)).ln(),
+        lowest: settings.lowest,
+        span: settings.highest - settings.lowest,
+        offset: ((1.0 - settings.lowest) / (settings.highest - 1.0)).ln(),
+        center: vec![[0.0; N]; equations.members().n_points()],
         regularisation: Vec::new(),
     };
-    let mut mu = vec![[0.0; N]; n];
-    let trace = std::env::var_os("PATCH_TRACE").is_some();
     let (mut steps, mut products) = (0, 0);
-    for &r in &settings.regularisation {
+    let mut r = FIRST_REGULARISATION.max(settings.regularisation);
+    loop {
         dual.regularise(r);
-        let center = mu.clone();
-        let mut z = dual.exponents(&mu);
-        let mut value = dual.value(&z, &mu, &center);
-        let mut gradient = dual.gradient(&z, &mu, &center);
-        let first = dual.rms(&gradient);
-        if trace {
-            eprintln!("outer {r}: {first:.3e}");
-        }
-        let target = settings.tolerance.max(settings.reduction * first);
-        for _ in 0..60 {
-            let size = dual.rms(&gradient);
-            if size <= target {
+        let mut place = dual.place(dual.center.clone());
+        let mut gradient = dual.gradient(&place);
+        let first = dual.root_mean_square(&gradient);
+        for _ in 0..MOST_STEPS {
+            let size = dual.root_mean_square(&gradient);
+            if size <= REDUCTION * first {
                 break;
             }
-            let accuracy = (size / first).sqrt().min(0.1).max(0.5 * target / size);
-            let (step, done) = dual.newton_step(&z, &gradient, accuracy);
-            products += done;
-            steps += 1;
-            let slope = dot(&gradient, &step);
-            let mut length = 1.0;
-            loop {
-                let trial = moved(&mu, &step, length);
-                let trial_z = dual.exponents(&trial);
-                let trial_value = dual.value(&trial_z, &trial, &center);
-                // Near the end the values differ by rounding only.
-                if trial_value <= value + 1e-4 * length * slope + 1e-13 * value.abs()
-                    || length < 1e-6
-                {
-                    (mu, z, value) = (trial, trial_z, trial_value);
-                    break;
-                }
-                length *= 0.5;
-            }
-            gradient = dual.gradient(&z, &mu, &center);
-            if trace {
-                eprintln!(
-                    "  step {steps} products {done} length {length} rms {:.3e}",
-                    dual.rms(&gradient)
-                );
-            }
+            // The direction need be no better than what is still to be won.
+            let accuracy = (size / first)
+                .sqrt()
+                .min(0.1)
+                .max(0.5 * REDUCTION * first / size);
+            let (direction, done) = dual.newton_direction(&place.z, &gradient, accuracy);
+            (steps, products) = (steps + 1, products + done);
+            place = dual.lower(place, &gradient, &direction);
+            gradient = dual.gradient(&place);
         }
+        dual.center = place.mu;
+        if r <= settings.regularisation {
+            break;
+        }
+        r = (0.1 * r).max(settings.regularisation);
     }
-    let z = dual.exponents(&mu);
-    let left = dual.left(&z);
-    let residual: Vec<f64> = (left.iter().enumerate())
-        .map(|(rank, left)| {
-            let scaled = left.iter().zip(equations.scale(rank)).take(6);
-            scaled.fold(0.0, |most: f64, (left, scale)| {
-                most.max((left * scale).abs())
-            })
-        })
-        .collect();
-    let report = Report {
-        steps,
-        products,
-        left: dual.rms(&left),
-        largest_left: residual.iter().copied().fold(0.0, f64::max),
-    };
-    let factors = |k: usize| {
-        let of_members: Vec<f64> = (z.iter().zip(equations.start()))
-            .map(|(z, start)| start * (dual.lowest + dual.span * logistic(z[k])))
-            .collect();
-        equations.members().of_bonds(&of_members)
-    };
-    PatchFactors {
-        axial: factors(0),
-        shear: factors(1),
-        residual: equations.members().of_points(&residual),
-        body_factor: equations.body_factor(),
-        report,
-    }
+    dual.factors(steps, products)
 }
 
 impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
@@ -184,7 +170,7 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
     }
 
     /// Root mean square of scaled numbers.
-    fn rms(&self, values: &Multipliers<N>) -> f64 {
+    fn root_mean_square(&self, values: &Multipliers<N>) -> f64 {
         let squares = (values.iter().enumerate()).map(|(rank, values)| {
             let scaled = values.iter().zip(self.equations.scale(rank));
             scaled
@@ -223,60 +209,119 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
         self.sums(|rank| {
             let mut sum = self.equations.right()[rank].map(|right| -right);
             for member in members.family(rank) {
-                let q = z[member].map(|z| start[member] * (self.lowest + self.span * logistic(z)));
+                let q = z[member].map(|z| start[member] * self.share(z));
                 self.equations.add(member, q, &mut sum);
             }
             sum
         })
     }
 
-    fn gradient(
+    /// The place of multipliers, with the value of the dual there.
+    fn place(&self, mu: Multipliers<N>) -> Place<N> {
+        let z = self.exponents(&mu);
+        let value = self.value(&z, &mu);
+        Place { mu, z, value }
+    }
+
+    /// The first place in a direction, at a half of the length before each, where the value is low enough.
+    fn lower(
         &self,
-        z: &[[f64; 2]],
-        mu: &Multipliers<N>,
-        center: &Multipliers<N>,
-    ) -> Multipliers<N> {
-        let mut gradient = self.left(z);
-        let all = gradient
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(mu.as_flattened());
-        let all = all
-            .zip(center.as_flattened())
-            .zip(self.regularisation.as_flattened());
-        for (((gradient, mu), center), r) in all {
+        from: Place<N>,
+        gradient: &Multipliers<N>,
+        direction: &Multipliers<N>,
+    ) -> Place<N> {
+        let slope = dot(gradient, direction);
+        let mut length = 1.0;
+        loop {
+            let mut mu = from.mu.clone();
+            add(&mut mu, direction, length);
+            let place = self.place(mu);
+            // Near the end values differ by their rounding only.
+            let enough = 1e-4 * length * slope + 1e-13 * from.value.abs();
+            if place.value <= from.value + enough || length < SHORTEST {
+                return place;
+            }
+            length *= 0.5;
+        }
+    }
+
+    fn gradient(&self, place: &Place<N>) -> Multipliers<N> {
+        let mut gradient = self.left(&place.z);
+        let mu = place
+            .mu
+            .as_flattened()
+            .iter()
+            .zip(self.center.as_flattened());
+        let mu = mu.zip(self.regularisation.as_flattened());
+        for (gradient, ((mu, center), r)) in gradient.as_flattened_mut().iter_mut().zip(mu) {
             *gradient += r * (mu - center);
         }
         gradient
     }
 
-    fn value(&self, z: &[[f64; 2]], mu: &Multipliers<N>, center: &Multipliers<N>) -> f64 {
-        let of_members: Vec<f64> = (z
-            .par_chunks(BLOCK)
-            .zip(self.equations.start().par_chunks(BLOCK)))
-        .map(|(z, start)| {
-            (z.iter().zip(start))
-                .map(|(z, start)| {
-                    start
-                        * z.map(|z| self.lowest * z + self.span * softplus(z))
-                            .iter()
-                            .sum::<f64>()
-                })
-                .sum()
-        })
-        .collect();
+    /// The value of the dual.
+    fn value(&self, z: &[[f64; 2]], mu: &Multipliers<N>) -> f64 {
+        let start = self.equations.start();
+        let of_member = |(z, start): (&[f64; 2], &f64)| {
+            start
+                * z.iter()
+                    .map(|&z| self.lowest * z + self.span * softplus(z))
+                    .sum::<f64>()
+        };
+        let of_members: Vec<f64> = (z.par_chunks(BLOCK).zip(start.par_chunks(BLOCK)))
+            .map(|(z, start)| z.iter().zip(start).map(of_member).sum())
+            .collect();
         let right = self.equations.right().as_flattened();
-        let all = mu.as_flattened().iter().zip(center.as_flattened());
-        let all = all.zip(self.regularisation.as_flattened()).zip(right);
-        let of_points: f64 = all
+        let mu = mu.as_flattened().iter().zip(self.center.as_flattened());
+        let of_equations = mu.zip(self.regularisation.as_flattened()).zip(right);
+        let of_equations: f64 = of_equations
             .map(|(((mu, center), r), right)| 0.5 * r * (mu - center).powi(2) - right * mu)
             .sum();
         // Every bond stands in two families.
-        0.5 * of_members.iter().sum::<f64>() + of_points
+        0.5 * of_members.iter().sum::<f64>() + of_equations
+    }
+
+    /// The factors at the centre, and what they leave.
+    fn factors(&self, steps: usize, products: usize) -> Factors {
+        let (members, start) = (self.equations.members(), self.equations.start());
+        let z = self.exponents(&self.center);
+        let left = self.left(&z);
+        let residual: Vec<f64> = (left.iter().enumerate())
+            .map(|(rank, left)| {
+                let scaled = left.iter().zip(self.equations.scale(rank));
+                scaled.fold(0.0, |most: f64, (left, scale)| {
+                    most.max((left * scale).abs())
+                })
+            })
+            .collect();
+        let of_bonds = |k: usize| {
+            let factors: Vec<f64> = z
+                .iter()
+                .zip(start)
+                .map(|(z, start)| start * self.share(z[k]))
+                .collect();
+            members.of_bonds(&factors)
+        };
+        Factors {
+            axial: of_bonds(0),
+            shear: of_bonds(1),
+            report: Report {
+                steps,
+                products,
+                left: self.root_mean_square(&left),
+                largest_left: residual.iter().copied().fold(0.0, f64::max),
+            },
+            residual: members.of_points(&residual),
+        }
+    }
+
+    /// q/q_0.
+    fn share(&self, z: f64) -> f64 {
+        self.lowest + self.span * logistic(z)
     }
 
     /// Conjugate gradients for the Newton step, with the blocks of the points as preconditioner.
-    fn newton_step(
+    fn newton_direction(
         &self,
         z: &[[f64; 2]],
         gradient: &Multipliers<N>,
@@ -295,7 +340,7 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
         let mut size = dot(&left, &solved);
         let target = accuracy * accuracy * size;
         let mut products = 0;
-        while products < 400 {
+        while products < MOST_PRODUCTS {
             let product = self.sums(|rank| {
                 let own = &direction[rank];
                 let regularisation = &self.regularisation[rank];
@@ -394,14 +439,4 @@ fn add<const N: usize>(values: &mut Multipliers<N>, other: &Multipliers<N>, fact
                 value[k] += factor * other[k];
             }
         });
-}
-
-fn moved<const N: usize>(
-    values: &Multipliers<N>,
-    step: &Multipliers<N>,
-    length: f64,
-) -> Multipliers<N> {
-    let mut moved = values.clone();
-    add(&mut moved, step, length);
-    moved
 }

@@ -20,7 +20,6 @@ pub(super) struct PlaneEquations<'a, const N: usize> {
     actions: Vec<Action>,
     /// Uncorrected factors alpha c_0 of the members.
     start: Vec<f64>,
-    body_factor: f64,
     /// Scales of the forces and the moments, by rank.
     scale: Vec<[f64; 2]>,
     /// f, by rank.
@@ -96,7 +95,6 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
             members,
             actions,
             start,
-            body_factor,
         };
         equations.scale = (0..cloud.len())
             .map(|rank| equations.scale_of(rank, moment_weight))
@@ -147,10 +145,6 @@ impl<const N: usize> Equations<N> for PlaneEquations<'_, N> {
 
     fn start(&self) -> &[f64] {
         &self.start
-    }
-
-    fn body_factor(&self) -> f64 {
-        self.body_factor
     }
 
     fn right(&self) -> &[[f64; N]] {

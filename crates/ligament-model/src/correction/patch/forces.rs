@@ -4,6 +4,7 @@ use ligament_mesh::Cell;
 use nalgebra::Matrix3;
 
 use crate::cloud::PointCloud;
+use crate::cloud::lattice::{Face, Lattice};
 
 /// Forces on the points in the uniform strains eps_xx, eps_yy and eps_xy = eps_yx = 1/sqrt(2), which are orthonormal as tensors, so that
 /// nothing depends on the axes; shape (n_points, 3, 2), N.
@@ -46,17 +47,39 @@ pub fn of_mesh(
     forces
 }
 
-/// Forces of the cells of a lattice: the tractions on the faces of each cell, of which two neighbours take their share of the jump of
-/// their stresses.
+/// Forces of the cells of a lattice, whose points are their centres: the tractions on the faces of the outline at the cells that have
+/// them, and half of the jump of the tractions between two materials at the cells on either side.
 pub fn of_lattice(
+    lattice: &Lattice,
     cloud: &PointCloud,
-    faces: impl Iterator<Item = (u32, [f64; 2], usize)>,
+    material_of_cell: &[u32],
     stiffness: &[Matrix3<f64>],
 ) -> CellForces {
     let stresses: Vec<_> = stiffness.iter().map(stresses).collect();
     let mut forces = vec![[[0.0; 2]; 3]; cloud.len()];
-    for (point, normal, material) in faces {
-        add_traction(&mut forces[point as usize], &stresses[material], normal);
+    let [dx, dy] = lattice.spacing;
+    let area = |normal: [i8; 2]| {
+        let [x, y] = normal.map(f64::from);
+        [x * dy * cloud.thickness, y * dx * cloud.thickness]
+    };
+    for Face { point, normal, .. } in lattice.outline() {
+        let material = material_of_cell[point as usize] as usize;
+        add_traction(
+            &mut forces[point as usize],
+            &stresses[material],
+            area(normal),
+        );
+    }
+    for (point, normal, next) in lattice.inner_faces() {
+        let ends = [point, next].map(|it| it as usize);
+        let [own, other] = ends.map(|it| material_of_cell[it] as usize);
+        if own != other {
+            let half = area(normal).map(|it| 0.5 * it);
+            for end in ends {
+                add_traction(&mut forces[end], &stresses[own], half);
+                add_traction(&mut forces[end], &stresses[other], half.map(|it| -it));
+            }
+        }
     }
     forces
 }

@@ -26,26 +26,23 @@ mod members;
 pub use dual::Report;
 pub use forces::{CellForces, of_lattice, of_mesh};
 
+use super::Correction;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
 use equations::PlaneEquations;
 
 /// Settings of the correction.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Smallest factor over the uncorrected one.
+    /// Smallest factor over the uncorrected one, lo.
     pub lowest: f64,
-    /// Largest factor over the uncorrected one.
+    /// Largest factor over the uncorrected one, hi.
     pub highest: f64,
     /// Weight of the equations of moments against those of forces.
     pub moment_weight: f64,
-    /// Regularisations r of the outer steps: each lets go where the equations cannot be met, and the next takes its bias away.
-    pub regularisation: Vec<f64>,
-    /// Reduction of the residual in an outer step.
-    pub reduction: f64,
-    /// Root mean square of the scaled residual below which the equations count as met.
-    pub tolerance: f64,
+    /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has a tenth of the one before.
+    pub regularisation: f64,
 }
 
 impl Default for Settings {
@@ -53,58 +50,55 @@ impl Default for Settings {
         Self {
             lowest: 0.02,
             highest: 20.0,
-            moment_weight: 0.1,
-            regularisation: vec![1e-2, 1e-3, 1e-4, 1e-4],
-            reduction: 0.1,
-            tolerance: 1e-5,
+            moment_weight: 0.03,
+            regularisation: 1e-5,
         }
     }
 }
 
-/// Factors of the bonds, and how well they meet the equations.
+/// The correction, and how well it meets its equations.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PatchFactors {
-    /// Factors q_n of the axial stiffness, shape (n_bonds).
-    pub axial: Vec<f64>,
-    /// Factors q_t of the shear and the rotational stiffness, shape (n_bonds).
-    pub shear: Vec<f64>,
-    /// Largest force that is left at each point under the strains of size one, over the size of its own terms, shape (n_points).
+pub struct Patch {
+    /// Factors alpha, and Omega = q_n/alpha.
+    pub correction: Correction,
+    /// Stiffness with shear and rotation times q_t/q_n.
+    pub stiffness: BondStiffness,
+    /// Largest force that is left at each point under the strains of size one, over the size of its terms, shape (n_points).
     pub residual: Vec<f64>,
-    /// The factor c_0 of the whole body.
-    pub body_factor: f64,
     /// The iteration.
     pub report: Report,
 }
 
-/// The factors of all bonds with uncorrected factors alpha (n_bonds), for bonds whose points turn or not.
-pub fn factors(
+/// The correction of bonds with uncorrected factors alpha (n_bonds), whose points turn or not, for the forces of the cells.
+pub fn correct(
     bonds: &BondSet,
     cloud: &PointCloud,
-    stiffness: &BondStiffness,
-    alpha: &[f64],
+    mut stiffness: BondStiffness,
+    alpha: Vec<f64>,
     forces: &CellForces,
     turns_points: bool,
     settings: &Settings,
-) -> PatchFactors {
-    if turns_points {
-        let equations = PlaneEquations::<9>::new(
-            bonds,
-            cloud,
-            stiffness,
-            alpha,
-            forces,
-            settings.moment_weight,
-        );
+) -> Patch {
+    let weight = settings.moment_weight;
+    let factors = if turns_points {
+        let equations = PlaneEquations::<9>::new(bonds, cloud, &stiffness, &alpha, forces, weight);
         dual::minimise(&equations, settings)
     } else {
-        let equations = PlaneEquations::<6>::new(
-            bonds,
-            cloud,
-            stiffness,
-            alpha,
-            forces,
-            settings.moment_weight,
-        );
+        let equations = PlaneEquations::<6>::new(bonds, cloud, &stiffness, &alpha, forces, weight);
         dual::minimise(&equations, settings)
+    };
+    let both = factors.axial.iter().zip(&factors.shear);
+    let of_bonds = (stiffness.shear.iter_mut()).zip(&mut stiffness.rotational);
+    for ((shear, rotational), (axial_factor, shear_factor)) in of_bonds.zip(both) {
+        let ratio = shear_factor / axial_factor;
+        (*shear, *rotational) = (*shear * ratio, *rotational * ratio);
+    }
+    let omega = factors.axial.iter().zip(&alpha);
+    let omega = omega.map(|(factor, alpha)| factor / alpha).collect();
+    Patch {
+        correction: Correction::fixed(alpha, omega),
+        stiffness,
+        residual: factors.residual,
+        report: factors.report,
     }
 }
