@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::{Value, json};
 
-use super::sections::RawCase;
+use super::sections::Case;
 
 /// The JSON schema of a case file.
 ///
@@ -16,7 +16,7 @@ pub fn schema() -> Value {
     let mut schema = settings
         .with_transform(ForToml)
         .into_generator()
-        .into_root_schema_for::<RawCase>();
+        .into_root_schema_for::<Case>();
     schema.insert("title".to_owned(), "Case file of Ligament".into());
     schema.to_value()
 }
