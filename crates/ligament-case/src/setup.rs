@@ -116,7 +116,7 @@ impl CaseFile {
             }
             SetupFault::NameTwice { name, first } => Fault::NotUnique {
                 name,
-                first: self.key(first),
+                first: self.key(first.part("name")),
                 advice: match field.name {
                     "loads" => {
                         ": give one of the loads another `name` (the name of a load without one is its group)"
@@ -177,10 +177,12 @@ impl CaseFile {
             _ => format!("{list}.{index}"),
         };
         let part = match (field.name, field.part) {
+            ("supports", None) => "displacement",
             ("materials", Some("elasticity")) | ("loads", Some("name")) | (_, None) => {
                 return element;
             }
             ("materials", Some(_)) => missing_key(field),
+            ("precracks", Some("points")) => &self.points_key(index),
             (_, Some("place")) => self.place_key(field.name, index),
             (_, Some("action")) => self.case.loads[index].action_key(),
             (_, Some("change")) => self.case.temperatures[index].change_key(),
@@ -189,6 +191,16 @@ impl CaseFile {
             (_, Some(other)) => other,
         };
         format!("{element}.{part}")
+    }
+
+    /// The key of the points of a pre-crack, or of the one that repeats the point before it.
+    fn points_key(&self, index: usize) -> String {
+        let points = self.case.precracks[index].points.iter();
+        let mut pairs = points.flat_map(|points| points.windows(2));
+        let repeated = pairs.position(|pair| pair[0] == pair[1]);
+        repeated.map_or("points".to_owned(), |before| {
+            format!("points.{}", before + 1)
+        })
     }
 
     /// The key by which an element of a list says where it is.

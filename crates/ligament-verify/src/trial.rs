@@ -12,7 +12,7 @@ use ligament_analysis::modal::Mode;
 use ligament_analysis::{COMPONENTS, Termination};
 use ligament_mesh::gmsh;
 
-use ligament_case::case::{Case, CaseError, CaseFile};
+use ligament_case::case::{CaseError, CaseFile};
 
 /// A case file of the repository, as it was when the program was built.
 pub(super) struct Template {
@@ -99,12 +99,13 @@ impl Trial {
         self.model_with(|_| {})
     }
 
-    /// The discrete model of the case after a change that no setting makes.
-    pub(super) fn model_with(&self, change: impl FnOnce(&mut Case)) -> anyhow::Result<Model> {
+    /// The discrete model of the case after a change of its setup that no setting makes.
+    pub(super) fn model_with(&self, change: impl FnOnce(&mut Setup)) -> anyhow::Result<Model> {
         let model = || {
-            let mut case = self.case()?;
-            change(&mut case.case);
-            build(&case, case.setup(&mut ())?)
+            let case = self.case()?;
+            let mut setup = case.setup(&mut ())?;
+            change(&mut setup);
+            build(&case, setup)
         };
         model().with_context(|| self.command())
     }

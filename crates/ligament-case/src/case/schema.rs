@@ -38,7 +38,8 @@ impl Transform for ForToml {
 
 fn without_null(schema: &mut Schema) {
     let is_null = |value: &Value| value == &json!({ "type": "null" });
-    if schema.get("default").is_some_and(Value::is_null) {
+    // The default of a table is that of its keys.
+    if (schema.get("default")).is_some_and(|it| it.is_null() || it.is_object()) {
         schema.remove("default");
     }
     if let Some(Value::Array(types)) = schema.get_mut("type") {

@@ -40,8 +40,8 @@ impl Setup {
             self.check_material(Field::element("materials", index), &region.material)?;
         }
         self.check_criteria()?;
-        self.check_correction()?;
         self.check_strains_of_bonds()?;
+        self.check_correction()?;
         self.check_load_factors()?;
         self.check_precracks()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
