@@ -44,6 +44,7 @@ mod trial;
 mod yielding;
 
 pub use experiment::{Experiment, Findings};
+pub use trial::Template;
 
 use entry::Verdict;
 use report::{console, files, markdown};

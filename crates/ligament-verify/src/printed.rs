@@ -39,12 +39,6 @@ impl Printed {
         Some(Self { text, value })
     }
 
-    /// A number that is known exactly, shown with so many decimals.
-    pub fn exact(value: f64, decimals: usize) -> Self {
-        let text = format!("{value:.decimals$}");
-        Self { text, value }
-    }
-
     /// The number.
     pub fn value(&self) -> f64 {
         self.value

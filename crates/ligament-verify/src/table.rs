@@ -3,6 +3,7 @@
 use std::fmt;
 
 use anyhow::Context;
+use ligament_plot::plots::{Plot, Series};
 
 use super::entry::{Entry, Verdict};
 use super::printed::{Allowed, Difference};
@@ -133,42 +134,48 @@ impl Table {
             .count()
     }
 
-    /// Computed values over the numbers of a key, from the rows that have all these labels, shape (n, 2).
+    /// Computed values over the numbers of a key, from the rows with all the labels of `of` (`law=pds, of=lattice`; none for
+    /// all rows), shape (n, 2).
     ///
     /// # Errors
     ///
     /// If the table has no such key, or a label of it is no number.
-    pub fn computed(&self, x: &str, of: &[(&str, &str)]) -> Result<Vec<[f64; 2]>, LabelError> {
+    pub fn computed(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
         self.points(x, of, |row| row.computed)
     }
 
-    /// Known values over the numbers of a key, from the rows that have all these labels, shape (n, 2).
+    /// Known values over the numbers of a key, from the rows that `of` names as in [`Table::computed`], shape (n, 2).
     ///
     /// # Errors
     ///
     /// If the table has no such key, or a label of it is no number.
-    pub fn known(&self, x: &str, of: &[(&str, &str)]) -> Result<Vec<[f64; 2]>, LabelError> {
+    pub fn known(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
         self.points(x, of, |row| row.entry.known.value())
     }
 
     fn points(
         &self,
         x: &str,
-        of: &[(&str, &str)],
+        of: &str,
         y: impl Fn(&Row) -> f64,
     ) -> Result<Vec<[f64; 2]>, LabelError> {
         let mut points = Vec::new();
         for row in &self.rows {
             let labels = self.labels(row);
             let mut belongs = true;
-            for (key, label) in of {
-                belongs &= labels.text(key)? == *label;
+            for (key, label) in of.split(", ").filter_map(|it| it.split_once('=')) {
+                belongs &= labels.text(key)? == label;
             }
             if belongs {
                 points.push([labels.number(x)?, y(row)]);
             }
         }
         Ok(points)
+    }
+
+    /// A plot with the name and the title of the table.
+    pub fn plot(&self, axes: [&str; 2], series: Vec<Series>) -> Plot {
+        Plot::new(&self.heading.name, &self.heading.title, axes, series)
     }
 
     /// Computed less known value of a row: an amount in a table that allows amounts and where the known value is 0, a

@@ -21,7 +21,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             times the tensile one. The error is the one of the orientation that yields last, as `ligament yield` computes \
             it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
             bonds of a lattice, in the worst direction of a bond.",
-    cases: &["cases/verification/lattice.toml"],
+    cases: &[&CASE],
     compute,
 };
 
@@ -139,11 +139,10 @@ fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
         let name = format!("m = {ratio}");
         series.push(Series::curve(name, colour, points));
     }
-    Ok(Plot {
-        name: format!("first-yield-{criterion}"),
-        title: format!("Simple extension, error of first yield: {criterion}"),
-        x: "orientation, degrees".to_owned(),
-        y: "error, %".to_owned(),
+    Ok(Plot::new(
+        format!("first-yield-{criterion}"),
+        format!("Simple extension, error of first yield: {criterion}"),
+        ["orientation, degrees", "error, %"],
         series,
-    })
+    ))
 }

@@ -39,7 +39,7 @@ pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
             experiment
                 .cases
                 .iter()
-                .map(|path| format!("`{path}`"))
+                .map(|case| format!("`{}`", case.path))
                 .collect::<Vec<_>>()
                 .join(", ")
         );
