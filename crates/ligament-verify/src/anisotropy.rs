@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use ligament_model::failure::Criteria;
-use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{Distribution, families, interior, mean_error};
 use ligament_model::yielding::{Family, PrincipalStretches, lattice};
 
@@ -44,11 +43,7 @@ static DISK_MESH: StoredMesh = stored_mesh!("disk-2mm-platen-1.5mm.msh");
 static PLATE_MESH: StoredMesh = stored_mesh!("plate.msh");
 
 /// Limits that are the same for all bonds; the errors under one measure do not depend on them.
-const STRENGTHS: Strengths = Strengths {
-    poisson: 0.0,
-    ratio: 3.0,
-    calibration: Calibration::Printed,
-};
+const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();

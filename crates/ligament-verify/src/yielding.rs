@@ -28,11 +28,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 static CASE: Template = template!("verification/lattice.toml");
 
 /// Strengths as in the paper's tables.
-const STRENGTHS: Strengths = Strengths {
-    poisson: 0.0,
-    ratio: 3.0,
-    calibration: Calibration::Printed,
-};
+const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
 
 /// Young's modulus and tensile strength of the bar, Pa.
 const YOUNG: f64 = 70e9;

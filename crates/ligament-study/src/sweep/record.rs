@@ -32,13 +32,14 @@ pub(super) struct Record {
 }
 
 /// How far a run is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Status {
     /// The run is done, with these results.
     Done(Quantities),
     /// The run failed when it was last tried.
     Failed(String),
     /// The run has no results.
+    #[default]
     Missing,
     /// The run has results of other inputs, which differ as the text says.
     Changed(String),
@@ -62,6 +63,15 @@ impl Status {
             (Ok(results), _) => Self::Done(results),
             (Err(_), Some(reason)) => Self::Failed(reason),
             (Err(_), None) => Self::Missing,
+        }
+    }
+
+    /// A number that is larger the more there is of a run.
+    pub(super) fn rank(&self) -> u8 {
+        match self {
+            Self::Done(_) => 2,
+            Self::Failed(_) => 1,
+            Self::Missing | Self::Changed(_) => 0,
         }
     }
 

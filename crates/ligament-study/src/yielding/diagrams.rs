@@ -23,19 +23,19 @@ pub struct Comparison {
 }
 
 /// Paths of loading in the tables, s_1 to s_2: those of the paper's at F_c = 3 F_t.
-pub const PATHS: [[f64; 2]; 12] = [
-    [1.0, 1.0],
-    [0.5, 1.0],
-    [0.0, 1.0],
-    [-1.0, 2.0],
-    [-1.0, 1.0],
-    [-3.0, 2.0],
-    [-2.0, 1.0],
-    [-3.0, 1.0],
-    [-6.0, 1.0],
-    [-1.0, 0.0],
-    [-1.0, -0.5],
-    [-1.0, -1.0],
+pub const PATHS: [PrincipalStretches; 12] = [
+    PrincipalStretches::new(1.0, 1.0),
+    PrincipalStretches::new(0.5, 1.0),
+    PrincipalStretches::new(0.0, 1.0),
+    PrincipalStretches::new(-1.0, 2.0),
+    PrincipalStretches::new(-1.0, 1.0),
+    PrincipalStretches::new(-3.0, 2.0),
+    PrincipalStretches::new(-2.0, 1.0),
+    PrincipalStretches::new(-3.0, 1.0),
+    PrincipalStretches::new(-6.0, 1.0),
+    PrincipalStretches::new(-1.0, 0.0),
+    PrincipalStretches::new(-1.0, -0.5),
+    PrincipalStretches::new(-1.0, -1.0),
 ];
 
 /// Paths of a locus: one a degree.
@@ -107,8 +107,7 @@ fn write_summary(folder: &ResultFolder, comparisons: &[Comparison]) -> anyhow::R
     for comparison in comparisons {
         for subject in &comparison.subjects {
             let family = subject.family();
-            for [first, second] in PATHS {
-                let path = PrincipalStretches::new(first, second);
+            for path in PATHS {
                 let Some(worst) = family.worst(path) else {
                     continue;
                 };
