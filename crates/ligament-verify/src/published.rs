@@ -65,18 +65,18 @@ impl Published {
 /// What is wrong with a table, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("published table {name}, line {line}: {fault}")]
-pub struct TableError {
+pub(super) struct TableError {
     /// Name of the table.
-    pub name: String,
+    pub(super) name: String,
     /// Line, from 1.
-    pub line: usize,
+    pub(super) line: usize,
     /// What is wrong.
-    pub fault: TableFault,
+    pub(super) fault: TableFault,
 }
 
 /// What is wrong with a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TableFault {
+pub(super) enum TableFault {
     /// A line of the heading is not there.
     #[error("no line `# {key}: ...` stands above the columns")]
     NoHeading {
@@ -110,11 +110,7 @@ pub enum TableFault {
 }
 
 /// The known values of a table in a file of this name.
-///
-/// # Errors
-///
-/// If a line of the heading is missing, or a cell does not hold what its column takes; with the line.
-pub fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
+pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
     let at = |line: usize| {
         move |fault| TableError {
             name: name.to_owned(),

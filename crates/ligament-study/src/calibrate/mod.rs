@@ -6,8 +6,8 @@
 
 pub mod line;
 mod record;
-pub mod request;
-pub mod search;
+mod request;
+mod search;
 
 use std::io::Write;
 

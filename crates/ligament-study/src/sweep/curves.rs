@@ -20,33 +20,29 @@ const COLOURS: [Colour; 6] = [
 
 /// The curves of a plot of a study.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curves<'a> {
+pub(super) struct Curves<'a> {
     /// The section of the study that asks for the plot.
-    pub plot: &'a StudyPlot,
+    pub(super) plot: &'a StudyPlot,
     /// Name of the plot's file, without the ending.
-    pub name: String,
+    pub(super) name: String,
     /// The curves in the order of the axis.
-    pub curves: Vec<Curve>,
+    pub(super) curves: Vec<Curve>,
 }
 
 /// Runs that have one value of the axis `by`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub(super) struct Curve {
     /// The label of that value; empty where there is one curve for all.
-    pub label: String,
+    pub(super) label: String,
     /// Points in the order of x, shape (n, 2); runs without numbers have none.
-    pub points: Vec<[f64; 2]>,
+    pub(super) points: Vec<[f64; 2]>,
     /// The line through those in the range of the plot's fit, if it has one.
-    pub fit: Option<Result<LineFit, FitError>>,
+    pub(super) fit: Option<Result<LineFit, FitError>>,
 }
 
 impl<'a> Curves<'a> {
     /// The curves of a plot over the runs of a table.
-    ///
-    /// # Errors
-    ///
-    /// If x or y is no column of numbers.
-    pub fn over_runs(
+    pub(super) fn over_runs(
         study: &Study,
         plot: &'a StudyPlot,
         runs: &[Run],
@@ -89,7 +85,7 @@ impl<'a> Curves<'a> {
     }
 
     /// Places on x where some curve has a point, ascending.
-    pub fn places(&self) -> Vec<f64> {
+    pub(super) fn places(&self) -> Vec<f64> {
         let mut places: Vec<f64> = self.points().map(|[x, _]| *x).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
@@ -101,7 +97,7 @@ impl<'a> Curves<'a> {
     }
 
     /// The plot: the runs, the known line dashed, fitted lines in the colours of their curves.
-    pub fn drawn(&self, title: &str) -> Plot {
+    pub(super) fn drawn(&self, title: &str) -> Plot {
         let plot = self.plot;
         let places = self.places();
         let ends = places.first().zip(places.last());
@@ -150,7 +146,7 @@ impl Curve {
     }
 
     /// The mean of y at each x, and whether some x has several points.
-    pub fn means(&self) -> (Vec<[f64; 2]>, bool) {
+    pub(super) fn means(&self) -> (Vec<[f64; 2]>, bool) {
         let groups = self.points.chunk_by(|a, b| a[0] == b[0]);
         let mean = |group: &[[f64; 2]]| {
             let sum: f64 = group.iter().map(|[_, y]| y).sum();

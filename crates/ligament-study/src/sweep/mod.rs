@@ -5,19 +5,19 @@
 //! ([`record`]), so that the same command goes on where it was stopped. At the end there is a [`table`] of all runs, with
 //! [`curves`] and fitted lines ([`crate::line_fit`]).
 
-pub mod axis;
-pub mod curves;
+mod axis;
+mod curves;
 mod error;
 mod estimate;
 pub mod folder;
 mod launch;
-pub mod meshes;
+mod meshes;
 pub mod plan;
 mod progress;
-pub mod record;
+mod record;
 mod report;
 pub mod study;
-pub mod table;
+mod table;
 mod written;
 
 use std::collections::BTreeMap;

@@ -33,7 +33,7 @@ pub(super) struct Record {
 
 /// How far a run is.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub enum Status {
+pub(super) enum Status {
     /// The run is done, with these results.
     Done(Quantities),
     /// The run failed when it was last tried.
@@ -47,7 +47,7 @@ pub enum Status {
 
 impl Status {
     /// The status of a run in a folder.
-    pub fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
+    pub(super) fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
         let text = fs::read_to_string(folder.record(run)).unwrap_or_default();
         let Ok(record) = serde_json::from_str::<Record>(&text) else {
             return Self::Missing;
@@ -76,7 +76,7 @@ impl Status {
     }
 
     /// The word for it in tables.
-    pub fn word(&self) -> &'static str {
+    pub(super) fn word(&self) -> &'static str {
         match self {
             Self::Done(_) => "done",
             Self::Failed(_) => "failed",

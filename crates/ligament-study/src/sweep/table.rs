@@ -36,11 +36,11 @@ struct Column {
     "no column of numbers is called `{name}`{}",
     hint(name, known, "there are", '`')
 )]
-pub struct NoColumn {
+pub(super) struct NoColumn {
     /// The name.
-    pub name: String,
+    pub(super) name: String,
     /// The columns of numbers.
-    pub known: Vec<String>,
+    pub(super) known: Vec<String>,
 }
 
 /// A run as a row.
@@ -133,10 +133,6 @@ impl StudyTable {
     }
 
     /// The numbers of a column, shape (n_runs); `None` where a run has none. An input may be called by its key alone.
-    ///
-    /// # Errors
-    ///
-    /// If no run has numbers under this name.
     pub(super) fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, NoColumn> {
         let is_number = |column: &&Column| column.cells.iter().any(Cell::is_number);
         let by_name = |name: &str| self.columns.iter().find(|column| column.name == name);
@@ -153,10 +149,6 @@ impl StudyTable {
     }
 
     /// Writes it as CSV; what a run does not have is an empty field.
-    ///
-    /// # Errors
-    ///
-    /// If the file cannot be written.
     pub(super) fn write_csv(&self, path: &Path) -> Result<(), ligament_output::Error> {
         let names = self.columns.iter().map(|column| Value::Text(&column.name));
         let mut text = csv::line(&names.collect::<Vec<_>>());

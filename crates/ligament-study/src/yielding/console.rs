@@ -9,11 +9,7 @@ use super::subject::Subject;
 
 /// Errors of all paths, a column a family, as MPPD Tables 7 to 9 have them; with the measure of those tables below
 /// each other.
-///
-/// # Errors
-///
-/// If the terminal cannot be written to.
-pub fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
+pub(super) fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
     let Comparison {
         criterion,
         subjects,

@@ -6,8 +6,8 @@ use super::entry::Standing;
 use super::table::{Row, Table};
 
 pub mod console;
-pub mod files;
-pub mod markdown;
+pub(super) mod files;
+pub(super) mod markdown;
 
 /// A table as words.
 struct Printable {
