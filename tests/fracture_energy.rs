@@ -322,12 +322,10 @@ impl Separation {
         };
         let positions = bench.positions().iter();
         let is_left = positions.map(|&position| segment.side(position) > 0.0);
-        let motions: Vec<[f64; 3]> = is_left
-            .map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] })
-            .collect();
+        let motions = is_left.map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] });
+        let u = of_all(system.layout(), motions);
         let intact = vec![true; system.bonds.len()];
-        let deformations =
-            system.deformations(&intact, motions.as_flattened(), ThermalStrain::NONE);
+        let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
         for bond in segment.crossing(bench) {
             let deformation = deformations[bond];
             let ratio = bench.model.criteria.utilisation(bond, &deformation);

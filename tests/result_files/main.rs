@@ -111,11 +111,11 @@ impl Case {
             let row: [Entry; 2] = [usize::into(number), mode.kind.name().into()];
             table.push(row.into_iter().chain(reals.map(Entry::from)));
             canvas.grid(&file, &mut expected);
-            let motions = || mode.shape.chunks(3);
-            let moved: Vec<[f64; 3]> = motions().map(|it| [it[0], it[1], 0.0]).collect();
+            let motions = by_point(model.system.layout(), &mode.shape);
+            let moved: Vec<[f64; 3]> = motions.iter().map(|it| [it[0], it[1], 0.0]).collect();
             canvas.displacement(&file, &moved, &mut expected);
             let mut fields = canvas.on(&file, &mut expected);
-            fields.reals("rotation", motions().map(|it| it[2]));
+            fields.reals("rotation", motions.iter().map(|it| it[2]));
             let density = mode.strain_energy_density.iter().copied();
             fields.reals("strain_energy_density", density);
             fields.fixed(&model);

@@ -169,7 +169,7 @@ impl Bench {
 }
 
 impl Run {
-    /// Displacements and rotations of the last state, shape (3 n_points).
+    /// Displacements and rotations of the last state, shape (n_degrees_of_freedom).
     pub fn displacement(&self) -> &[f64] {
         &self.outcome.state.displacement
     }
@@ -184,11 +184,11 @@ impl Run {
         &self.outcome.state
     }
 
-    /// Force along x and y and moments of the points of a group at the last load step.
-    pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
+    /// Forces and moments of the points of a group at the last load step, shape (n_components).
+    pub fn group_force(&self, bench: &Bench, name: &str) -> &[f64] {
         let groups = &bench.boundary.groups;
         let place = groups.iter().position(|group| group.name == name).unwrap();
-        self.last().group_forces[place]
+        &self.last().group_forces[place]
     }
 }
 
