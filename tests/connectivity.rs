@@ -4,7 +4,7 @@
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::unknowns::Unknowns;
-use ligament_model::BondSystem;
+use ligament_model::{BondSystem, Bonds};
 use verification::bench::Bench;
 use verification::numbers::Random;
 use verification::problems::{BAR, DISK, PLATE, SQUARE, TWO};

@@ -19,7 +19,7 @@ use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
-use verification::numbers::{deviation, relative_error};
+use verification::numbers::{deviation, of_all, relative_error};
 use verification::problems::{BAR, DISK, TWO};
 use verification::table::Table;
 use verification::trusses::{Rod, Truss, settings};

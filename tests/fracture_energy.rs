@@ -13,7 +13,7 @@ use ligament_model::law::bbpd;
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
-use verification::numbers::relative_error;
+use verification::numbers::{of_all, relative_error};
 
 const FRACTURE_ENERGY: f64 = 40.0;
 const THICKNESS: f64 = 0.002;

@@ -1,9 +1,10 @@
 //! Bodies under pressure against closed forms: Lame's ring on a mesh and on a lattice, and the same pressure all round.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::Bonds;
 use ligament_analysis::history::Notice;
 use verification::bench::{Bench, Run};
-use verification::numbers::{component, gradient, relative_error};
+use verification::numbers::{by_point, gradient, relative_error};
 
 /// Ring of radii 0.1 and 0.2 m in plane strain; what presses it is added.
 const RING: &str = r#"

@@ -4,13 +4,14 @@
 
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
+use ligament_model::Bonds;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
-use verification::numbers::{deviation, relative_error};
+use verification::numbers::{by_point, deviation, relative_error};
 use verification::table::Table;
 
 /// 12 x 8 cells of 5 mm around the origin, held at the left and pulled aslant at the right.

@@ -2,14 +2,14 @@
 //! are one.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
+use ligament_analysis::{Component, internal};
 use ligament_case::case::Law;
-use ligament_model::ElementKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
+use ligament_model::{Bonds, ElementKind};
 use verification::bench::{Bench, Run};
-use verification::numbers::{Random, deviation, largest, relative_error};
+use verification::numbers::{Random, by_point, deviation, largest, of_all, relative_error};
 use verification::problems::SQUARE;
 
 /// What a law is asked for.

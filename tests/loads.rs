@@ -6,6 +6,7 @@ use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, gauges};
 use ligament_cli::check::{Extent, check};
+use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
 use verification::bench::{self, Bench, Run};

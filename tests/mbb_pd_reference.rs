@@ -11,7 +11,7 @@ use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::Bench;
-use verification::numbers::{deviation, relative_error, short};
+use verification::numbers::{by_point, deviation, relative_error, short};
 use verification::table::Table;
 
 /// 14 x 11 cells of 2 mm about the origin, held below and moved above.

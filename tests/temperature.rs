@@ -7,7 +7,7 @@ use ligament_analysis::{ControlKind, internal};
 use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use verification::bench::{Bench, Run};
-use verification::numbers::{component, largest, relative_error};
+use verification::numbers::{by_point, largest, relative_error};
 
 const YOUNG: f64 = 65.8e9; // Pa
 const ALPHA: f64 = 23e-6; // 1/K

@@ -17,6 +17,7 @@ use ligament::Loading;
 use ligament::run::follow;
 use ligament_case::case::CaseFile;
 use ligament_cli::check::{self, Extent};
+use ligament_model::Bonds;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{families, interior};
@@ -27,6 +28,7 @@ use ligament_run::stages::Stages;
 use ligament_study::yielding::subject::Strain;
 use ligament_study::yielding::{self, Families, Request};
 use verification::meshes;
+use verification::numbers::by_point;
 
 use bodies::{Canvas, Squares};
 use expected::{Entry, Expected, Rows};

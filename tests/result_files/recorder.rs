@@ -2,10 +2,11 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::{ControlKind, fields};
+use ligament_analysis::{Component, ControlKind, fields};
 use ligament_case::case::{Control, StressField};
-use ligament_model::Absence;
+use ligament_model::{Absence, Bonds};
 use ligament_run::model::Model;
+use verification::numbers::by_point;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};

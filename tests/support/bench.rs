@@ -9,7 +9,7 @@ use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
-use ligament_analysis::{ProportionalLoading, State};
+use ligament_analysis::{Bonds, Component, ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_run::model::{Model, build_model};
@@ -184,11 +184,12 @@ impl Run {
         &self.outcome.state
     }
 
-    /// Forces and moments of the points of a group at the last load step, shape (n_components).
-    pub fn group_force(&self, bench: &Bench, name: &str) -> &[f64] {
+    /// Force along x and y and moments of the points of a group at the last load step.
+    pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
         let groups = &bench.boundary.groups;
         let place = groups.iter().position(|group| group.name == name).unwrap();
-        &self.last().group_forces[place]
+        let layout = bench.model.system.layout();
+        Component::ALL.map(|it| layout.value(0, it, &self.last().group_forces[place]))
     }
 }
 
