@@ -11,7 +11,7 @@ use ligament_run::progress::ProgressMode;
 use ligament_run::run;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
-use verification::numbers::{by_point, deviation, relative_error};
+use verification::numbers::{by_point, deviation, of_all, relative_error};
 use verification::table::Table;
 
 /// 12 x 8 cells of 5 mm around the origin, held at the left and pulled aslant at the right.
@@ -259,7 +259,7 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
         ];
         for ([xx, yy, xy], expected) in strains {
             let motion = |p: &[f64; 2]| [xx * p[0] + xy * p[1], xy * p[0] + yy * p[1], 0.0];
-            let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
+            let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
             let deformations =
                 internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;

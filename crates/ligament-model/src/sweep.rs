@@ -61,6 +61,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Vec<BondDeformation> {
+        assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
         let mut deformations = vec![BondDeformation::default(); ends.len()];
         deformations
