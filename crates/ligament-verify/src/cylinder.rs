@@ -1,11 +1,9 @@
 //! A thick cylinder of imaginary elements under internal pressure (MBB-PD section 4.2).
 
-use ligament_analysis::COMPONENTS;
-
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
-use super::trial::{Template, template};
+use super::trial::{Template, displacements, template};
 use ligament::run::Solution;
 
 /// The experiment.
@@ -45,10 +43,7 @@ fn difference(solution: &Solution, nu: f64) -> f64 {
     let cloud = &solution.model.system.cloud;
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
-    let motions = solution.outcome.state.displacement.chunks_exact(COMPONENTS);
-    let points: Vec<([f64; 2], [f64; 2])> = places
-        .zip(motions.map(|motion| [motion[0], motion[1]]))
-        .collect();
+    let points: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();
     // The lattice is symmetric about the centre: the least rigid motion is the mean displacement and the mean rotation. A
     // rotation has no u_r.
     let count = points.len() as f64;

@@ -3,7 +3,7 @@
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
-use super::trial::{Memory, Template, displacement_at, template};
+use super::trial::{Memory, Template, displacement_at, displacements, template};
 use ligament::run::Solution;
 use ligament_output::csv::read::Sheet;
 use ligament_plot::plots::{Colour, Plot, Series};
@@ -62,9 +62,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 
 impl Edge {
     fn from_solution(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
-        let all = solution.outcome.state.displacement.chunks_exact(3);
-        let mean =
-            all.map(|motion| motion[1]).sum::<f64>() / solution.model.system.cloud.len() as f64;
+        let across = displacements(solution).map(|[_, v]| v);
+        let mean = across.sum::<f64>() / solution.model.system.cloud.len() as f64;
         let mut edge = Self {
             angle,
             along: Vec::new(),

@@ -9,7 +9,7 @@ use ligament::body::MeshBody;
 use ligament::run::{Solution, Unobserved};
 use ligament::{Model, Setup};
 use ligament_analysis::modal::Mode;
-use ligament_analysis::{COMPONENTS, Termination};
+use ligament_analysis::{Bonds, Component, Termination};
 use ligament_mesh::gmsh;
 
 use ligament_case::case::{Case, CaseFile};
@@ -176,16 +176,28 @@ pub(super) fn probe(solution: &Solution, name: &str) -> anyhow::Result<f64> {
 
 /// The displacement of the point nearest to a place, in the last state of a run, m.
 pub(super) fn displacement_at(solution: &Solution, place: [f64; 2]) -> [f64; 2] {
-    let point = solution.model.system.cloud.nearest_point(place) as usize;
-    let motion = &solution.outcome.state.displacement[COMPONENTS * point..];
-    [motion[0], motion[1]]
+    let point = solution.model.system.cloud.nearest_point(place);
+    displacement(solution, point)
+}
+
+/// The displacements of all points in the last state of a run, m.
+pub(super) fn displacements(solution: &Solution) -> impl Iterator<Item = [f64; 2]> + '_ {
+    let points = 0..solution.model.system.cloud.len() as u32;
+    points.map(|point| displacement(solution, point))
+}
+
+fn displacement(solution: &Solution, point: u32) -> [f64; 2] {
+    let (layout, motions) = (
+        solution.model.system.layout(),
+        &solution.outcome.state.displacement,
+    );
+    [Component::X, Component::Y].map(|component| layout.value(point, component, motions))
 }
 
 /// The largest |u_x| and |u_y| of all points in the last state of a run, m.
 pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64; 2]> {
-    let motions = solution.outcome.state.displacement.chunks_exact(COMPONENTS);
-    Ok(motions.fold([0.0, 0.0], |[x, y], motion| {
-        [motion[0].abs().max(x), motion[1].abs().max(y)]
+    Ok(displacements(solution).fold([0.0, 0.0], |[x, y], [u, v]| {
+        [u.abs().max(x), v.abs().max(y)]
     }))
 }
 
