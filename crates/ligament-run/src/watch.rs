@@ -2,7 +2,6 @@
 
 use ligament::setup::Analysis;
 use ligament::{Body, Setup};
-use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
@@ -66,18 +65,14 @@ impl<'a> Watch<'a> {
                  (first at {})",
                 self.body.label(*first)
             ),
-            Notice::Mechanisms {
-                step,
-                degrees_of_freedom,
-            } => {
-                let tags: Vec<String> = degrees_of_freedom
-                    .iter()
-                    .take(SHOWN)
-                    .map(|dof| self.body.tag((dof / COMPONENTS) as u32).to_string())
+            Notice::Mechanisms { step, points } => {
+                let shown = points.iter().take(SHOWN);
+                let tags: Vec<String> = shown
+                    .map(|&point| self.body.tag(point).to_string())
                     .collect();
                 format!(
                     "step {step}: {} mechanism(s) without stiffness held, at {}(s) {}",
-                    degrees_of_freedom.len(),
+                    points.len(),
                     self.body.tagged(),
                     tags.join(", ")
                 )
