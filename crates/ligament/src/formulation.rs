@@ -15,56 +15,120 @@ use ligament_model::{
 
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
+use crate::setup::{Alpha, Calibration, Form, Law, MaterialRegion, Setup, Surface};
 
-/// Factors alpha of the bonds, shape (n_bonds).
-pub fn alpha(setup: &Setup, bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
-    match setup.correction.alpha {
-        Alpha::None => vec![1.0; bonds.len()],
-        Alpha::PartialVolume => partial_volume::partial_volume_factors(bonds, cloud),
-        Alpha::Length => length::length_factors(bonds, cloud),
-    }
+/// Law, calibration and corrections of a setup on the points of its body.
+#[derive(Debug, Clone, Copy)]
+pub struct Formulation<'a> {
+    /// The setup.
+    pub setup: &'a Setup,
+    /// Points of the body.
+    pub cloud: &'a PointCloud,
+    /// Horizons of the points.
+    pub horizons: &'a Horizons,
+    /// Index of the material of each cell, shape (n_cells).
+    pub material_of_cell: &'a [u32],
 }
 
-/// Stiffness densities of the bonds with factors alpha (n_bonds).
-pub fn stiffness(
-    setup: &Setup,
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    alpha: &[f64],
-) -> BondStiffness {
-    let (plane, law) = (setup.plane(), setup.law);
-    let materials = setup.materials.iter();
-    let elasticity: Vec<Elasticity> = materials.map(|it| it.material.elasticity).collect();
-    let isotropic: Vec<Isotropic> = elasticity
-        .iter()
-        .filter_map(Elasticity::isotropic)
-        .collect();
-    let stiffness = match law {
-        Law::Nhpd | Law::MppdBeam { .. } => beam::stiffness(bonds, cloud, &isotropic, plane),
-        Law::Bbpd { .. } => bbpd::stiffness(bonds, cloud, &isotropic, plane),
-        Law::BbpdConical { .. } => bbpd_conical::stiffness(bonds, cloud, &isotropic, plane),
-        Law::Pds { .. } => pds::stiffness(bonds, cloud, &isotropic, plane),
-        Law::Mppd {
-            rotational_stiffness,
-            ..
-        } => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational_stiffness),
-        Law::Orthotropic {
-            rotational_stiffness,
-        } => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational_stiffness),
-        Law::MbbPd {
-            form: Form::Rows, ..
-        } => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, plane),
-        Law::MbbPd { .. } => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
-    };
-    match law.calibration() {
-        Some(Calibration::Discrete) => {
-            let effective: Vec<Isotropic> = (setup.materials.iter())
-                .filter_map(|it| constants(&it.material, &law, plane))
-                .collect();
-            calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, plane)
+impl Formulation<'_> {
+    /// Factors alpha of the bonds, shape (n_bonds).
+    pub fn alpha(&self, bonds: &BondSet) -> Vec<f64> {
+        match self.setup.correction.alpha {
+            Alpha::None => vec![1.0; bonds.len()],
+            Alpha::PartialVolume => partial_volume::partial_volume_factors(bonds, self.cloud),
+            Alpha::Length => length::length_factors(bonds, self.cloud),
         }
-        Some(Calibration::Integral) | None => stiffness,
+    }
+
+    /// Stiffness densities of the bonds with factors alpha (n_bonds).
+    pub fn stiffness(&self, bonds: &BondSet, alpha: &[f64]) -> BondStiffness {
+        let (setup, cloud) = (self.setup, self.cloud);
+        let (plane, law) = (setup.plane(), setup.law);
+        let materials = setup.materials.iter();
+        let elasticity: Vec<Elasticity> = materials.map(|it| it.material.elasticity).collect();
+        let isotropic: Vec<Isotropic> = elasticity
+            .iter()
+            .filter_map(Elasticity::isotropic)
+            .collect();
+        let stiffness = match law {
+            Law::Nhpd | Law::MppdBeam { .. } => beam::stiffness(bonds, cloud, &isotropic, plane),
+            Law::Bbpd { .. } => bbpd::stiffness(bonds, cloud, &isotropic, plane),
+            Law::BbpdConical { .. } => bbpd_conical::stiffness(bonds, cloud, &isotropic, plane),
+            Law::Pds { .. } => pds::stiffness(bonds, cloud, &isotropic, plane),
+            Law::Mppd {
+                rotational_stiffness,
+                ..
+            } => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational_stiffness),
+            Law::Orthotropic {
+                rotational_stiffness,
+            } => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational_stiffness),
+            Law::MbbPd {
+                form: Form::Rows, ..
+            } => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, plane),
+            Law::MbbPd { .. } => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
+        };
+        match law.calibration() {
+            Some(Calibration::Discrete) => {
+                let effective: Vec<Isotropic> = (setup.materials.iter())
+                    .filter_map(|it| constants(&it.material, &law, plane))
+                    .collect();
+                calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, plane)
+            }
+            Some(Calibration::Integral) | None => stiffness,
+        }
+    }
+
+    /// The correction of bonds with stiffness densities and factors alpha (n_bonds).
+    pub fn correction(
+        &self,
+        bonds: &BondSet,
+        stiffness: &BondStiffness,
+        alpha: Vec<f64>,
+    ) -> Correction {
+        let (setup, cloud) = (self.setup, self.cloud);
+        match setup.correction.surface {
+            Surface::Domain(iteration) => {
+                let sweeps = iteration.sweeps(bonds.len());
+                let (materials, plane) = (setup.materials(), setup.plane());
+                let continuum = Continuum {
+                    materials: &materials,
+                    plane,
+                };
+                domain::iterate(bonds, cloud, stiffness, alpha, continuum, sweeps)
+            }
+            Surface::Patch(settings) => {
+                let points = match setup.law.element() {
+                    ElementKind::Beam => patch::Points::Turn,
+                    _ => patch::Points::Rest,
+                };
+                let forces = self.cell_forces();
+                patch::correct(bonds, cloud, stiffness, alpha, &forces, points, &settings)
+            }
+            Surface::Volume => {
+                let factors = surface::surface_factors(bonds, cloud, self.horizons, &alpha);
+                Correction::fixed(alpha, factors)
+            }
+            Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
+        }
+    }
+
+    /// Forces of uniform strains on the points, as the cells of the body know them with the constants that the law makes of theirs.
+    fn cell_forces(&self) -> CellForces {
+        let plane = self.setup.plane();
+        let stiffness = |region: &MaterialRegion| {
+            let of_law = constants(&region.material, &self.setup.law, plane);
+            of_law.map_or_else(
+                || region.material.elasticity.plane_stiffness(plane),
+                |isotropic| isotropic.plane_stiffness(plane),
+            )
+        };
+        let stiffness: Vec<_> = self.setup.materials.iter().map(stiffness).collect();
+        let (cloud, materials) = (self.cloud, self.material_of_cell);
+        match self.setup.body.origin() {
+            Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, materials, &stiffness),
+            Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, materials, &stiffness),
+            Origin::Points => patch::of_mesh(&[], cloud, materials, &stiffness),
+        }
     }
 }
 
@@ -77,68 +141,6 @@ pub fn constants(material: &Material, law: &Law, plane: Plane) -> Option<Isotrop
     } else {
         given
     })
-}
-
-/// The correction with factors alpha (n_bonds), and the stiffness densities that go with it.
-pub fn correction(
-    setup: &Setup,
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    horizons: &Horizons,
-    stiffness: BondStiffness,
-    alpha: Vec<f64>,
-    material_of_cell: &[u32],
-) -> (Correction, BondStiffness) {
-    let correction = match setup.correction.surface {
-        Surface::Domain(iteration) => {
-            let sweeps = iteration.sweeps(bonds.len());
-            let (materials, plane) = (setup.materials(), setup.plane());
-            let continuum = Continuum {
-                materials: &materials,
-                plane,
-            };
-            domain::iterate(bonds, cloud, &stiffness, alpha, continuum, sweeps)
-        }
-        Surface::Volume => {
-            let factors = surface::surface_factors(bonds, cloud, horizons, &alpha);
-            Correction::fixed(alpha, factors)
-        }
-        Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
-        Surface::Patch(settings) => {
-            let forces = cell_forces(setup, cloud, material_of_cell);
-            let turns_points = setup.law.element() == ElementKind::Beam;
-            let patch = patch::correct(
-                bonds,
-                cloud,
-                stiffness,
-                alpha,
-                &forces,
-                turns_points,
-                &settings,
-            );
-            return (patch.correction, patch.stiffness);
-        }
-    };
-    (correction, stiffness)
-}
-
-/// Forces of uniform strains on the points, as the cells of the body with the materials of the law know them.
-fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) -> CellForces {
-    let plane = setup.plane();
-    let stiffness: Vec<_> = (setup.materials.iter())
-        .map(
-            |region| match constants(&region.material, &setup.law, plane) {
-                Some(isotropic) => isotropic.plane_stiffness(plane),
-                None => region.material.elasticity.plane_stiffness(plane),
-            },
-        )
-        .collect();
-    match setup.body.origin() {
-        Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, material_of_cell, &stiffness),
-        Origin::Mesh(_) | Origin::Points => {
-            patch::of_mesh(setup.body.cells(), cloud, material_of_cell, &stiffness)
-        }
-    }
 }
 
 /// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `no_fail` (n_points) never fail.

@@ -8,12 +8,12 @@ use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, Horizons, PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, PointCloud,
 };
 
 use crate::body::Body;
 use crate::error::{Fault, Field, SetupError};
-use crate::formulation;
+use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::setup::{CorrectionDomain, Setup};
 use crate::stage::{Finding, StageWatcher, stage};
@@ -76,9 +76,16 @@ impl Model {
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            correct(&setup, &cloud, &horizons, bonds, &is_cut, &material_of_cell)
+            let formulation = Formulation {
+                setup: &setup,
+                cloud: &cloud,
+                horizons: &horizons,
+                material_of_cell: &material_of_cell,
+            };
+            correct(&formulation, bonds, &is_cut)
         });
-        watcher.found(&Finding::Correction(correction.report.as_ref()));
+        let report = correction.report.as_ref();
+        watcher.found(&Finding::Correction(&setup.correction, report));
 
         let no_fail = loading::no_fail(&setup, &cloud)?;
         let fixed = FixedFields {
@@ -205,14 +212,8 @@ struct Corrected {
 
 /// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
 /// way round if the setup says so.
-fn correct(
-    setup: &Setup,
-    cloud: &PointCloud,
-    horizons: &Horizons,
-    bonds: BondSet,
-    is_cut: &[bool],
-    material_of_cell: &[u32],
-) -> Corrected {
+fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Corrected {
+    let Formulation { setup, cloud, .. } = *formulation;
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     let any_is_cut = is_cut.contains(&true);
     let cut_first = setup.correction.domain == CorrectionDomain::Cracked;
@@ -221,17 +222,10 @@ fn correct(
     } else {
         bonds
     };
-    let alpha = formulation::alpha(setup, &bonds, cloud);
-    let stiffness = formulation::stiffness(setup, &bonds, cloud, &alpha);
-    let (correction, stiffness) = formulation::correction(
-        setup,
-        &bonds,
-        cloud,
-        horizons,
-        stiffness,
-        alpha,
-        material_of_cell,
-    );
+    let alpha = formulation.alpha(&bonds);
+    let stiffness = formulation.stiffness(&bonds, &alpha);
+    let correction = formulation.correction(&bonds, &stiffness, alpha);
+    let stiffness = stiffness.with_shear(&correction.shear_ratio);
     let (materials, plane) = (setup.materials(), setup.plane());
     let continuum = Continuum {
         materials: &materials,

@@ -1,6 +1,6 @@
 //! What a user should know about a model before trusting its results.
 
-use ligament_model::correction::CorrectionReport;
+use ligament_model::correction::{CorrectionReport, DomainReport, patch};
 use ligament_model::failure::Measure;
 use ligament_model::{ElementKind, FixedFields, Isotropic};
 use thiserror::Error;
@@ -13,6 +13,9 @@ const SMALLEST_SAFE_FACTOR: f64 = 2.0;
 
 /// Relative error of a point's energy under uniaxial strain above which a warning names the point.
 const ENERGY_TOLERANCE: f64 = 1e-4;
+
+/// What the patch correction may leave of its equations, as a root mean square: above it uniform strains are off by percents.
+const LARGEST_LEFT: f64 = 5e-3;
 
 /// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
@@ -56,6 +59,22 @@ pub enum Warning {
         /// Largest error of the energy.
         error: f64,
         /// The point with the largest error, in words.
+        worst: String,
+        /// Position of the point, m.
+        position: [f64; 2],
+    },
+    /// A patch correction whose equations the bonds cannot meet.
+    #[error(
+        "the patch correction cannot make every uniform strain an equilibrium: forces of {:.2} % of the size of their terms are left in \
+         the mean, of {:.0} % at worst ({worst} at {:.4}, {:.4}); more bonds a point help (model.horizon_factor = 3), or take \
+         correction.surface = \"domain\"", 100.0 * left, 100.0 * largest, position[0], position[1]
+    )]
+    NotMet {
+        /// Root mean square of what is left of the scaled equations.
+        left: f64,
+        /// The largest that is left at a point.
+        largest: f64,
+        /// The point, in words.
         worst: String,
         /// Position of the point, m.
         position: [f64; 2],
@@ -130,11 +149,17 @@ pub(crate) fn of_model(
 ) -> Vec<Warning> {
     let body = &*setup.body;
     let mut warnings: Vec<Warning> = body.remarks().into_iter().map(Warning::Body).collect();
-    if correction.is_some() {
+    if let Some(CorrectionReport::Domain(_)) = correction {
         warnings.extend(small_horizon(setup, spacing, fixed));
     }
-    if let Some(correction) = correction.filter(|report| !report.converged) {
-        warnings.push(not_converged(body, correction, fixed));
+    match correction {
+        Some(CorrectionReport::Domain(report)) if !report.converged => {
+            warnings.push(not_converged(body, report, fixed));
+        }
+        Some(CorrectionReport::Patch(report)) if report.left > LARGEST_LEFT => {
+            warnings.push(not_met(body, report));
+        }
+        _ => {}
     }
     if touched > 0 {
         warnings.push(Warning::Touched { bonds: touched });
@@ -165,7 +190,20 @@ fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
-fn not_converged(body: &dyn Body, correction: &CorrectionReport, fixed: &FixedFields) -> Warning {
+fn not_met(body: &dyn Body, report: &patch::Report) -> Warning {
+    let residual = &report.residual;
+    let worst = (0..residual.len())
+        .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
+        .unwrap_or_default();
+    Warning::NotMet {
+        left: report.left,
+        largest: residual[worst],
+        worst: body.label(worst as u32),
+        position: body.positions()[worst],
+    }
+}
+
+fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &FixedFields) -> Warning {
     let [x, y, ..] = &fixed.energy_ratios;
     let error = |point: usize| (x[point] - 1.0).abs().max((y[point] - 1.0).abs());
     let off = (0..x.len())

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::families::Families;
 use super::strain_mode::StrainMode;
-use super::{Correction, CorrectionReport};
+use super::{Correction, CorrectionReport, DomainReport};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::matrix;
@@ -69,16 +69,15 @@ pub fn iterate(
         last_change = families.sweep();
         done += 1;
     }
-    let report = CorrectionReport {
+    let report = DomainReport {
         sweeps: done,
         converged: last_change < tolerance,
         last_change,
         largest_residual: families.largest_residual(),
     };
     Correction {
-        domain_factor: families.into_domain_factors(),
-        length_factor,
-        report: Some(report),
+        report: Some(CorrectionReport::Domain(report)),
+        ..Correction::fixed(length_factor, families.into_domain_factors())
     }
 }
 

@@ -5,7 +5,8 @@
 //! |---|---|
 //! | [`length`]: short bonds count more (NHPD eq. 7) | [`domain`]: iterated until energies are right (NHPD eqs 11 to 13) |
 //! | [`partial_volume`]: cells that the horizon cuts (MPPD eq. 9) | [`surface`]: by the volumes of the families (MPPD) |
-//! | none: 1 | none: 1 |
+//! | none: 1 | [`patch`]: uniform strains are equilibria; another factor for shear and rotation |
+//! | | none: 1 |
 
 pub mod domain;
 mod families;
@@ -27,13 +28,24 @@ pub struct Correction {
     pub length_factor: Vec<f64>,
     /// Domain-correction factors Omega, or the surface factors in their place, shape (n_bonds).
     pub domain_factor: Vec<f64>,
-    /// Report on the iteration for Omega, where there was one.
+    /// Factors of the shear and rotational stiffness over Omega, shape (n_bonds); empty where all are 1.
+    pub shear_ratio: Vec<f64>,
+    /// Report on the iteration for the factors, where there was one.
     pub report: Option<CorrectionReport>,
 }
 
-/// Report on the iterations of the domain correction.
+/// Report on how a correction was found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CorrectionReport {
+    /// The sweeps of the domain correction.
+    Domain(DomainReport),
+    /// The Newton steps of the patch correction.
+    Patch(patch::Report),
+}
+
+/// Report on the sweeps of the domain correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CorrectionReport {
+pub struct DomainReport {
     /// Sweeps done.
     pub sweeps: usize,
     /// Whether the stop rule was met within the limit.
@@ -50,6 +62,7 @@ impl Correction {
         Self {
             length_factor,
             domain_factor,
+            shear_ratio: Vec::new(),
             report: None,
         }
     }
@@ -59,6 +72,11 @@ impl Correction {
         Self {
             length_factor: retained(self.length_factor, keep),
             domain_factor: retained(self.domain_factor, keep),
+            shear_ratio: if self.shear_ratio.is_empty() {
+                self.shear_ratio
+            } else {
+                retained(self.shear_ratio, keep)
+            },
             report: self.report,
         }
     }

@@ -109,6 +109,15 @@ impl BondStiffness {
         }
     }
 
+    /// The densities with shear and rotation times some factors (n_bonds); as they are without any.
+    pub fn with_shear(mut self, factors: &[f64]) -> Self {
+        let of_bonds = self.shear.iter_mut().zip(&mut self.rotational);
+        for ((shear, rotational), factor) in of_bonds.zip(factors) {
+            (*shear, *rotational) = (*shear * factor, *rotational * factor);
+        }
+        self
+    }
+
     /// The bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         use crate::bonds::retained;

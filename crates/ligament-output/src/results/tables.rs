@@ -1,9 +1,9 @@
 //! The CSV tables of a run.
 
-use ligament_analysis::Bonds;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
+use ligament_analysis::{Bonds, Component};
 
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -234,13 +234,12 @@ impl Tables {
             record.negative_eigenvalues.into(),
             record.dissipated_energy.into(),
         ];
-        row.extend(
-            record
-                .group_forces
-                .as_flattened()
-                .iter()
-                .map(|&force| Value::from(force)),
-        );
+        let layout = view.system.layout();
+        let of_groups = record.group_forces.iter().flat_map(|force| {
+            // The forces of a group stand as those of one point.
+            Component::ALL.map(|component| layout.value(0, component, force))
+        });
+        row.extend(of_groups.map(Value::from));
         row.extend(record.probes.iter().map(|&value| Value::from(value)));
         self.history.append(&row)?;
         self.time(record.step, view.costs)

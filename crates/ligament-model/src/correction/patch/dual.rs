@@ -64,16 +64,17 @@ const SHORTEST: f64 = 1e-6;
 const MOST_PRODUCTS: usize = 400;
 
 /// The iteration for the factors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Newton steps.
     pub steps: usize,
     /// Products with the Hessian.
     pub products: usize,
-    /// Root mean square of what is left of the scaled equations.
+    /// Root mean square over the points of what is left of their equations.
     pub left: f64,
-    /// Largest of what is left.
-    pub largest_left: f64,
+    /// Largest force or moment that is left at each point under a uniform strain of size one, over the size of its terms, shape
+    /// (n_points).
+    pub residual: Vec<f64>,
 }
 
 /// Factors of the bonds, and what they leave of the equations.
@@ -81,8 +82,6 @@ pub(super) struct Factors {
     /// First and second factors, each of shape (n_bonds).
     pub(super) axial: Vec<f64>,
     pub(super) shear: Vec<f64>,
-    /// Largest scaled force that is left at each point, shape (n_points).
-    pub(super) residual: Vec<f64>,
     pub(super) report: Report,
 }
 
@@ -309,9 +308,8 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
                 steps,
                 products,
                 left: self.root_mean_square(&left),
-                largest_left: residual.iter().copied().fold(0.0, f64::max),
+                residual: members.of_points(&residual),
             },
-            residual: members.of_points(&residual),
         }
     }
 

@@ -26,7 +26,7 @@ mod members;
 pub use dual::Report;
 pub use forces::{CellForces, of_lattice, of_mesh};
 
-use super::Correction;
+use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
@@ -45,60 +45,61 @@ pub struct Settings {
     pub regularisation: f64,
 }
 
+impl Settings {
+    /// The settings that meet the equations best on meshes of all kinds.
+    pub const DEFAULT: Self = Self {
+        lowest: 0.02,
+        highest: 20.0,
+        moment_weight: 0.03,
+        regularisation: 1e-5,
+    };
+}
+
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            lowest: 0.02,
-            highest: 20.0,
-            moment_weight: 0.03,
-            regularisation: 1e-5,
-        }
+        Self::DEFAULT
     }
 }
 
-/// The correction, and how well it meets its equations.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Patch {
-    /// Factors alpha, and Omega = q_n/alpha.
-    pub correction: Correction,
-    /// Stiffness with shear and rotation times q_t/q_n.
-    pub stiffness: BondStiffness,
-    /// Largest force that is left at each point under the strains of size one, over the size of its terms, shape (n_points).
-    pub residual: Vec<f64>,
-    /// The iteration.
-    pub report: Report,
-}
-
-/// The correction of bonds with uncorrected factors alpha (n_bonds), whose points turn or not, for the forces of the cells.
+/// The correction of bonds with uncorrected factors alpha (n_bonds), whose points turn or not, for the forces of the cells: Omega =
+/// q_n/alpha, and shear and rotation times q_t/q_n beside it.
 pub fn correct(
     bonds: &BondSet,
     cloud: &PointCloud,
-    mut stiffness: BondStiffness,
+    stiffness: &BondStiffness,
     alpha: Vec<f64>,
     forces: &CellForces,
-    turns_points: bool,
+    points: Points,
     settings: &Settings,
-) -> Patch {
+) -> Correction {
     let weight = settings.moment_weight;
-    let factors = if turns_points {
-        let equations = PlaneEquations::<9>::new(bonds, cloud, &stiffness, &alpha, forces, weight);
-        dual::minimise(&equations, settings)
-    } else {
-        let equations = PlaneEquations::<6>::new(bonds, cloud, &stiffness, &alpha, forces, weight);
-        dual::minimise(&equations, settings)
+    let factors = match points {
+        Points::Turn => {
+            let equations =
+                PlaneEquations::<9>::new(bonds, cloud, stiffness, &alpha, forces, weight);
+            dual::minimise(&equations, settings)
+        }
+        Points::Rest => {
+            let equations =
+                PlaneEquations::<6>::new(bonds, cloud, stiffness, &alpha, forces, weight);
+            dual::minimise(&equations, settings)
+        }
     };
-    let both = factors.axial.iter().zip(&factors.shear);
-    let of_bonds = (stiffness.shear.iter_mut()).zip(&mut stiffness.rotational);
-    for ((shear, rotational), (axial_factor, shear_factor)) in of_bonds.zip(both) {
-        let ratio = shear_factor / axial_factor;
-        (*shear, *rotational) = (*shear * ratio, *rotational * ratio);
-    }
     let omega = factors.axial.iter().zip(&alpha);
-    let omega = omega.map(|(factor, alpha)| factor / alpha).collect();
-    Patch {
-        correction: Correction::fixed(alpha, omega),
-        stiffness,
-        residual: factors.residual,
-        report: factors.report,
+    let ratio = factors.shear.iter().zip(&factors.axial);
+    Correction {
+        domain_factor: omega.map(|(factor, alpha)| factor / alpha).collect(),
+        shear_ratio: ratio.map(|(shear, axial)| shear / axial).collect(),
+        length_factor: alpha,
+        report: Some(CorrectionReport::Patch(factors.report)),
     }
+}
+
+/// Whether the points of the bonds have rotations, and so equations of moments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Points {
+    /// Points with rotations.
+    Turn,
+    /// Points without.
+    Rest,
 }
