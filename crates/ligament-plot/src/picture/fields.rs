@@ -257,22 +257,10 @@ impl Source {
         {
             relate_to_largest(field);
         }
-        let body = Body::read(&file)?;
-        let (n_points, n_cells) = (body.reference.len(), body.cells.len());
-        let fits = field.as_ref().is_none_or(|it| match it.location {
-            ligament_output::FieldLocation::Point => it.values.len() == n_points,
-            ligament_output::FieldLocation::Cell => it.values.len() == n_cells,
-        });
-        if !fits {
-            return Err(PictureError::NotDrawable {
-                path: path.to_path_buf(),
-                reason: format!("`{name}` has not one value a point or cell"),
-            });
-        }
         Ok(Panel {
             title,
             positions: Vec::new(),
-            body,
+            body: Body::read(&file)?,
             field,
             broken: Vec::new(),
         })

@@ -115,14 +115,6 @@ pub enum PictureError {
         /// Results given.
         n_results: usize,
     },
-    /// A file without what a picture needs.
-    #[error("cannot draw {}: {reason}", path.display())]
-    NotDrawable {
-        /// The file.
-        path: PathBuf,
-        /// What is missing.
-        reason: String,
-    },
     /// No value to draw.
     #[error("`{name}` has no finite value in these outputs")]
     NoValues {
