@@ -18,6 +18,15 @@ pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write_and_rename(path, contents).map_err(Error::system("write", path))
 }
 
+/// The text of a file.
+///
+/// # Errors
+///
+/// If the file cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    fs::read_to_string(path).map_err(Error::system("read", path))
+}
+
 fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {
     let temporary = temporary_path(path)?;
     let written = write_synced(&temporary, contents).and_then(|()| fs::rename(&temporary, path));

@@ -1,10 +1,9 @@
 //! Reads CSV tables back.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::Error;
+use crate::{Error, read_text};
 
 /// A table in memory, all values as texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +21,7 @@ impl Sheet {
     /// If the file cannot be read, or a row has not as many values as there are columns.
     pub fn read(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let text = fs::read_to_string(&path).map_err(Error::system("read", &path))?;
+        let text = read_text(&path)?;
         let mut records = records(&text).into_iter();
         let columns = records.next().unwrap_or_default();
         let rows: Vec<Vec<String>> = records.collect();
@@ -147,6 +146,7 @@ mod tests {
     use super::*;
     use crate::csv::Table;
     use proptest::prelude::*;
+    use std::fs;
 
     proptest! {
         #[test]
