@@ -19,7 +19,7 @@ use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
-use verification::numbers::{deviation, relative_error};
+use verification::numbers::{deviation, of_all, relative_error};
 use verification::problems::{BAR, DISK, TWO};
 use verification::table::Table;
 use verification::trusses::{Rod, Truss, settings};
@@ -62,15 +62,15 @@ fn motion([axial, lateral]: [f64; 2], angle: f64, [x, y]: [f64; 2]) -> [f64; 3] 
 fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
     let system = &*bench.model.system;
     let cloud = &system.cloud;
-    let strain: Vec<f64> = (cloud.positions.iter())
-        .flat_map(|&position| motion(strains, angle, position))
-        .collect();
+    let of_points = cloud.positions.iter();
+    let of_points = of_points.map(|&position| motion(strains, angle, position));
+    let strain = of_all(system.layout(), of_points);
     let mut boundary = ProportionalLoading::new(
-        cloud.len(),
+        system.layout(),
         Control {
             kind: ControlKind::Displacement,
             points: vec![0],
-            shape: vec![[1.0, 0.0, 0.0]],
+            shape: vec![1.0, 0.0],
             magnitude: strain[0],
         },
     );
@@ -81,8 +81,8 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
     };
     assert!((0..cloud.len()).filter(|&it| is_free(it)).count() >= 25);
     for point in (0..cloud.len()).filter(|&point| !is_free(point)) {
-        for component in Component::ALL {
-            let value = strain[3 * point + component.index()];
+        for &component in system.components() {
+            let value = system.layout().value(point as u32, component, &strain);
             boundary
                 .prescribe(&[point as u32], component, value)
                 .unwrap();
@@ -342,9 +342,8 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
             let excess = |turn: u32| {
                 let angle = f64::from(turn) * 0.9_f64.to_radians();
                 let of_points = system.cloud.positions.iter();
-                let u: Vec<f64> = of_points
-                    .flat_map(|&it| motion([strain, 0.0], angle, it))
-                    .collect();
+                let of_points = of_points.map(|&it| motion([strain, 0.0], angle, it));
+                let u = of_all(system.layout(), of_points);
                 let intact = vec![true; system.bonds.len()];
                 let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
                 let utilisation = |&bond: &u32| {

@@ -13,7 +13,7 @@ use ligament_model::law::bbpd;
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
-use verification::numbers::relative_error;
+use verification::numbers::{of_all, relative_error};
 
 const FRACTURE_ENERGY: f64 = 40.0;
 const THICKNESS: f64 = 0.002;
@@ -322,12 +322,10 @@ impl Separation {
         };
         let positions = bench.positions().iter();
         let is_left = positions.map(|&position| segment.side(position) > 0.0);
-        let motions: Vec<[f64; 3]> = is_left
-            .map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] })
-            .collect();
+        let motions = is_left.map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] });
+        let u = of_all(system.layout(), motions);
         let intact = vec![true; system.bonds.len()];
-        let deformations =
-            system.deformations(&intact, motions.as_flattened(), ThermalStrain::NONE);
+        let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
         for bond in segment.crossing(bench) {
             let deformation = deformations[bond];
             let ratio = bench.model.criteria.utilisation(bond, &deformation);

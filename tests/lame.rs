@@ -1,9 +1,10 @@
 //! Bodies under pressure against closed forms: Lame's ring on a mesh and on a lattice, and the same pressure all round.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::Bonds;
 use ligament_analysis::history::Notice;
 use verification::bench::{Bench, Run};
-use verification::numbers::{component, gradient, relative_error};
+use verification::numbers::{by_point, gradient, relative_error};
 
 /// Ring of radii 0.1 and 0.2 m in plane strain; what presses it is added.
 const RING: &str = r#"
@@ -34,9 +35,9 @@ impl Ring {
     /// Radius, radial displacement and Lame's at each point. What the gauges leave open is taken out: the ring is symmetric, so
     /// the field of Lame has no mean, and a rotation has no radial component.
     fn compare(&self, bench: &Bench, run: &Run) -> Vec<[f64; 3]> {
-        let u: Vec<[f64; 2]> = run.displacement().chunks(3).map(|u| [u[0], u[1]]).collect();
+        let u = by_point(bench.model.system.layout(), run.displacement());
         let mean = [0, 1].map(|axis| u.iter().map(|u| u[axis]).sum::<f64>() / u.len() as f64);
-        let radial = |(&[x, y], u): (&[f64; 2], &[f64; 2])| {
+        let radial = |(&[x, y], u): (&[f64; 2], &[f64; 3])| {
             let r = x.hypot(y);
             let along = ((u[0] - mean[0]) * x + (u[1] - mean[1]) * y) / r;
             [r, along, self.lame(r)]
@@ -171,8 +172,11 @@ outside = { centre = [0.0, 0.0], radius = 0.03 }
     ] {
         let bench = Bench::new(text, &[]);
         let run = bench.solve();
-        let [xx, xy] = gradient(bench.positions(), &component(run.displacement(), 0));
-        let [yx, yy] = gradient(bench.positions(), &component(run.displacement(), 1));
+        let motions = by_point(bench.model.system.layout(), run.displacement());
+        let [[xx, xy], [yx, yy]] = [0, 1].map(|axis| {
+            let along: Vec<f64> = motions.iter().map(|it| it[axis]).collect();
+            gradient(bench.positions(), &along)
+        });
         println!(
             "{:.5} {:.5} {:.1e}",
             xx / expected,

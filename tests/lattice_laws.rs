@@ -4,13 +4,14 @@
 
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
+use ligament_model::Bonds;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
-use verification::numbers::{deviation, relative_error};
+use verification::numbers::{by_point, deviation, of_all, relative_error};
 use verification::table::Table;
 
 /// 12 x 8 cells of 5 mm around the origin, held at the left and pulled aslant at the right.
@@ -85,11 +86,8 @@ fn plates_are_those_of_the_independent_calculation() {
                 .iter()
                 .map(|&row| reference.number(row, column))
                 .collect();
-            let found: Vec<f64> = run
-                .displacement()
-                .chunks(3)
-                .map(|motion| motion[component])
-                .collect();
+            let motions = by_point(bench.model.system.layout(), run.displacement());
+            let found: Vec<f64> = motions.iter().map(|it| it[component]).collect();
             let error = deviation(&found, &expected);
             let is_zero = expected.iter().all(|&value| value == 0.0);
             println!("{set} {column}: {error:.1e}");
@@ -261,7 +259,7 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
         ];
         for ([xx, yy, xy], expected) in strains {
             let motion = |p: &[f64; 2]| [xx * p[0] + xy * p[1], xy * p[0] + yy * p[1], 0.0];
-            let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
+            let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
             let deformations =
                 internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;

@@ -6,6 +6,7 @@ use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, gauges};
 use ligament_cli::check::{Extent, check};
+use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
 use verification::bench::{self, Bench, Run};
@@ -40,7 +41,11 @@ fn free_body(run: &Run) -> &FreeBody {
 /// Force or couple that each gauge carries: what the bonds exert there less what is given, N or N m.
 fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
     let internal = sweep(bench, run).internal.values;
-    let force = |&dof: &usize| (dof, internal[dof] - bench.boundary.force[dof]);
+    let force = |&(point, component): &(u32, Component)| {
+        let layout = bench.model.system.layout();
+        let dof = layout.degree_of_freedom(point, component).unwrap();
+        (dof, internal[dof] - bench.boundary.force[dof])
+    };
     free_body(run).gauges.iter().map(force).collect()
 }
 

@@ -9,6 +9,7 @@ use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::unknowns::Unknowns;
 use ligament_linalg::SymmetricMatrix;
+use ligament_model::Bonds;
 use ligament_model::element::imaginary::matrix;
 use ligament_model::thermal::ThermalStrain;
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -41,11 +42,8 @@ fn plane_stiffness(bench: &Bench) -> Matrix3<f64> {
 
 /// Deformations, forces and energy for a displacement of each point.
 fn sweep(bench: &Bench, intact: &[bool], displacement: impl Fn([f64; 2]) -> [f64; 2]) -> BondSweep {
-    let of_point = |&position: &[f64; 2]| {
-        let [u, v] = displacement(position);
-        [u, v, 0.0]
-    };
-    let displacement: Vec<f64> = bench.positions().iter().flat_map(of_point).collect();
+    let of_points = bench.positions().iter().map(|&it| displacement(it));
+    let displacement: Vec<f64> = of_points.flatten().collect();
     let bonds = BondsLeft::whole(intact);
     internal::sweep(
         &*bench.model.system,
@@ -127,7 +125,8 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
     }
     let (unknowns, matrix) = free_stiffness(&bench, &whole(&bench));
     let diagonal = |at: [f64; 2]| {
-        let unknown = unknowns.number(3 * point_at(&bench, at)).unwrap();
+        let along_x = system.layout().range(point_at(&bench, at) as u32).start;
+        let unknown = unknowns.number(along_x).unwrap();
         matrix.diagonal(unknown)
     };
     assert!(relative_error(diagonal([0.0, 0.0]), 4.975_202_07e7) < 2e-9);
@@ -139,7 +138,7 @@ fn free_stiffness(bench: &Bench, intact: &[bool]) -> (Unknowns, SymmetricMatrix)
     let system = &*bench.model.system;
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-    let held = vec![false; 3 * system.cloud.len()];
+    let held = vec![false; system.layout().n_degrees_of_freedom()];
     let bonds = BondsLeft::whole(intact);
     let matrix = assembly::assemble(system, &unknowns, &pattern, bonds, &held);
     (unknowns, matrix)
@@ -191,7 +190,9 @@ fn uniform_strains_are_in_equilibrium_inside() {
             let points = bench.positions().iter().enumerate();
             let wanted = points.filter(|(_, at)| at.iter().all(|it| it.abs() < 4.4e-3) == inside);
             wanted
-                .flat_map(|(point, _)| &swept.internal.values[3 * point..3 * point + 2])
+                .flat_map(|(point, _)| {
+                    &swept.internal.values[bench.model.system.layout().range(point as u32)]
+                })
                 .fold(0.0_f64, |largest, force| largest.max(force.abs()))
         };
         assert!(largest(true) < 1e-12 * swept.internal.force_scale, "{form}");
@@ -215,7 +216,8 @@ fn moduli_of_the_infinite_lattice_are_right_but_for_the_printed_form() {
         let middle = point_at(&bench, [0.0, 0.0]);
         let force_x = |displacement: fn([f64; 2]) -> [f64; 2]| {
             let swept = sweep(&bench, &whole(&bench), displacement);
-            -swept.internal.values[3 * middle] / bench.model.system.cloud.volumes[middle]
+            let along_x = bench.model.system.layout().range(middle as u32).start;
+            -swept.internal.values[along_x] / bench.model.system.cloud.volumes[middle]
         };
         let found = [
             force_x(|[x, _]| [0.5 * x * x, 0.0]) / c[(0, 0)],

@@ -4,14 +4,14 @@
 
 use std::collections::BTreeSet;
 
+use ligament_analysis::Termination;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_analysis::{COMPONENTS, Termination};
 use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::Bench;
-use verification::numbers::{deviation, relative_error, short};
+use verification::numbers::{by_point, deviation, relative_error, short};
 use verification::table::Table;
 
 /// 14 x 11 cells of 2 mm about the origin, held below and moved above.
@@ -93,8 +93,8 @@ fn plates_are_those_of_the_independent_calculation() {
         let mut errors = Vec::new();
         for (component, column) in ["ux", "uy"].into_iter().enumerate() {
             let expected: Vec<f64> = rows().map(|row| reference.number(row, column)).collect();
-            let found = run.displacement().chunks(3);
-            let found: Vec<f64> = found.map(|motion| motion[component]).collect();
+            let found = by_point(bench.model.system.layout(), run.displacement());
+            let found: Vec<f64> = found.iter().map(|motion| motion[component]).collect();
             errors.push(deviation(&found, &expected));
         }
         let energy = run.last().stored_energy;
@@ -147,14 +147,15 @@ fn stiffness_beside_cracks() {
     let intact = vec![true; system.bonds.len()];
     let axis = |row: usize, column: &str| usize::from(expected.text(row, column) == "y");
     let unknown = |row: usize, point: &str, of: &str| {
-        COMPONENTS * (expected.count(row, point) - 1) + axis(row, of)
+        let point = expected.count(row, point) - 1;
+        system.layout().range(point as u32).start + axis(row, of)
     };
     let moved: BTreeSet<usize> = (0..expected.len())
         .map(|row| unknown(row, "a", "i"))
         .collect();
     assert_eq!(moved.len(), 6);
     for moved in moved {
-        let mut u = vec![0.0; COMPONENTS * bench.points()];
+        let mut u = vec![0.0; system.layout().n_degrees_of_freedom()];
         u[moved] = 1.0;
         let sweep = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE);
         let mut row_of_stiffness = vec![0.0; u.len()];

@@ -2,10 +2,11 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::{ControlKind, fields};
+use ligament_analysis::{Component, ControlKind, fields};
 use ligament_case::case::{Control, StressField};
-use ligament_model::Absence;
+use ligament_model::{Absence, Bonds};
 use ligament_run::model::Model;
+use verification::numbers::by_point;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};
@@ -188,27 +189,19 @@ impl<'a> Recorder<'a> {
     fn write_fields(&mut self, file: &str, view: &View<'_>) {
         let (state, balanced) = (view.state, view.balanced);
         let system = &*self.model.system;
-        let motion = |point: usize| {
-            let at = 3 * point;
-            [
-                state.displacement[at],
-                state.displacement[at + 1],
-                state.displacement[at + 2],
-            ]
-        };
+        let layout = system.layout();
+        let motions = by_point(layout, &state.displacement);
         let points = 0..system.cloud.len();
         self.canvas.grid(file, &mut self.expected);
-        let displacement: Vec<[f64; 3]> = points
-            .clone()
-            .map(|point| [motion(point)[0], motion(point)[1], 0.0])
-            .collect();
+        let displacement: Vec<[f64; 3]> = motions.iter().map(|it| [it[0], it[1], 0.0]).collect();
         self.canvas
             .displacement(file, &displacement, &mut self.expected);
         let reactions = view
             .loads
             .reactions(state.load_factor, &balanced.internal.values);
+        let reactions = by_point(layout, &reactions);
         let mut fields_of = self.canvas.on(file, &mut self.expected);
-        fields_of.reals("rotation", points.clone().map(|it| motion(it)[2]));
+        fields_of.reals("rotation", motions.iter().map(|it| it[2]));
         fields_of.reals("damage", fields::damage(system, &state.intact));
         fields_of.reals(
             "strain_energy_density",
@@ -217,15 +210,13 @@ impl<'a> Recorder<'a> {
         fields_of.components(
             "reaction",
             ["", "", ""],
-            points
-                .clone()
-                .map(|it| [reactions[3 * it], reactions[3 * it + 1], 0.0]),
+            reactions.iter().map(|it| [it[0], it[1], 0.0]),
         );
         let fragments = view.fragments.of_point.iter();
         fields_of.integers("fragment", fragments.map(|&it| i64::from(it)));
         let held = points
             .clone()
-            .map(|it| i64::from(state.held[3 * it..3 * it + 3].contains(&true)));
+            .map(|it| i64::from(state.held[layout.range(it as u32)].contains(&true)));
         fields_of.integers("held", held);
         for (name, values) in fields::damages(system, view.criteria, state) {
             fields_of.reals(name, values);
@@ -265,8 +256,8 @@ impl<'a> Recorder<'a> {
             part: "point",
             name: "displacement",
         };
-        let motions = view.state.displacement.chunks(3);
-        let motions = motions.map(|it| [it[0], it[1], 0.0]);
+        let motions = by_point(system.layout(), &view.state.displacement);
+        let motions = motions.iter().map(|it| [it[0], it[1], 0.0]);
         self.expected.components(point, ["", "", ""], motions);
         let cell = |name| Place {
             file,
@@ -462,7 +453,11 @@ impl Observer for Recorder<'_> {
             record.negative_eigenvalues.into(),
             record.dissipated_energy.into(),
         ];
-        let forces = record.group_forces.iter().flatten().copied();
+        let layout = self.model.system.layout();
+        let forces = record
+            .group_forces
+            .iter()
+            .flat_map(|it| Component::ALL.map(|component| layout.value(0, component, it)));
         let more = forces.chain(record.probes.iter().copied()).map(Entry::from);
         self.history.push(row.into_iter().chain(more));
         Ok(())

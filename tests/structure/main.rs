@@ -29,11 +29,12 @@ const LARGE_FOR_A_REASON: [(&str, &str); 1] = [(
 const WITHOUT_SPACE: [&str; 2] = ["ligament-analysis", "ligament-linalg"];
 
 /// Words of the space that bodies lie in.
-const OF_SPACE: [&str; 9] = [
+const OF_SPACE: [&str; 10] = [
     "BondSystem",
     "COMPONENTS",
     "Plane",
     "PointCloud",
+    "UNKNOWNS",
     "cloud",
     "direction",
     "plane",
@@ -44,8 +45,8 @@ const OF_SPACE: [&str; 9] = [
 /// Words of space that are still there, in any file or as `file.rs word`, each with its reason. Nothing may be added.
 const STILL_SPATIAL: [(&str, &str); 2] = [
     (
-        "COMPONENTS",
-        "arrays over degrees of freedom have three components a point, also where the points do not turn",
+        "eigen.rs 3 *",
+        "the size of a basis, in vectors that are sought",
     ),
     (
         "proportional.rs [f64; 3]",
@@ -110,14 +111,11 @@ fn equations_know_no_dimension() {
         }
         for module in tree.modules() {
             let words: Vec<&str> = module.tokens.iter().map(|it| it.text.as_str()).collect();
-            let arrays = words.windows(5).filter_map(|window| match window {
-                ["[", "f64", ";", size @ ("2" | "3"), "]"] => Some(format!("[f64; {size}]")),
-                _ => None,
-            });
+            let counted = (0..words.len()).filter_map(|at| spatial_count(&words[at..]));
             let spatial = words.iter().filter(|word| OF_SPACE.contains(word));
             let spatial = spatial.map(|word| (*word).to_owned());
             found.extend(
-                arrays
+                counted
                     .chain(spatial)
                     .map(|word| format!("{} {word}", label(&module.file))),
             );
@@ -134,6 +132,42 @@ fn equations_know_no_dimension() {
             found.iter().any(|it| is_open(it, open)),
             "take it off the list: {open} ({reason})"
         );
+    }
+}
+
+/// The components of a point or of space that these tokens begin with: as the size of an array, as the step of a loop over degrees
+/// of freedom, as their places.
+fn spatial_count(tokens: &[&str]) -> Option<String> {
+    match tokens {
+        ["[", "f64", ";", size @ ("2" | "3"), "]", ..] => Some(format!("[f64; {size}]")),
+        ["[", "0", ",", "1", ",", "2", "]", ..] => Some("[0, 1, 2]".to_owned()),
+        [sign @ ("%" | "/" | "*"), count @ ("3" | "6"), ..] => Some(format!("{sign} {count}")),
+        [count @ ("3" | "6"), "*", ..] => Some(format!("{count} *")),
+        [
+            step @ ("chunks" | "chunks_exact" | "chunks_mut" | "step_by"),
+            "(",
+            count @ ("3" | "6"),
+            ..,
+        ] => Some(format!("{step}({count})")),
+        _ => None,
+    }
+}
+
+#[test]
+fn counts_of_components_are_seen() {
+    for (source, expected) in [
+        ("let point = dof / 3;", Some("/ 3")),
+        ("dof % 3 == 2", Some("% 3")),
+        ("let first = 3 * point;", Some("3 *")),
+        ("u.chunks(3)", Some("chunks(3)")),
+        ("[0, 1, 2].map(f)", Some("[0, 1, 2]")),
+        ("let force: [f64; 3];", Some("[f64; 3]")),
+        ("let middle = points.len() / 2;", None),
+    ] {
+        let tokens = text::tokens(source);
+        let words: Vec<&str> = tokens.iter().map(|it| it.text.as_str()).collect();
+        let found = (0..words.len()).find_map(|at| spatial_count(&words[at..]));
+        assert_eq!(found.as_deref(), expected, "{source}");
     }
 }
 

@@ -9,7 +9,7 @@ use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
-use ligament_analysis::{ProportionalLoading, State};
+use ligament_analysis::{Bonds, Component, ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_run::model::{Model, build_model};
@@ -169,7 +169,7 @@ impl Bench {
 }
 
 impl Run {
-    /// Displacements and rotations of the last state, shape (3 n_points).
+    /// Displacements and rotations of the last state, shape (n_degrees_of_freedom).
     pub fn displacement(&self) -> &[f64] {
         &self.outcome.state.displacement
     }
@@ -188,7 +188,8 @@ impl Run {
     pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
         let groups = &bench.boundary.groups;
         let place = groups.iter().position(|group| group.name == name).unwrap();
-        self.last().group_forces[place]
+        let layout = bench.model.system.layout();
+        Component::ALL.map(|it| layout.value(0, it, &self.last().group_forces[place]))
     }
 }
 

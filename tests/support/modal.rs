@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ligament::Vibration;
 use ligament::setup::Analysis;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, ModalProblem, Rotations};
-use ligament_analysis::{Supports, Unknowns};
+use ligament_analysis::{Component, Supports, Unknowns};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::LumpedMass;
@@ -45,7 +45,7 @@ impl ModalBench {
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let vibration = Vibration::new(&model.setup, &model.system.cloud).unwrap();
+        let vibration = Vibration::new(&model.setup, &model.system).unwrap();
         Self {
             supports: vibration.supports,
             mass: vibration.mass,
@@ -74,10 +74,13 @@ impl ModalBench {
     /// The degrees of freedom that are unknown, and their masses.
     pub fn unknown_masses(&self, rotations: Rotations) -> Vec<(usize, f64)> {
         let unknowns = Unknowns::all_but(&*self.model.system, |dof| self.supports.held[dof]);
-        let mass_of = |dof: usize| match (dof % 3, rotations) {
-            (2, Rotations::Massless) => 0.0,
-            (2, Rotations::Inertia) => self.mass.inertia[dof / 3],
-            _ => self.mass.mass[dof / 3],
+        let layout = unknowns.layout();
+        let mass_of = |dof: usize| match (layout.component(dof), rotations) {
+            (Component::Rotation, Rotations::Massless) => 0.0,
+            (Component::Rotation, Rotations::Inertia) => {
+                self.mass.inertia[layout.point(dof) as usize]
+            }
+            _ => self.mass.mass[layout.point(dof) as usize],
         };
         let dofs = unknowns.degrees_of_freedom().iter();
         dofs.map(|&dof| (dof as usize, mass_of(dof as usize)))

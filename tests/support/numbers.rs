@@ -1,5 +1,7 @@
 //! Small mathematics.
 
+use ligament_analysis::{Component, Layout};
+
 /// |value / expected - 1|.
 pub fn relative_error(value: f64, expected: f64) -> f64 {
     (value / expected - 1.0).abs()
@@ -29,7 +31,24 @@ pub fn short(values: &[f64]) -> String {
     words.join(" ")
 }
 
-/// Components `c` of an array over the degrees of freedom (3 a point).
+/// Values of all degrees of freedom by point: along x, along y and of rotation, zero where points do not turn.
+pub fn by_point(layout: Layout, of_all: &[f64]) -> Vec<[f64; 3]> {
+    assert_eq!(of_all.len(), layout.n_degrees_of_freedom());
+    (0..layout.n_points as u32)
+        .map(|point| Component::ALL.map(|component| layout.value(point, component, of_all)))
+        .collect()
+}
+
+/// Values of all degrees of freedom: those of x, y and rotation that points have.
+pub fn of_all(layout: Layout, by_point: impl IntoIterator<Item = [f64; 3]>) -> Vec<f64> {
+    let plane = Layout {
+        components: &Component::ALL,
+        ..layout
+    };
+    plane.reduced(layout, by_point.into_iter().flatten().collect())
+}
+
+/// Components `c` of an array over the degrees of freedom of points that turn (3 a point).
 pub fn component(values: &[f64], c: usize) -> Vec<f64> {
     values.iter().skip(c).step_by(3).copied().collect()
 }

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use ligament_analysis::SolverSettings;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::driver::{Outcome, Problem, StopRules, event, stepped};
 use ligament_analysis::load_program::{Control, ControlKind, ProportionalLoading};
 use ligament_analysis::unknowns::Component;
+use ligament_analysis::{Layout, SolverSettings};
 use ligament_model::element::Rigidities;
 use ligament_model::element::pair::Pairs;
 use ligament_model::failure::{Criteria, Criterion, Measure};
@@ -88,11 +88,15 @@ impl Truss {
         let control = Control {
             kind,
             points: vec![controlled],
-            shape: vec![[1.0, 0.0, 0.0]],
+            shape: vec![1.0, 0.0, 0.0],
             magnitude: 1.0,
         };
+        let plane = Layout {
+            n_points: n,
+            components: &Component::ALL,
+        };
         Self {
-            boundary: ProportionalLoading::new(n, control),
+            boundary: ProportionalLoading::new(plane, control),
             bond_of_rod: (rods.iter())
                 .map(|rod| {
                     bonds

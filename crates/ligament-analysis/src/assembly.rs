@@ -10,7 +10,7 @@ use ligament_model::interface::CoupledPoints;
 use ligament_model::{Bonds, BondsLeft};
 use rayon::prelude::*;
 
-use crate::unknowns::{COMPONENTS, Unknowns};
+use crate::unknowns::Unknowns;
 
 /// The pattern of the matrix (upper triangle) for some unknowns, with all bonds: breakages only take couplings away.
 pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
@@ -46,13 +46,14 @@ pub fn assemble(
     held: &[bool],
 ) -> SymmetricMatrix {
     let coupled = system.coupled_points();
+    let n_components = unknowns.layout().components.len();
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
     columns_of_points(&mut matrix.values, pattern, unknowns, system.n_points())
         .into_par_iter()
         .enumerate()
         .for_each(|(point, values)| {
             let lower: Vec<u32> = lower_points(coupled, point).collect();
-            let mut blocks = vec![0.0; (lower.len() + 1) * COMPONENTS * COMPONENTS];
+            let mut blocks = vec![0.0; (lower.len() + 1) * n_components * n_components];
             system.add_blocks(bonds, point as u32, &lower, &mut blocks);
             let columns = Columns {
                 unknowns,
@@ -61,7 +62,7 @@ pub fn assemble(
                 values,
             };
             columns.fill(&lower, |place, r, c| {
-                blocks[(place * COMPONENTS + r) * COMPONENTS + c]
+                blocks[(place * n_components + r) * n_components + c]
             });
         });
     matrix
@@ -85,7 +86,8 @@ impl Columns<'_> {
             point,
             values,
         } = self;
-        let is_held = |point: usize, component: usize| held[COMPONENTS * point + component];
+        let n_components = unknowns.layout().components.len();
+        let is_held = |point: usize, place: usize| held[n_components * point + place];
         let mut slots = values.iter_mut();
         for (column, c) in unknowns.of_point(point) {
             let entry = &entry;

@@ -42,8 +42,8 @@ pub struct Balanced {
     /// The energy that the motions of the points cost ([`BondSweep::energy_of_motion`](ligament_model::sweep::BondSweep::energy_of_motion), the stored one unless the temperature
     /// changes) where it is negative, beyond rounding, J.
     pub negative_energy: Option<f64>,
-    /// Degrees of freedom that turned out to be mechanisms and are held from now on.
-    pub mechanisms: Vec<usize>,
+    /// Points of degrees of freedom that turned out to be mechanisms and are held from now on.
+    pub mechanisms: Vec<u32>,
 }
 
 impl Balanced {

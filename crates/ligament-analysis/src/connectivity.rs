@@ -21,7 +21,7 @@ pub struct Fragments {
 /// A rigid motion of a fragment that nothing held any more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Hold {
-    /// Degree of freedom (of 3 n_points) that is held from now on.
+    /// Degree of freedom that is held from now on.
     pub degree_of_freedom: usize,
     /// Fragment that it belongs to.
     pub fragment: u32,
@@ -81,7 +81,7 @@ impl Fragments {
     }
 
     /// The rigid motions of a fragment that cost no energy and that no fixed degree of freedom prevents: displacements and
-    /// rotations of its points in each of them, shape (motions, 3 points of the fragment).
+    /// rotations of its points in each of them, shape (motions, degrees of freedom of the points).
     pub fn free_motions(
         &self,
         fragment: usize,

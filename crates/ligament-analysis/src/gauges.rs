@@ -10,7 +10,7 @@ pub use ligament_model::rigid_motions::FreeMotion;
 
 use crate::connectivity::{Fragments, Hold};
 use crate::load_program::LoadProgram;
-use crate::unknowns::Unknowns;
+use crate::unknowns::{Component, Unknowns};
 
 /// A connected part of the intact body that can move rigidly.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +23,8 @@ pub struct FreeBody {
     pub first: u32,
     /// Free motions of the part.
     pub motions: Vec<FreeMotion>,
-    /// Degrees of freedom (of 3 n_points) held as gauges, ascending.
-    pub gauges: Vec<usize>,
+    /// Components of points held as gauges, in the order of the degrees of freedom.
+    pub gauges: Vec<(u32, Component)>,
 }
 
 impl FreeBody {
@@ -71,11 +71,13 @@ fn free_body(
     let force = |dof: usize| loads.forces(1.0, &[dof as u32])[0];
     let mut gauges: Vec<usize> = holds.iter().map(|hold| hold.degree_of_freedom).collect();
     gauges.sort_unstable();
+    let layout = system.layout();
+    let named = |dof: usize| (layout.point(dof), layout.component(dof));
     FreeBody {
         points: points.len(),
         is_whole: points.len() == system.n_points(),
         first: points[0],
         motions: system.free_motions(points, &is_prescribed, &force),
-        gauges,
+        gauges: gauges.into_iter().map(named).collect(),
     }
 }

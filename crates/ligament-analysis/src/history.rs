@@ -11,7 +11,6 @@ use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::state::State;
-use crate::unknowns::COMPONENTS;
 
 /// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
 /// the next bonds break, just before they do.
@@ -50,8 +49,9 @@ pub struct StepRecord {
     pub at_rest: bool,
     /// Negative eigenvalues of the stiffness; 0 where it is positive definite.
     pub negative_eigenvalues: usize,
-    /// Forces along x and y that each group of the boundary exerts on the body, and the moments on its points.
-    pub group_forces: Vec<[f64; COMPONENTS]>,
+    /// Forces that each group of the boundary exerts on the body, and the moments on its points, as far as points turn, shape
+    /// (n_groups, n_components).
+    pub group_forces: Vec<Vec<f64>>,
     /// Values of the probes.
     pub probes: Vec<f64>,
 }
@@ -114,12 +114,12 @@ pub enum Notice {
         first: u32,
     },
     /// Points without stiffness in some direction are held there.
-    #[error("step {step}: {} mechanism(s) held, first at point {}", degrees_of_freedom.len(), degrees_of_freedom[0] / COMPONENTS)]
+    #[error("step {step}: {} mechanism(s) held, first at point {}", points.len(), points[0])]
     Mechanisms {
         /// Load step.
         step: usize,
-        /// Degrees of freedom held.
-        degrees_of_freedom: Vec<usize>,
+        /// Points of the degrees of freedom held.
+        points: Vec<u32>,
     },
     /// The stored energy became negative, and the run goes on because it was asked to.
     #[error(

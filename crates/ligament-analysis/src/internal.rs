@@ -1,9 +1,10 @@
 //! Deformations and forces of the bonds, and what of the forces is not in balance.
 
-use ligament_model::layout::Component;
 pub use ligament_model::sweep::{BondSweep, InternalForces};
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Bonds, BondsLeft};
+
+use crate::unknowns::Unknowns;
 
 /// Deformations, forces and energy of all bonds for displacements (n_degrees_of_freedom).
 pub fn sweep(
@@ -16,17 +17,14 @@ pub fn sweep(
     system.forces(bonds, deformations, expansion)
 }
 
-/// Largest |external - internal force| over the given degrees of freedom, relative to the forces that meet at a point.
-pub fn relative_residual(
-    residual: &[f64],
-    degrees_of_freedom: &[u32],
-    internal: &InternalForces,
-) -> f64 {
+/// Largest |external - internal force| of a residual (n_unknowns), relative to the forces that meet at a point.
+pub fn relative_residual(residual: &[f64], unknowns: &Unknowns, internal: &InternalForces) -> f64 {
+    let is_rotation = |dof: u32| unknowns.layout().component(dof as usize).is_rotation();
     let largest = |rotational: bool| {
         residual
             .iter()
-            .zip(degrees_of_freedom)
-            .filter(|&(_, &dof)| Component::at(dof as usize).is_rotation() == rotational)
+            .zip(unknowns.degrees_of_freedom())
+            .filter(|&(_, &dof)| is_rotation(dof) == rotational)
             // `f64::max` would pass over a NaN, and with it over a failed solve.
             .map(|(value, _)| {
                 if value.is_nan() {

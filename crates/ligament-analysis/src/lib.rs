@@ -44,4 +44,4 @@ pub use problem::Problem;
 pub use solver::SolverSettings;
 pub use state::State;
 pub use supports::Supports;
-pub use unknowns::{COMPONENTS, Component, Unknowns};
+pub use unknowns::{Component, Layout, Unknowns};

@@ -5,7 +5,7 @@ mod proportional;
 use std::fmt::Debug;
 
 use crate::internal::InternalForces;
-use crate::unknowns::COMPONENTS;
+use crate::unknowns::Layout;
 use ligament_model::thermal::ThermalStrain;
 
 pub use proportional::{BoundaryError, ProportionalLoading};
@@ -44,8 +44,8 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Groups whose resultants the history reports.
     fn groups(&self) -> &[BoundaryGroup];
 
-    /// Resultant of the given forces that act through a group, N and N m.
-    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> [f64; COMPONENTS];
+    /// Resultant of the given forces that act through a group, shape (n_components), N and N m.
+    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> Vec<f64>;
 
     /// The load whose displacement and force are the axes of the force-displacement curve.
     fn control(&self) -> &Control;
@@ -65,14 +65,15 @@ pub struct BoundaryGroup {
     pub name: String,
     /// Points, ascending.
     pub points: Vec<u32>,
-    /// Resultant of the given forces that act through this group at load factor 1, N and N m.
-    pub force: [f64; COMPONENTS],
+    /// Resultant of the given forces that act through this group at load factor 1, shape (n_components), N and
+    /// N m.
+    pub force: Vec<f64>,
 }
 
 /// The load whose displacement and force are the axes of the force-displacement curve.
 ///
 /// Displacement and force are work-conjugate: force times the increment of displacement is the work of this load, whatever its distribution.
-/// With the load's `shape` w_i (n_points, components x, y and rotation) and `magnitude` m at load factor lambda
+/// With the load's `shape` w_i (n_points, n_components) and `magnitude` m at load factor lambda
 ///
 /// - prescribed motions are u_i = lambda m w_i: the displacement is lambda m, the force the sum of w_i . R_i over the
 ///   reactions R_i;
@@ -90,8 +91,8 @@ pub struct Control {
     pub kind: ControlKind,
     /// Points of the load.
     pub points: Vec<u32>,
-    /// Share of each point in a load of size one, in (x, y, rotation).
-    pub shape: Vec<[f64; COMPONENTS]>,
+    /// Shares of the points in a load of size one, shape (n_points of the load, n_components).
+    pub shape: Vec<f64>,
     /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa),
     /// before a profile.
     pub magnitude: f64,
@@ -110,14 +111,12 @@ pub enum ControlKind {
 
 impl Control {
     /// Sum over the points of shape . value, for values at degrees of freedom.
-    pub(crate) fn along(&self, value: impl Fn(usize) -> f64) -> f64 {
-        let of_point = |(&point, shape): (&u32, &[f64; COMPONENTS])| {
-            let first = COMPONENTS * point as usize;
-            let components = shape.iter().enumerate();
-            components
-                .map(|(component, share)| value(first + component) * share)
-                .sum::<f64>()
+    pub(crate) fn along(&self, layout: Layout, value: impl Fn(usize) -> f64) -> f64 {
+        let of_point = |(&point, shape): (&u32, &[f64])| {
+            let dofs = layout.range(point).zip(shape);
+            dofs.map(|(dof, share)| value(dof) * share).sum::<f64>()
         };
-        self.points.iter().zip(&self.shape).map(of_point).sum()
+        let shapes = self.shape.chunks(layout.components.len());
+        self.points.iter().zip(shapes).map(of_point).sum()
     }
 }

@@ -6,7 +6,7 @@ use ligament_model::failure::{Criteria, Weakened};
 use crate::balanced::Balanced;
 use crate::fields;
 use crate::state::State;
-use crate::unknowns::{COMPONENTS, Component};
+use crate::unknowns::Component;
 
 /// A column of the history.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +51,7 @@ pub enum PointField {
     Damage,
     /// Damage by one way of failing, see [`fields::damage_by`].
     DamageBy(Weakened),
-    /// A displacement or the rotation, m or rad.
+    /// A displacement or the rotation, m or rad; zero where points do not have it.
     Motion(Component),
     /// Strain energy density, J/m^3.
     StrainEnergyDensity,
@@ -79,24 +79,20 @@ impl Reading {
         state: &State,
         balanced: &Balanced,
     ) -> f64 {
+        let motion = |point: u32, component: Component| {
+            system.layout().value(point, component, &state.displacement)
+        };
         match self {
             Self::RelativeDisplacement {
                 points: [first, second],
                 component,
-            } => {
-                let motion = |point: u32| {
-                    state.displacement[COMPONENTS * point as usize + component.index()]
-                };
-                motion(*second) - motion(*first)
-            }
+            } => motion(*second, *component) - motion(*first, *component),
             Self::Field { point, field } => match field {
                 PointField::Damage => fields::point_damage(system, &state.intact, *point),
                 PointField::DamageBy(way) => {
                     fields::point_damage_by(system, criteria, state, *way, *point)
                 }
-                PointField::Motion(component) => {
-                    state.displacement[COMPONENTS * *point as usize + component.index()]
-                }
+                PointField::Motion(component) => motion(*point, *component),
                 PointField::Stress(component) => {
                     let deformations = &balanced.deformations;
                     let stress = system.stress(state.bonds(), deformations, *point);

@@ -4,14 +4,13 @@ use ligament_model::Bonds;
 pub use ligament_model::BondsLeft;
 
 use crate::softening::Softening;
-use crate::unknowns::COMPONENTS;
 
 /// Motion of the points and what is left of the bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Load factor.
     pub load_factor: f64,
-    /// Displacements and rotations, shape (3 n_points), m and rad.
+    /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
     pub displacement: Vec<f64>,
     /// For each bond, whether it is unbroken, shape (n_bonds).
     pub intact: Vec<bool>,
@@ -21,14 +20,15 @@ pub struct State {
     pub softening: Softening,
     /// Energy that each bond has taken for good, shape (n_bonds), J.
     pub dissipated: Vec<f64>,
-    /// Degrees of freedom held because nothing else would hold them, shape (3 n_points).
+    /// Degrees of freedom held because nothing else would hold them, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
 }
 
 impl State {
     /// The unloaded body with all its bonds.
     pub fn fresh(system: &dyn Bonds) -> Self {
-        let (n, n_bonds) = (COMPONENTS * system.n_points(), system.ends().len());
+        let n = system.layout().n_degrees_of_freedom();
+        let n_bonds = system.ends().len();
         Self {
             load_factor: 0.0,
             displacement: vec![0.0; n],

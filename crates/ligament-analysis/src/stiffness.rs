@@ -10,7 +10,7 @@ use crate::assembly;
 use crate::error::SetupError;
 use crate::solver::{Ordering, SolverChoice, SolverSettings, Update};
 use crate::state::State;
-use crate::unknowns::{COMPONENTS, Unknowns};
+use crate::unknowns::Unknowns;
 
 /// Numbering, pattern and symbolic factor of the stiffness of a bond system, and the choice of a solver for it.
 ///
@@ -118,7 +118,7 @@ impl Stiffness {
         }
         let is_alone = |dof: usize| {
             let incidence = self.system.incidence();
-            let mut bonds = incidence.at((dof / COMPONENTS) as u32).iter();
+            let mut bonds = incidence.at(self.unknowns.layout().point(dof)).iter();
             bonds.all(|&bond| !state.intact[bond as usize])
         };
         let alone: Vec<bool> = (0..state.held.len()).map(is_alone).collect();
@@ -131,9 +131,12 @@ impl Stiffness {
     }
 }
 
+/// Terms by which an element changes a factor, at most.
+const TERMS: usize = 3;
+
 /// Number of elements up to which changing the factor costs less than making it: each of the terms of an element reads and writes
 /// a part of the values of the factor.
 fn most_bonds_in_place(symbolic: &Symbolic) -> usize {
-    let of_one_bond = (COMPONENTS * symbolic.n_factor_values()) as f64;
+    let of_one_bond = (TERMS * symbolic.n_factor_values()) as f64;
     (symbolic.n_multiplications() / of_one_bond) as usize
 }

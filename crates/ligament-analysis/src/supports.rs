@@ -1,11 +1,12 @@
 //! What holds a body that nothing loads.
 
-use crate::unknowns::{COMPONENTS, Component};
+use crate::unknowns::{Component, Layout};
 
 /// Degrees of freedom held at zero, and the groups of points that hold them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
-    /// For each degree of freedom, whether it is held, shape (3 n_points).
+    layout: Layout,
+    /// For each degree of freedom, whether it is held, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
     /// The supported groups.
     pub groups: Vec<SupportGroup>,
@@ -21,19 +22,22 @@ pub struct SupportGroup {
 }
 
 impl Supports {
-    /// A body of `n_points` points that nothing holds.
-    pub fn none(n_points: usize) -> Self {
+    /// A body that nothing holds.
+    pub fn none(layout: Layout) -> Self {
         Self {
-            held: vec![false; COMPONENTS * n_points],
+            layout,
+            held: vec![false; layout.n_degrees_of_freedom()],
             groups: Vec::new(),
         }
     }
 
-    /// Holds some components of the points of a group.
+    /// Holds some components of the points of a group, as far as points have them.
     pub fn hold(&mut self, name: &str, points: Vec<u32>, components: &[Component]) {
         for &point in &points {
-            for component in components {
-                self.held[COMPONENTS * point as usize + component.index()] = true;
+            for &component in components {
+                if let Some(dof) = self.layout.degree_of_freedom(point, component) {
+                    self.held[dof] = true;
+                }
             }
         }
         let name = name.to_owned();

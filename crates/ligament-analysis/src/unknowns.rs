@@ -1,14 +1,12 @@
 //! Numbering of the unknowns: which components of which points the system of equations solves for.
 
 use ligament_model::Bonds;
-pub use ligament_model::layout::Component;
+pub use ligament_model::layout::{Component, Layout};
 
-/// Components of a point: displacement along x, along y, rotation.
-pub const COMPONENTS: usize = ligament_model::element::UNKNOWNS;
-
-/// The degrees of freedom (3 n_points) that are unknown, numbered in the order of the points.
+/// The degrees of freedom that are unknown, numbered in the order of the points.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unknowns {
+    layout: Layout,
     number: Vec<u32>,
     degrees_of_freedom: Vec<u32>,
 }
@@ -18,42 +16,40 @@ const KNOWN: u32 = u32::MAX;
 impl Unknowns {
     /// Everything that is not fixed and has a stiffness at all.
     ///
-    /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point, and bonds without
-    /// rotations never do: such rotations carry nothing and are held at zero.
+    /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point: such rotations carry
+    /// nothing and are held at zero.
     pub fn all_but(system: &dyn Bonds, is_fixed: impl Fn(usize) -> bool) -> Self {
         let resisted = system.resisted();
-        Self::select(system.n_points(), |point, component| {
-            let dof = COMPONENTS * point + component.index();
-            !is_fixed(dof) && resisted[dof]
-        })
+        Self::select(system.layout(), |dof| !is_fixed(dof) && resisted[dof])
     }
 
     /// Only the rotations among other unknowns.
     pub fn rotations_only(&self) -> Self {
-        Self::select(self.number.len() / COMPONENTS, |point, component| {
-            component == Component::Rotation
-                && self
-                    .number(COMPONENTS * point + component.index())
-                    .is_some()
+        let is_rotation = |dof: usize| self.layout.component(dof).is_rotation();
+        Self::select(self.layout, |dof| {
+            is_rotation(dof) && self.number(dof).is_some()
         })
     }
 
-    fn select(n_points: usize, is_unknown: impl Fn(usize, Component) -> bool) -> Self {
-        let mut number = vec![KNOWN; COMPONENTS * n_points];
+    fn select(layout: Layout, is_unknown: impl Fn(usize) -> bool) -> Self {
+        let mut number = vec![KNOWN; layout.n_degrees_of_freedom()];
         let mut degrees_of_freedom = Vec::new();
-        for point in 0..n_points {
-            for component in Component::ALL {
-                if is_unknown(point, component) {
-                    let degree_of_freedom = COMPONENTS * point + component.index();
-                    number[degree_of_freedom] = degrees_of_freedom.len() as u32;
-                    degrees_of_freedom.push(degree_of_freedom as u32);
-                }
+        for (dof, number) in number.iter_mut().enumerate() {
+            if is_unknown(dof) {
+                *number = degrees_of_freedom.len() as u32;
+                degrees_of_freedom.push(dof as u32);
             }
         }
         Self {
+            layout,
             number,
             degrees_of_freedom,
         }
+    }
+
+    /// Where arrays over degrees of freedom hold the motions of the points.
+    pub fn layout(&self) -> Layout {
+        self.layout
     }
 
     /// Number of unknowns.
@@ -77,14 +73,12 @@ impl Unknowns {
         &self.degrees_of_freedom
     }
 
-    /// Range of the numbers of the unknowns of a point, and which components they are.
+    /// Range of the numbers of the unknowns of a point, and their places among its components.
     pub(crate) fn of_point(
         &self,
         point: usize,
     ) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
-        (0..COMPONENTS).filter_map(move |c| {
-            self.number(COMPONENTS * point + c)
-                .map(|number| (number, c))
-        })
+        let dofs = self.layout.range(point as u32).enumerate();
+        dofs.filter_map(|(place, dof)| Some((self.number(dof)?, place)))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The bonds that break lose their elements, and elements that lean on them change.
 
-use crate::element::{BondDeformation, Element, Elements, Term, UNKNOWNS};
+use crate::element::{BondDeformation, Element, Elements, Term};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
@@ -32,7 +32,7 @@ pub trait ChangedElements: std::fmt::Debug {
 
 /// An element that a breakage changes.
 #[derive(Debug, Clone, PartialEq)]
-struct ChangedElement<E> {
+struct ChangedElement<E, const M: usize> {
     /// Ends of its bond.
     ends: [u32; 2],
     /// The element before, with its deformation when the bonds break.
@@ -41,7 +41,7 @@ struct ChangedElement<E> {
     after: Option<(E, BondDeformation)>,
 }
 
-impl<E: Elements> Typed<'_, E> {
+impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
         self,
@@ -63,7 +63,7 @@ impl<E: Elements> Typed<'_, E> {
                 after: None,
             })
         });
-        let mut elements: Vec<ChangedElement<E::Element>> = broken.collect();
+        let mut elements: Vec<ChangedElement<E::Element, M>> = broken.collect();
         let leaning = self.elements.leaning(bonds);
         if !leaning.is_empty() {
             let mut intact = left.intact.to_vec();
@@ -84,7 +84,7 @@ impl<E: Elements> Typed<'_, E> {
     }
 }
 
-impl<E: Element> ChangedElements for Vec<ChangedElement<E>> {
+impl<const M: usize, E: Element<M>> ChangedElements for Vec<ChangedElement<E, M>> {
     fn n_elements(&self) -> usize {
         self.len()
     }
@@ -107,7 +107,7 @@ impl<E: Element> ChangedElements for Vec<ChangedElement<E>> {
         let mut add = |ends: [u32; 2], element: &E, sign: f64| {
             let deformation = deformation(element, ends, displacement, expansion);
             element.forces(&deformation, |point, values| {
-                let first = UNKNOWNS * point as usize;
+                let first = M * point as usize;
                 parts.extend((first..).zip(values.map(|value| sign * value)));
             });
         };
@@ -121,7 +121,7 @@ impl<E: Element> ChangedElements for Vec<ChangedElement<E>> {
     }
 
     fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
-        let of_element = |it: &ChangedElement<E>| {
+        let of_element = |it: &ChangedElement<E, M>| {
             let mutual = |(element, before): &(E, BondDeformation)| {
                 let now = deformation(element, it.ends, displacement, expansion);
                 element.mutual_energy(before, &now)
@@ -133,7 +133,7 @@ impl<E: Element> ChangedElements for Vec<ChangedElement<E>> {
 }
 
 /// Deformation of an element without what its temperature gives it.
-fn deformation<E: Element>(
+fn deformation<const M: usize, E: Element<M>>(
     element: &E,
     ends: [u32; 2],
     displacement: &[f64],

@@ -6,7 +6,7 @@ use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::element::{BondDeformation, Remaining, Term};
 use crate::failure::Criterion;
-use crate::layout::Component;
+use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
 use crate::sweep::BondSweep;
 use crate::system::BondsLeft;
@@ -20,6 +20,14 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// Components of the motion of a point, in the order of the arrays over degrees of freedom.
     fn components(&self) -> &'static [Component];
+
+    /// Where arrays over degrees of freedom hold the motions of the points.
+    fn layout(&self) -> Layout {
+        Layout {
+            n_points: self.n_points(),
+            components: self.components(),
+        }
+    }
 
     /// Names of the strains of a bond.
     fn strain_names(&self) -> &'static [&'static str];

@@ -1,6 +1,6 @@
-//! Components of the motion of a point, and where arrays over all points hold them.
+//! Components of the motion of a point, and where arrays over all degrees of freedom hold them.
 
-use crate::element::UNKNOWNS;
+use std::ops::Range;
 
 /// A component of the motion of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,23 +14,8 @@ pub enum Component {
 }
 
 impl Component {
-    /// All components in their order at a point.
-    pub const ALL: [Self; UNKNOWNS] = [Self::X, Self::Y, Self::Rotation];
-
-    /// Position among the components of a point.
-    pub fn index(self) -> usize {
-        self as usize
-    }
-
-    /// The component at a position of the arrays over (3 n_points).
-    #[inline]
-    pub fn at(degree_of_freedom: usize) -> Self {
-        match degree_of_freedom % UNKNOWNS {
-            0 => Self::X,
-            1 => Self::Y,
-            _ => Self::Rotation,
-        }
-    }
+    /// All components in the plane, in their order at a point.
+    pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
     /// Whether the component is an angle.
     #[inline]
@@ -45,5 +30,69 @@ impl Component {
             Self::Y => "y",
             Self::Rotation => "rotation",
         }
+    }
+}
+
+/// Where arrays over degrees of freedom hold the motion of each point: the components of a point stand side by side, one point
+/// after the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of points.
+    pub n_points: usize,
+    /// Components of a point, in their order.
+    pub components: &'static [Component],
+}
+
+impl Layout {
+    /// Number of degrees of freedom.
+    pub fn n_degrees_of_freedom(self) -> usize {
+        self.components.len() * self.n_points
+    }
+
+    /// Degrees of freedom of a point.
+    #[inline]
+    pub fn range(self, point: u32) -> Range<usize> {
+        let first = self.components.len() * point as usize;
+        first..first + self.components.len()
+    }
+
+    /// Degree of freedom of a component of a point; None where points do not have it.
+    pub fn degree_of_freedom(self, point: u32, component: Component) -> Option<usize> {
+        let place = self.components.iter().position(|it| *it == component)?;
+        Some(self.range(point).start + place)
+    }
+
+    /// Point of a degree of freedom.
+    #[inline]
+    pub fn point(self, degree_of_freedom: usize) -> u32 {
+        degree_of_freedom as u32 / self.components.len() as u32
+    }
+
+    /// Component of a degree of freedom.
+    #[inline]
+    pub fn component(self, degree_of_freedom: usize) -> Component {
+        self.components[(degree_of_freedom as u32 % self.components.len() as u32) as usize]
+    }
+
+    /// Value of a component of a point among those of all degrees of freedom; zero where points do not have it.
+    pub fn value(self, point: u32, component: Component, of_all: &[f64]) -> f64 {
+        let dof = self.degree_of_freedom(point, component);
+        dof.map_or(0.0, |dof| of_all[dof])
+    }
+
+    /// The displacements among the values of all degrees of freedom.
+    pub fn displacements(self, of_all: &[f64]) -> impl Iterator<Item = f64> {
+        let of_points = of_all.chunks(self.components.len());
+        let with_components = of_points.flat_map(move |it| it.iter().zip(self.components));
+        let displacements = with_components.filter(|(_, component)| !component.is_rotation());
+        displacements.map(|(value, _)| *value)
+    }
+
+    /// The values of the components that `other` has as well, from those of all components of some points.
+    pub fn reduced<T>(self, other: Self, of_all: Vec<T>) -> Vec<T> {
+        let is_in_other = |place: usize| other.components.contains(&self.component(place));
+        let values = of_all.into_iter().enumerate();
+        let kept = values.filter(|(place, _)| is_in_other(*place));
+        kept.map(|(_, value)| value).collect()
     }
 }

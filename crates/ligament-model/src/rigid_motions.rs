@@ -1,7 +1,6 @@
 //! The rigid motions of some points that cost no energy, and what of them degrees of freedom hold.
 
-use crate::element::UNKNOWNS;
-use crate::layout::Component;
+use crate::layout::{Component, Layout};
 
 /// Below this sine of the angle to what is held already, a degree of freedom holds no further rigid motion.
 const RANK_TOLERANCE: f64 = 1e-6;
@@ -11,11 +10,12 @@ const RANK_TOLERANCE: f64 = 1e-6;
 const BALANCE_TOLERANCE: f64 = 1e-6;
 
 /// A rigid motion: displacements along x and y at the middle, and the angle times the radius.
-type Motion = [f64; UNKNOWNS];
+type Motion = [f64; 3];
 
 /// The rigid motions of some points, about their middle and scaled by their size: two translations, and the rotation where
 /// it costs no energy either.
 pub(crate) struct RigidMotions<'a> {
+    layout: Layout,
     positions: &'a [[f64; 2]],
     centre: [f64; 2],
     radius: f64,
@@ -35,7 +35,12 @@ pub(crate) enum Turn {
 
 impl<'a> RigidMotions<'a> {
     /// The rigid motions of `points` among `positions`.
-    pub(crate) fn new(positions: &'a [[f64; 2]], points: &[u32], turn: Turn) -> Self {
+    pub(crate) fn new(
+        layout: Layout,
+        positions: &'a [[f64; 2]],
+        points: &[u32],
+        turn: Turn,
+    ) -> Self {
         let chosen = || points.iter().map(|&point| positions[point as usize]);
         let centre =
             [0, 1].map(|axis| chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
@@ -43,11 +48,18 @@ impl<'a> RigidMotions<'a> {
             .map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1]))
             .fold(0.0, f64::max);
         Self {
+            layout,
             positions,
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
             turn,
         }
+    }
+
+    /// Degrees of freedom of some points, in their order.
+    fn degrees_of_freedom<'p>(&self, points: &'p [u32]) -> impl Iterator<Item = usize> + use<'p> {
+        let layout = self.layout;
+        points.iter().flat_map(move |&point| layout.range(point))
     }
 
     /// How many there are.
@@ -60,14 +72,14 @@ impl<'a> RigidMotions<'a> {
 
     /// How the motions (x, y, rotation) move a degree of freedom, m a m (a rotation: as an angle times the radius).
     fn row(&self, degree_of_freedom: usize) -> Motion {
-        let position = self.positions[degree_of_freedom / UNKNOWNS];
+        let position = self.positions[self.layout.point(degree_of_freedom) as usize];
         let [x, y] = [0, 1].map(|axis| (position[axis] - self.centre[axis]) / self.radius);
         let [turn_x, turn_y, turn] = match self.turn {
             Turn::Costly => [0.0; 3],
             Turn::OfPositions => [-y, x, 0.0],
             Turn::OfPointsAlong => [-y, x, 1.0],
         };
-        match Component::at(degree_of_freedom) {
+        match self.layout.component(degree_of_freedom) {
             Component::X => [1.0, 0.0, turn_x],
             Component::Y => [0.0, 1.0, turn_y],
             Component::Rotation => [0.0, 0.0, turn],
@@ -77,7 +89,7 @@ impl<'a> RigidMotions<'a> {
     /// What a motion does to a degree of freedom, m or rad.
     fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
         let value = dot(self.row(degree_of_freedom), motion);
-        match Component::at(degree_of_freedom) {
+        match self.layout.component(degree_of_freedom) {
             Component::Rotation => value / self.radius,
             Component::X | Component::Y => value,
         }
@@ -87,7 +99,7 @@ impl<'a> RigidMotions<'a> {
     fn left_by(&self, spanned: &[Motion]) -> Vec<Motion> {
         let mut all = spanned.to_vec();
         for motion in 0..self.count() {
-            let mut unit = [0.0; UNKNOWNS];
+            let mut unit = [0.0; 3];
             unit[motion] = 1.0;
             let rest = without(unit, &all);
             let norm = dot(rest, rest).sqrt();
@@ -101,7 +113,7 @@ impl<'a> RigidMotions<'a> {
     /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
     fn work(&self, motion: Motion, forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
         forces.fold([0.0; 2], |[work, size], (dof, force)| {
-            let force = match Component::at(dof) {
+            let force = match self.layout.component(dof) {
                 Component::Rotation => force / self.radius,
                 Component::X | Component::Y => force,
             };
@@ -134,7 +146,7 @@ impl<'a> RigidMotions<'a> {
     /// Orthonormal directions of the motions that the fixed degrees of freedom of some points hold.
     fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<Motion> {
         let mut spanned = Vec::new();
-        for dof in degrees_of_freedom(points).filter(|&dof| is_fixed(dof)) {
+        for dof in self.degrees_of_freedom(points).filter(|&dof| is_fixed(dof)) {
             self.extend(&mut spanned, dof);
             if spanned.len() == self.count() {
                 break;
@@ -162,11 +174,11 @@ impl<'a> RigidMotions<'a> {
 
     /// Of the motions along x, along y and of rotation those that the spanned directions leave free: translations of the
     /// whole by 1 m, and a rotation by an angle of 1 rad about the place that they hold, or the middle.
-    fn free(&self, spanned: &[Motion]) -> [Option<Motion>; UNKNOWNS] {
+    fn free(&self, spanned: &[Motion]) -> [Option<Motion>; 3] {
         let mut held = spanned.to_vec();
-        let mut free = [None; UNKNOWNS];
+        let mut free = [None; 3];
         for axis in 0..2 {
-            let mut unit = [0.0; UNKNOWNS];
+            let mut unit = [0.0; 3];
             unit[axis] = 1.0;
             if spanned
                 .iter()
@@ -194,8 +206,9 @@ impl<'a> RigidMotions<'a> {
         let mut spanned = self.spanned_by(points, &is_fixed);
         let mut holds = Vec::new();
         while spanned.len() < self.count() {
-            let candidates =
-                degrees_of_freedom(points).filter(|&dof| can_hold(dof) && !is_fixed(dof));
+            let candidates = self
+                .degrees_of_freedom(points)
+                .filter(|&dof| can_hold(dof) && !is_fixed(dof));
             let Some(best) = self.most_independent(&spanned, candidates) else {
                 break;
             };
@@ -214,7 +227,7 @@ impl<'a> RigidMotions<'a> {
     ) -> Vec<Vec<f64>> {
         let free = self.left_by(&self.spanned_by(points, is_fixed));
         let shape = |&motion| {
-            let dofs = degrees_of_freedom(points);
+            let dofs = self.degrees_of_freedom(points);
             dofs.map(|dof| self.value(dof, motion)).collect()
         };
         free.iter().map(shape).collect()
@@ -232,7 +245,7 @@ impl<'a> RigidMotions<'a> {
         let free = Component::ALL.into_iter().zip(self.free(&spanned));
         let free = free.filter_map(|(component, motion)| Some((component, motion?)));
         free.map(|(component, motion)| {
-            let forces = degrees_of_freedom(points).map(|dof| (dof, force(dof)));
+            let forces = self.degrees_of_freedom(points).map(|dof| (dof, force(dof)));
             let [load, size] = self.work(motion, forces);
             let parts = motion.iter().map(|part| part.abs());
             let length = parts.fold(0.0, f64::max);
@@ -269,12 +282,6 @@ impl FreeMotion {
     }
 }
 
-/// Degrees of freedom of some points, in their order.
-fn degrees_of_freedom(points: &[u32]) -> impl Iterator<Item = usize> {
-    let of_point = |&point: &u32| (0..UNKNOWNS).map(move |c| UNKNOWNS * point as usize + c);
-    points.iter().flat_map(of_point)
-}
-
 /// What of a vector is orthogonal to some orthonormal directions.
 fn without(vector: Motion, directions: &[Motion]) -> Motion {
     directions.iter().fold(vector, |rest, direction| {
@@ -296,8 +303,13 @@ mod tests {
     fn holds_of_square(turn: Turn, fixed: &[usize]) -> Vec<usize> {
         let positions = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
         let points = [0, 1, 2, 3];
-        let motions = RigidMotions::new(&positions, &points, turn);
-        let can_hold = |dof: usize| turn == Turn::OfPointsAlong || dof % UNKNOWNS < 2;
+        let layout = Layout {
+            n_points: 4,
+            components: &Component::ALL,
+        };
+        let motions = RigidMotions::new(layout, &positions, &points, turn);
+        let can_hold =
+            |dof: usize| turn == Turn::OfPointsAlong || !layout.component(dof).is_rotation();
         motions.holds(&points, |dof| fixed.contains(&dof), can_hold)
     }
 

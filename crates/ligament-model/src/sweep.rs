@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::element::{BondDeformation, Element, Elements, UNKNOWNS};
+use crate::element::{BondDeformation, Element, Elements};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
@@ -43,7 +43,7 @@ impl BondSweep {
 /// Internal forces and the sizes that their residual is compared with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InternalForces {
-    /// Sum of the bonds' end forces K u at each degree of freedom, shape (3 n_points), N and N m.
+    /// Sum of the bonds' end forces K u at each degree of freedom, shape (n_degrees_of_freedom), N and N m.
     pub values: Vec<f64>,
     /// Largest sum of |end forces| that meet at a point along one axis, N.
     pub force_scale: f64,
@@ -53,7 +53,7 @@ pub struct InternalForces {
     pub thermal: f64,
 }
 
-impl<E: Elements> Typed<'_, E> {
+impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
     pub(crate) fn deformations(
         self,
@@ -61,6 +61,7 @@ impl<E: Elements> Typed<'_, E> {
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Vec<BondDeformation> {
+        assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
         let mut deformations = vec![BondDeformation::default(); ends.len()];
         deformations
@@ -90,29 +91,30 @@ impl<E: Elements> Typed<'_, E> {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = deformations.len();
-        let parts: Vec<Part> = (0..PARTS)
+        let parts: Vec<Part<M>> = (0..PARTS)
             .into_par_iter()
             .map(|part| {
                 let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
                 Part::new(self, bonds, &deformations, expansion, of_part)
             })
             .collect();
-        let sums: Vec<PointForces> = (0..self.system.cloud.len())
+        let sums: Vec<PointForces<M>> = (0..self.system.cloud.len())
             .into_par_iter()
             .with_min_len(TASK)
             .map(|point| {
                 let of_parts = parts.iter().map(|part| part.forces[point]);
-                of_parts.fold(PointForces::default(), PointForces::plus)
+                of_parts.fold(PointForces::NONE, PointForces::plus)
             })
             .collect();
-        let largest = |component: usize| {
-            let sizes = sums.iter().map(|forces| forces.size[component]);
+        let largest = |of_rotations: bool| {
+            let places = (0..M).filter(|&place| E::COMPONENTS[place].is_rotation() == of_rotations);
+            let sizes = places.flat_map(|place| sums.iter().map(move |forces| forces.size[place]));
             sizes.fold(0.0, f64::max)
         };
         BondSweep {
             internal: InternalForces {
-                force_scale: largest(0).max(largest(1)),
-                moment_scale: largest(2),
+                force_scale: largest(false),
+                moment_scale: largest(true),
                 values: sums.iter().flat_map(|forces| forces.sum).collect(),
                 thermal: parts.iter().map(|part| part.thermal).sum(),
             },
@@ -124,23 +126,28 @@ impl<E: Elements> Typed<'_, E> {
 }
 
 /// What the bonds of one part give.
-struct Part {
-    forces: Vec<PointForces>,
+struct Part<const M: usize> {
+    forces: Vec<PointForces<M>>,
     energy: f64,
     thermal: f64,
     expansion_energy: f64,
 }
 
 /// The end forces that meet at a point.
-#[derive(Debug, Clone, Copy, Default)]
-struct PointForces {
-    sum: [f64; UNKNOWNS],
+#[derive(Debug, Clone, Copy)]
+struct PointForces<const M: usize> {
+    sum: [f64; M],
     /// Sum of their sizes.
-    size: [f64; UNKNOWNS],
+    size: [f64; M],
 }
 
-impl PointForces {
-    fn add(&mut self, end_force: [f64; UNKNOWNS]) {
+impl<const M: usize> PointForces<M> {
+    const NONE: Self = Self {
+        sum: [0.0; M],
+        size: [0.0; M],
+    };
+
+    fn add(&mut self, end_force: [f64; M]) {
         for (component, value) in end_force.into_iter().enumerate() {
             self.sum[component] += value;
             self.size[component] += value.abs();
@@ -149,21 +156,21 @@ impl PointForces {
 
     fn plus(self, other: Self) -> Self {
         Self {
-            sum: [0, 1, 2].map(|component| self.sum[component] + other.sum[component]),
-            size: [0, 1, 2].map(|component| self.size[component] + other.size[component]),
+            sum: std::array::from_fn(|place| self.sum[place] + other.sum[place]),
+            size: std::array::from_fn(|place| self.size[place] + other.size[place]),
         }
     }
 }
 
-impl Part {
-    fn new<E: Elements>(
-        typed: Typed<'_, E>,
+impl<const M: usize> Part<M> {
+    fn new<E: Elements<M>>(
+        typed: Typed<'_, E, M>,
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Self {
-        let mut forces = vec![PointForces::default(); typed.system.cloud.len()];
+        let mut forces = vec![PointForces::NONE; typed.system.cloud.len()];
         let mut energy = 0.0;
         for bond in of_part.clone() {
             let Some(element) = typed.left(bonds, bond) else {
@@ -188,9 +195,9 @@ impl Part {
     }
 
     /// Adds what the temperature does to the bonds of the part.
-    fn add_expansion<E: Elements>(
+    fn add_expansion<E: Elements<M>>(
         &mut self,
-        typed: Typed<'_, E>,
+        typed: Typed<'_, E, M>,
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
         expansion: ThermalStrain<'_>,

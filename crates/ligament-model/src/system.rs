@@ -170,22 +170,26 @@ impl<'a> BondsLeft<'a> {
     }
 }
 
-/// A bond system whose elements are known as a type, so that loops over its bonds ask for it once.
-pub(crate) struct Typed<'a, E> {
+/// A bond system whose elements, between points with M components, are known as a type, so that loops over its bonds ask for it once.
+pub(crate) struct Typed<'a, E, const M: usize> {
     pub(crate) system: &'a BondSystem,
     pub(crate) elements: &'a E,
 }
 
-impl<E> Clone for Typed<'_, E> {
+impl<E, const M: usize> Clone for Typed<'_, E, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<E> Copy for Typed<'_, E> {}
+impl<E, const M: usize> Copy for Typed<'_, E, M> {}
 
 // The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
-impl<E: Elements> Typed<'_, E> {
+impl<'a, const M: usize, E: Elements<M>> Typed<'a, E, M> {
+    pub(crate) fn new(system: &'a BondSystem, elements: &'a E) -> Self {
+        Self { system, elements }
+    }
+
     /// The element of a bond with all of its stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline(always)]
     pub(crate) fn whole(self, intact: &[bool], bond: usize) -> E::Element {

@@ -1,8 +1,8 @@
 //! What the user is told of a body that supports and loads do not hold.
 
 use ligament::Body;
+use ligament_analysis::Component;
 use ligament_analysis::gauges::{FreeBody, FreeMotion};
-use ligament_analysis::{COMPONENTS, Component};
 
 /// Words on the rigid motions that are free, on what is held instead, and on whether the loads are in equilibrium without
 /// it.
@@ -14,7 +14,10 @@ pub fn words(free: &FreeBody, body: &dyn Body) -> String {
         format!("{} points, the first of them {first},", free.points)
     };
     let motions: Vec<&str> = free.motions.iter().map(|it| motion(it.component)).collect();
-    let gauges: Vec<String> = free.gauges.iter().map(|&dof| gauge(dof, body)).collect();
+    let gauges = free.gauges.iter();
+    let gauges: Vec<String> = gauges
+        .map(|&(point, component)| format!("{} of {}", component.name(), body.place(point)))
+        .collect();
     let loads = if free.is_balanced() {
         "the loads on it are in equilibrium, so that these gauges carry no force".to_owned()
     } else {
@@ -48,10 +51,4 @@ fn load(motion: &FreeMotion) -> String {
         Component::Y => format!("along y {:.3e} N", motion.load),
         Component::Rotation => format!("moment {:.3e} N m", motion.load),
     }
-}
-
-fn gauge(degree_of_freedom: usize, body: &dyn Body) -> String {
-    let place = body.place((degree_of_freedom / COMPONENTS) as u32);
-    let component = Component::at(degree_of_freedom).name();
-    format!("{component} of {place}")
 }

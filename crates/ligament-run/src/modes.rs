@@ -22,7 +22,7 @@ pub(crate) fn find_modes(
     force: bool,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
-    let vibration = Vibration::new(&model.setup, &model.system.cloud);
+    let vibration = Vibration::new(&model.setup, &model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
@@ -33,15 +33,8 @@ pub(crate) fn find_modes(
     let folder = ResultFolder::create(out, force)?;
     folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
     stages.time("output", || {
-        let (cloud, fixed) = (&model.system.cloud, &model.fixed);
-        write_modes(
-            &folder,
-            &model.body().grid(),
-            &cloud.volumes,
-            &cloud.spacing,
-            fixed,
-            &outcome,
-        )
+        let grid = model.body().grid();
+        write_modes(&folder, &grid, &*model.system, &model.fixed, &outcome)
     })?;
 
     let summary = ModalSummary::new(case, model, &outcome, stages.done());

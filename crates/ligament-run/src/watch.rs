@@ -1,7 +1,6 @@
 //! Watches a run: writes its results, shows its progress and keeps its notices.
 
 use ligament::Body;
-use ligament_analysis::COMPONENTS;
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
@@ -75,18 +74,14 @@ impl<'a> Watch<'a> {
                  (first at {})",
                 self.body.label(*first)
             ),
-            Notice::Mechanisms {
-                step,
-                degrees_of_freedom,
-            } => {
-                let tags: Vec<String> = degrees_of_freedom
-                    .iter()
-                    .take(SHOWN)
-                    .map(|dof| self.body.tag((dof / COMPONENTS) as u32).to_string())
+            Notice::Mechanisms { step, points } => {
+                let shown = points.iter().take(SHOWN);
+                let tags: Vec<String> = shown
+                    .map(|&point| self.body.tag(point).to_string())
                     .collect();
                 format!(
                     "step {step}: {} mechanism(s) without stiffness held, at {}(s) {}",
-                    degrees_of_freedom.len(),
+                    points.len(),
                     self.body.tagged(),
                     tags.join(", ")
                 )

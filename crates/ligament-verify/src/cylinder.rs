@@ -1,11 +1,9 @@
 //! A thick cylinder of imaginary elements under internal pressure (MBB-PD section 4.2).
 
-use ligament_analysis::COMPONENTS;
-
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
-use super::trial::{Template, template};
+use super::trial::{Template, displacements, template};
 use ligament::run::Solution;
 
 /// The experiment.
@@ -15,7 +13,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     source: "Lame's solution, independent calculation; Masoumi, Ravandi and Salehi (MBB-PD), section 4.2",
     setup: "Ring from 1.5 to 2.2 m on a square lattice, E = 65.8 GPa, plane strain, m = 3, 400 MPa on the faces of the cells at the \
             hole. u_r of all points, less the rigid motion that leaves nothing of it in the mean, against Lame's solution.",
-    cases: &["cases/thick-cylinder/case.toml"],
+    cases: &[&RING],
     compute,
 };
 
@@ -31,8 +29,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         let (spacing, nu) = (1e-3 * labels.number("d")?, labels.number("nu")?);
         let cells = 2 * (OUTER / spacing).round() as u32;
         let trial = (RING.trial())
-            .set("lattice.cells", [cells, cells])
-            .set("lattice.spacing", spacing)
+            .on_lattice([cells, cells], spacing)
             .set("material.poisson", nu);
         Ok(100.0 * difference(&trial.solve()?, nu))
     })?;
@@ -46,10 +43,7 @@ fn difference(solution: &Solution, nu: f64) -> f64 {
     let cloud = &solution.model.system.cloud;
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
-    let motions = solution.outcome.state.displacement.chunks_exact(COMPONENTS);
-    let points: Vec<([f64; 2], [f64; 2])> = places
-        .zip(motions.map(|motion| [motion[0], motion[1]]))
-        .collect();
+    let points: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();
     // The lattice is symmetric about the centre: the least rigid motion is the mean displacement and the mean rotation. A
     // rotation has no u_r.
     let count = points.len() as f64;

@@ -21,18 +21,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             times the tensile one. The error is the one of the orientation that yields last, as `ligament yield` computes \
             it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
             bonds of a lattice, in the worst direction of a bond.",
-    cases: &["cases/verification/lattice.toml"],
+    cases: &[&CASE],
     compute,
 };
 
 static CASE: Template = template!("verification/lattice.toml");
 
 /// Strengths as in the paper's tables.
-const STRENGTHS: Strengths = Strengths {
-    poisson: 0.0,
-    ratio: 3.0,
-    calibration: Calibration::Printed,
-};
+const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
 
 /// Young's modulus and tensile strength of the bar, Pa.
 const YOUNG: f64 = 70e9;
@@ -139,11 +135,10 @@ fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
         let name = format!("m = {ratio}");
         series.push(Series::curve(name, colour, points));
     }
-    Ok(Plot {
-        name: format!("first-yield-{criterion}"),
-        title: format!("Simple extension, error of first yield: {criterion}"),
-        x: "orientation, degrees".to_owned(),
-        y: "error, %".to_owned(),
+    Ok(Plot::new(
+        format!("first-yield-{criterion}"),
+        format!("Simple extension, error of first yield: {criterion}"),
+        ["orientation, degrees", "error, %"],
         series,
-    })
+    ))
 }

@@ -57,7 +57,7 @@ impl Setup {
         };
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let vibration = Vibration::new(&model.setup, &model.system.cloud)?;
+            let vibration = Vibration::new(&model.setup, &model.system)?;
             let analysis = ModalAnalysis::new(&vibration.problem(&model.system), settings)?;
             Ok(analysis.find()?)
         })?

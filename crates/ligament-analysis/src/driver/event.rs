@@ -18,7 +18,6 @@ use crate::breaking::{FirstToBreak, first_to_break};
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
-use crate::unknowns::COMPONENTS;
 
 /// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case.
 #[derive(Debug, Clone, PartialEq)]
@@ -211,10 +210,12 @@ impl Following<'_> {
             .thermal_strain(load_factor)
             .is_none();
         let mut is_loaded = vec![is_heated; fragments.points.len()];
+        let layout = self.path.problem.system.layout();
         for &dof in &self.loaded {
-            is_loaded[fragments.of_point[dof as usize / COMPONENTS] as usize] = true;
+            let point = layout.point(dof as usize);
+            is_loaded[fragments.of_point[point as usize] as usize] = true;
         }
-        let of_points = state.displacement.chunks_mut(COMPONENTS);
+        let of_points = state.displacement.chunks_mut(layout.components.len());
         for (motion, &fragment) in of_points.zip(&fragments.of_point) {
             if is_loaded[fragment as usize] {
                 motion.iter_mut().for_each(|value| *value *= factor);

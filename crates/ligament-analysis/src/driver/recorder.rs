@@ -10,7 +10,6 @@ use crate::connectivity::Fragments;
 use crate::history::StepRecord;
 use crate::problem::Problem;
 use crate::state::State;
-use crate::unknowns::COMPONENTS;
 
 /// Energies along the path.
 ///
@@ -151,16 +150,19 @@ pub(super) fn step_record(
     }
 }
 
-/// Forces and moment that each group exerts on the body: the reactions at its points and its own given forces.
-fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<[f64; COMPONENTS]> {
+/// Forces and moments that each group exerts on the body: the reactions at its points and its own given forces.
+fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<Vec<f64>> {
+    let layout = problem.system.layout();
     let groups = problem.loads.groups().iter();
     groups
         .map(|group| {
-            let given = problem.loads.given_resultant(group, load_factor);
-            group.points.iter().fold(given, |sum, &point| {
-                let reaction = &reactions[COMPONENTS * point as usize..];
-                [0, 1, 2].map(|component| sum[component] + reaction[component])
-            })
+            let mut sum = problem.loads.given_resultant(group, load_factor);
+            for &point in &group.points {
+                for (sum, reaction) in sum.iter_mut().zip(&reactions[layout.range(point)]) {
+                    *sum += reaction;
+                }
+            }
+            sum
         })
         .collect()
 }

@@ -147,11 +147,8 @@ pub(super) fn report_mechanisms(
     if balanced.mechanisms.is_empty() {
         return Ok(());
     }
-    let degrees_of_freedom = balanced.mechanisms.clone();
-    observer.notice(&Notice::Mechanisms {
-        step,
-        degrees_of_freedom,
-    })
+    let points = balanced.mechanisms.clone();
+    observer.notice(&Notice::Mechanisms { step, points })
 }
 
 /// Watches nothing.

@@ -18,7 +18,7 @@ use crate::stiffness::Stiffness;
 use crate::tangent::TangentSolver;
 use crate::tangent::direct::DirectSolver;
 use crate::tangent::unsymmetric::UnsymmetricSolver;
-use crate::unknowns::{COMPONENTS, Component, Unknowns};
+use crate::unknowns::{Layout, Unknowns};
 
 /// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
 ///
@@ -88,6 +88,10 @@ impl Equations {
         self.stiffness.unknowns().degrees_of_freedom()
     }
 
+    fn layout(&self) -> Layout {
+        self.stiffness.unknowns().layout()
+    }
+
     /// Gives a state the prescribed motions of its load factor.
     pub(super) fn prescribe(&self, state: &mut State) {
         let loads = &self.problem.loads;
@@ -125,7 +129,7 @@ impl Equations {
         &mut self,
         state: &mut State,
         iterate: &Balanced,
-        mechanisms: &mut Vec<usize>,
+        mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
         mechanisms.extend(self.prepare_solver(state)?);
         let force = self.out_of_balance(state, &iterate.internal);
@@ -215,24 +219,29 @@ impl Equations {
                 .max(UNLOADED * self.largest_forces.1),
             thermal: internal.thermal,
         };
-        internal::relative_residual(&residual, self.degrees_of_freedom(), &scales)
+        internal::relative_residual(&residual, self.stiffness.unknowns(), &scales)
     }
 
     /// Force and moment at a point that are rounding of the displacements, N and N m.
     fn forces_of_rounding(&self, state: &State) -> (f64, f64) {
-        let displacement = largest_displacement(state);
+        let displacement = self.largest_displacement(state);
         let PointStiffness { force, moment } = self.point_stiffness;
         let rounding = |stiffness: f64| ROUNDING * stiffness * displacement;
         (rounding(force), rounding(moment))
     }
 
-    /// Energy that is rounding of the displacements, J.
-    fn energy_of_rounding(&self, state: &State) -> f64 {
-        self.forces_of_rounding(state).0 * largest_displacement(state)
+    fn largest_displacement(&self, state: &State) -> f64 {
+        let displacements = self.layout().displacements(&state.displacement);
+        displacements.fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
-    /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives them.
-    fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<usize>, Unbalanced> {
+    /// Energy that is rounding of the displacements, J.
+    fn energy_of_rounding(&self, state: &State) -> f64 {
+        self.forces_of_rounding(state).0 * self.largest_displacement(state)
+    }
+
+    /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.
+    fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
         let mut held_now = Vec::new();
         loop {
             let vanishing = self.solver.prepare(state, &mut self.costs);
@@ -248,15 +257,15 @@ impl Equations {
                 if std::mem::replace(&mut state.held[dof], true) {
                     return Err(self.vanishing_pivot(unknown));
                 }
-                held_now.push(dof);
+                held_now.push(self.layout().point(dof));
             }
         }
     }
 
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.degrees_of_freedom()[unknown] as usize;
-        let point = (dof / COMPONENTS) as u32;
-        let component = Component::at(dof).name();
+        let point = self.layout().point(dof);
+        let component = self.layout().component(dof).name();
         let is_llt = self.stiffness.choice().factorisation == FactorKind::Llt;
         if is_llt && self.problem.system.some_negative() {
             Unbalanced::NotPositiveDefinite { point, component }
@@ -264,12 +273,4 @@ impl Equations {
             Unbalanced::VanishingPivot { point, component }
         }
     }
-}
-
-fn largest_displacement(state: &State) -> f64 {
-    state
-        .displacement
-        .chunks(COMPONENTS)
-        .flat_map(|motion| &motion[..Component::Rotation.index()])
-        .fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

@@ -6,7 +6,6 @@ use crate::balanced::{Attempt, Balanced, Unbalanced};
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
-use crate::unknowns::{COMPONENTS, Component};
 
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
@@ -107,10 +106,11 @@ fn at_unknowns(equations: &Equations, state: &State) -> Vec<f64> {
 
 /// 1 at displacements and the spacing of the point at rotations, which makes lengths of both, shape (n_unknowns).
 fn lengths(equations: &Equations) -> Vec<f64> {
-    let spacing = equations.problem.system.spacing();
+    let system = &equations.problem.system;
+    let (layout, spacing) = (system.layout(), system.spacing());
     let length = |&dof: &u32| {
-        if Component::at(dof as usize).is_rotation() {
-            spacing[dof as usize / COMPONENTS]
+        if layout.component(dof as usize).is_rotation() {
+            spacing[layout.point(dof as usize) as usize]
         } else {
             1.0
         }

@@ -4,16 +4,18 @@ use thiserror::Error;
 
 use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
 use crate::internal::InternalForces;
-use crate::unknowns::{COMPONENTS, Component};
+use crate::unknowns::{Component, Layout};
 use ligament_model::thermal::ThermalStrain;
 
 /// Loads that are all proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor
 /// one, and what the history reports of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProportionalLoading {
-    /// Prescribed value of each degree of freedom at load factor 1, shape (3 n_points), m or rad.
+    /// Where the arrays below hold the components of the points.
+    pub layout: Layout,
+    /// Prescribed value of each degree of freedom at load factor 1, shape (n_degrees_of_freedom), m or rad.
     pub prescribed: Vec<Option<f64>>,
-    /// External force or moment on each degree of freedom at load factor 1, shape (3 n_points), N or N m.
+    /// External force or moment on each degree of freedom at load factor 1, shape (n_degrees_of_freedom), N or N m.
     pub force: Vec<f64>,
     /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
     pub temperature_change: Vec<f64>,
@@ -44,12 +46,13 @@ pub enum BoundaryError {
 }
 
 impl ProportionalLoading {
-    /// A body of `n_points` points that nothing holds or loads but the motion or force of `control`, which is still to be
-    /// added by [`ProportionalLoading::prescribe`] or [`ProportionalLoading::add_force`].
-    pub fn new(n_points: usize, control: Control) -> Self {
+    /// A body that nothing holds or loads but the motion or force of `control`, which is still to be added by
+    /// [`ProportionalLoading::prescribe`] or [`ProportionalLoading::add_force`].
+    pub fn new(layout: Layout, control: Control) -> Self {
         Self {
-            prescribed: vec![None; COMPONENTS * n_points],
-            force: vec![0.0; COMPONENTS * n_points],
+            layout,
+            prescribed: vec![None; layout.n_degrees_of_freedom()],
+            force: vec![0.0; layout.n_degrees_of_freedom()],
             temperature_change: Vec::new(),
             thermal_strain: Vec::new(),
             groups: Vec::new(),
@@ -57,7 +60,28 @@ impl ProportionalLoading {
         }
     }
 
-    /// Prescribes a component of some points: `value` at load factor 1. The same value twice is no conflict.
+    /// The loading of points with the components of another layout alone: what it does to others does nothing.
+    pub fn reduced(self, layout: Layout) -> Self {
+        let kept = |values: Vec<f64>| self.layout.reduced(layout, values);
+        let group = |it: BoundaryGroup| BoundaryGroup {
+            force: kept(it.force),
+            ..it
+        };
+        Self {
+            layout,
+            prescribed: self.layout.reduced(layout, self.prescribed),
+            force: kept(self.force),
+            groups: self.groups.into_iter().map(group).collect(),
+            control: Control {
+                shape: kept(self.control.shape),
+                ..self.control
+            },
+            ..self
+        }
+    }
+
+    /// Prescribes a component of some points, where points have it: `value` at load factor 1. The same value twice is no
+    /// conflict.
     pub fn prescribe(
         &mut self,
         points: &[u32],
@@ -65,7 +89,10 @@ impl ProportionalLoading {
         value: f64,
     ) -> Result<(), BoundaryError> {
         for &point in points {
-            let slot = &mut self.prescribed[COMPONENTS * point as usize + component.index()];
+            let Some(dof) = self.layout.degree_of_freedom(point, component) else {
+                continue;
+            };
+            let slot = &mut self.prescribed[dof];
             match *slot {
                 Some(first) if first != value => {
                     return Err(BoundaryError::Conflict {
@@ -81,19 +108,23 @@ impl ProportionalLoading {
         Ok(())
     }
 
-    /// Adds a force or couple on a component of one point, N or N m at load factor 1.
+    /// Adds a force or couple on a component of one point, where points have it, N or N m at load factor 1.
     pub fn add_force(&mut self, point: u32, component: Component, force: f64) {
-        self.force[COMPONENTS * point as usize + component.index()] += force;
+        if let Some(dof) = self.layout.degree_of_freedom(point, component) {
+            self.force[dof] += force;
+        }
     }
 
-    /// Adds a group to the history, with the resultant of its own given forces at load factor 1.
+    /// Adds a group to the history, with the resultant (n_components) of its own given forces at load factor 1.
     ///
     /// Equal points under one name are one group however many supports and loads act on them; other points
     /// under the same name get a number.
-    pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: [f64; COMPONENTS]) {
+    pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: Vec<f64>) {
         let mut same_name = self.groups.iter_mut().filter(|group| group.name == name);
         if let Some(group) = same_name.find(|group| group.points == points) {
-            group.force = [0, 1, 2].map(|component| group.force[component] + force[component]);
+            for (sum, force) in group.force.iter_mut().zip(force) {
+                *sum += force;
+            }
             return;
         }
         let earlier = self
@@ -165,8 +196,8 @@ impl LoadProgram for ProportionalLoading {
         &self.groups
     }
 
-    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> [f64; COMPONENTS] {
-        group.force.map(|force| time * force)
+    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> Vec<f64> {
+        group.force.iter().map(|force| time * force).collect()
     }
 
     fn control(&self) -> &Control {
@@ -176,7 +207,7 @@ impl LoadProgram for ProportionalLoading {
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
         match self.control.kind {
             ControlKind::Displacement | ControlKind::Temperature => self.control.magnitude * time,
-            ControlKind::Force => self.control.along(|dof| displacement[dof]),
+            ControlKind::Force => self.control.along(self.layout, |dof| displacement[dof]),
         }
     }
 
@@ -185,10 +216,12 @@ impl LoadProgram for ProportionalLoading {
         match control.kind {
             ControlKind::Force => control.magnitude * time,
             ControlKind::Temperature => internal.thermal / control.magnitude,
-            ControlKind::Displacement => control.along(|dof| match self.prescribed[dof] {
-                Some(_) => internal.values[dof] - time * self.force[dof],
-                None => 0.0,
-            }),
+            ControlKind::Displacement => {
+                control.along(self.layout, |dof| match self.prescribed[dof] {
+                    Some(_) => internal.values[dof] - time * self.force[dof],
+                    None => 0.0,
+                })
+            }
         }
     }
 }

@@ -39,7 +39,7 @@ const SOLUTIONS: [usize; 2] = [200, 1000];
 
 /// What was found so far.
 struct Found {
-    /// Rigid motions, then elastic modes, orthonormal with the masses, each of shape (3 n_points).
+    /// Rigid motions, then elastic modes, orthonormal with the masses, each of shape (n_degrees_of_freedom).
     shapes: Vec<Vec<f64>>,
     /// Inertia of the stiffness, where it may be indefinite.
     stability: Option<Stability>,

@@ -3,14 +3,15 @@
 use ligament_model::LumpedMass;
 
 use super::mode::Rotations;
-use crate::unknowns::{COMPONENTS, Component, Unknowns};
+use crate::unknowns::{Component, Layout, Unknowns};
 
 /// Displacements closer than this (relative) to the largest one count as largest.
 const TIE: f64 = 1e-6;
 
 /// Masses of the degrees of freedom.
 pub(super) struct Masses {
-    /// Mass of each degree of freedom, zero where it is known or has none, shape (3 n_points).
+    layout: Layout,
+    /// Mass of each degree of freedom, zero where it is known or has none, shape (n_degrees_of_freedom).
     of_dof: Vec<f64>,
     /// Degrees of freedom that are no unknowns.
     known: Vec<usize>,
@@ -19,13 +20,18 @@ pub(super) struct Masses {
 impl Masses {
     /// Masses of the unknowns.
     pub(super) fn new(mass: &LumpedMass, unknowns: &Unknowns, rotations: Rotations) -> Self {
-        let of_component = |dof: usize| match (Component::at(dof), rotations) {
-            (Component::X | Component::Y, _) => mass.mass[dof / COMPONENTS],
-            (Component::Rotation, Rotations::Inertia) => mass.inertia[dof / COMPONENTS],
-            (Component::Rotation, Rotations::Massless) => 0.0,
+        let layout = unknowns.layout();
+        let of_component = |dof: usize| {
+            let point = layout.point(dof) as usize;
+            match (layout.component(dof), rotations) {
+                (Component::X | Component::Y, _) => mass.mass[point],
+                (Component::Rotation, Rotations::Inertia) => mass.inertia[point],
+                (Component::Rotation, Rotations::Massless) => 0.0,
+            }
         };
-        let n_dofs = COMPONENTS * mass.mass.len();
+        let n_dofs = layout.n_degrees_of_freedom();
         Self {
+            layout,
             of_dof: (0..n_dofs)
                 .map(|dof| unknowns.number(dof).map_or(0.0, |_| of_component(dof)))
                 .collect(),
@@ -35,7 +41,7 @@ impl Masses {
         }
     }
 
-    /// Mass of each degree of freedom, zero where it is known or has none, shape (3 n_points).
+    /// Mass of each degree of freedom, zero where it is known or has none, shape (n_degrees_of_freedom).
     pub(super) fn of_dof(&self) -> &[f64] {
         &self.of_dof
     }
@@ -60,13 +66,10 @@ impl Masses {
     /// Scales a shape to phi^T M phi = 1; the first of the largest displacements becomes positive.
     pub(super) fn normalise(&self, shape: &mut [f64]) {
         let norm = inner(&self.of_dof, shape, shape).sqrt();
-        let displacements = || {
-            let is_displacement = |(dof, _): &(usize, &f64)| dof % COMPONENTS < 2;
-            shape.iter().enumerate().filter(is_displacement)
-        };
-        let largest = displacements().fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
-        let first = displacements().find(|(_, value)| value.abs() >= (1.0 - TIE) * largest);
-        let sign = first.map_or(1.0, |(_, value)| value.signum());
+        let displacements = || self.layout.displacements(shape);
+        let largest = displacements().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let first = displacements().find(|value| value.abs() >= (1.0 - TIE) * largest);
+        let sign = first.map_or(1.0, f64::signum);
         let factor = sign / norm;
         shape.iter_mut().for_each(|value| *value *= factor);
     }

@@ -24,7 +24,7 @@ pub struct Mode {
     /// phi^T M r for the rigid motions r of size one along x, along y and about the centre of mass, kg^(1/2), kg^(1/2) and
     /// kg^(1/2) m: their squares are the effective masses and inertia.
     pub participation: Vec<f64>,
-    /// Displacements and rotations, shape (3 n_points): phi^T M phi = 1 kg, and the first of the largest displacements is
+    /// Displacements and rotations, shape (n_degrees_of_freedom): phi^T M phi = 1 kg, and the first of the largest displacements is
     /// positive.
     pub shape: Vec<f64>,
     /// Strain energy density of this motion, shape (n_points), J/m^3.

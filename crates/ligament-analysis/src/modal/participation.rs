@@ -15,7 +15,7 @@ pub struct Moving {
     /// Mass that moves along x and along y, kg, and inertia about the centre, kg m^2: of all that is not held. The effective
     /// masses of all modes add up to these.
     pub free: Vec<f64>,
-    /// Rigid motions of size one along x, along y and about the centre, each of shape (3 n_points).
+    /// Rigid motions of size one along x, along y and about the centre, each of shape (n_degrees_of_freedom).
     motions: Vec<Vec<f64>>,
 }
 

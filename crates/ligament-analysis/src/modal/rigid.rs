@@ -5,7 +5,6 @@ use ligament_model::Bonds;
 use super::masses::{Masses, inner};
 use crate::connectivity::Fragments;
 use crate::supports::Supports;
-use crate::unknowns::COMPONENTS;
 
 /// A part of a motion that is smaller than this lies in those before it, but for rounding.
 const DEPENDENT: f64 = 1e-8;
@@ -14,7 +13,7 @@ const DEPENDENT: f64 = 1e-8;
 pub(super) struct RigidMotions {
     /// How many there are.
     pub(super) count: usize,
-    /// The first of them, as far as they are wanted: orthonormal with the masses, each of shape (3 n_points).
+    /// The first of them, as far as they are wanted: orthonormal with the masses, each of shape (n_degrees_of_freedom).
     pub(super) shapes: Vec<Vec<f64>>,
 }
 
@@ -25,6 +24,7 @@ pub(super) fn motions(
     masses: &Masses,
     wanted: usize,
 ) -> RigidMotions {
+    let layout = system.layout();
     let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
     let mut motions = RigidMotions {
         count: 0,
@@ -34,9 +34,8 @@ pub(super) fn motions(
         let mut of_fragment: Vec<Vec<f64>> = Vec::new();
         for motion in fragments.free_motions(fragment, system, |dof| supports.held[dof]) {
             let mut shape = vec![0.0; supports.held.len()];
-            for (values, &point) in motion.chunks(COMPONENTS).zip(points) {
-                let at = COMPONENTS * point as usize;
-                shape[at..at + COMPONENTS].copy_from_slice(values);
+            for (values, &point) in motion.chunks(layout.components.len()).zip(points) {
+                shape[layout.range(point)].copy_from_slice(values);
             }
             masses.clear_known(&mut shape);
             let size = inner(masses.of_dof(), &shape, &shape).sqrt();

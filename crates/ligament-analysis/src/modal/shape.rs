@@ -9,7 +9,7 @@ use crate::equilibrium::ROUNDING;
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::BondsLeft;
-use crate::unknowns::{Component, Unknowns};
+use crate::unknowns::Unknowns;
 use ligament_model::thermal::ThermalStrain;
 
 /// omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds: exact to the square of the shape's error.
@@ -81,9 +81,8 @@ fn residual(
             internal.values[dof] - eigenvalue * masses.of_dof()[dof] * shape[dof]
         })
         .collect();
-    let largest = (shape.iter().enumerate())
-        .filter(|&(dof, _)| !Component::at(dof).is_rotation())
-        .fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
+    let displacements = unknowns.layout().displacements(shape);
+    let largest = displacements.fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let stiffness = system.largest_point_stiffness();
     let of_rounding = |stiffness: f64| ROUNDING / RESIDUAL_TOLERANCE * stiffness * largest;
     let scales = InternalForces {
@@ -92,5 +91,5 @@ fn residual(
         thermal: 0.0,
         values: Vec::new(),
     };
-    internal::relative_residual(&out_of_balance, unknowns.degrees_of_freedom(), &scales)
+    internal::relative_residual(&out_of_balance, unknowns, &scales)
 }

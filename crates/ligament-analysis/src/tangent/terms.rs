@@ -8,7 +8,6 @@ use crate::breakage::Breakage;
 use crate::connectivity::Hold;
 use crate::state::State;
 use crate::stiffness::Stiffness;
-use crate::unknowns::COMPONENTS;
 
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
@@ -50,7 +49,7 @@ impl Coupled<'_> {
         state: &State,
     ) -> Vec<RankOne> {
         let system = self.stiffness.system();
-        let mut terms = Vec::with_capacity(COMPONENTS * due.len());
+        let mut terms = Vec::new();
         for &bond in due {
             let remaining = state.softening.remaining[bond];
             let lost = in_factor[bond].lost(&remaining);
@@ -91,7 +90,7 @@ impl Coupled<'_> {
     fn whole_diagonal(self, dof: usize) -> f64 {
         let system = self.stiffness.system();
         let whole = vec![true; system.ends().len()];
-        let point = (dof / COMPONENTS) as u32;
+        let point = self.stiffness.unknowns().layout().point(dof);
         let elements = system.elements_at_points().at(point).iter();
         elements
             .flat_map(|&bond| system.terms(&whole, bond as usize, &Remaining::WHOLE))

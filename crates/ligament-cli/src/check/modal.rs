@@ -20,7 +20,7 @@ pub(super) fn check(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let vibration = Vibration::new(&model.setup, &model.system.cloud);
+    let vibration = Vibration::new(&model.setup, &model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = match extent {

@@ -198,8 +198,11 @@ impl Life {
                 rotational_rigidity: 0.0,
             },
         };
-        let [a, b] = self.ends.map(|end| &motions.of_points[end as usize]);
-        let whole = pair.bond.deformation(a, b);
+        let [a, b] = self.ends.map(|end| {
+            let [x, y] = motions.displacement[end as usize];
+            [x, y, motions.rotation[end as usize]]
+        });
+        let whole = pair.bond.deformation(&a, &b);
         if motions.thermal_strain.is_empty() {
             return whole;
         }

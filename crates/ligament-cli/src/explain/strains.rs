@@ -80,7 +80,7 @@ impl Strains {
     pub(super) fn deformation(&self, bond: usize, motions: &Motions) -> BondDeformation {
         let none = Rigidities::default();
         let element = (self.elements).element(&self.bonds, &none, &self.intact, bond);
-        let whole = element.deformation(motions.of_points.as_flattened());
+        let whole = element.deformation(motions.displacement.as_flattened());
         if motions.thermal_strain.is_empty() {
             return whole;
         }

@@ -5,8 +5,9 @@
 
 use super::pair::PairKinematics;
 use super::spring::SpringBond;
-use super::{BondDeformation, Remaining, Rigidities, UNKNOWNS};
+use super::{BondDeformation, Remaining, Rigidities};
 use crate::bonds::BondSet;
+use crate::layout::Component;
 
 /// A pair of springs between points that turn, and a spring against their relative rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,8 +18,8 @@ pub struct BeamBond {
     pub rotational_rigidity: f64,
 }
 
-impl PairKinematics for BeamBond {
-    const TURNS_POINTS: bool = true;
+impl PairKinematics<3> for BeamBond {
+    const COMPONENTS: [Component; 3] = [Component::X, Component::Y, Component::Rotation];
 
     #[inline]
     fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self {
@@ -41,7 +42,7 @@ impl PairKinematics for BeamBond {
         self.springs.geometry()
     }
 
-    /// Deformation for the unknowns [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):
+    /// Deformation for the motions [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):
     ///
     /// s = [a (u_xB - u_xA) + b (u_yB - u_yA)]/l,
     /// gamma = [-b (u_xB - u_xA) + a (u_yB - u_yA)]/l - (theta_A + theta_B)/2, theta_rel = theta_B - theta_A.
@@ -64,8 +65,8 @@ impl PairKinematics for BeamBond {
 
     /// Internal forces and moment K u at the ends A and B, N and N m.
     #[inline]
-    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
-        let [[a_x, a_y, _], [b_x, b_y, _]] = self.springs.end_forces(deformation);
+    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; 3]; 2] {
+        let [[a_x, a_y], [b_x, b_y]] = self.springs.end_forces(deformation);
         let half_moment = -0.5 * (self.springs.shear_rigidity * deformation.shear);
         let moment = self.rotational_rigidity * deformation.rotation;
         [
@@ -75,14 +76,13 @@ impl PairKinematics for BeamBond {
     }
 
     /// K as a sum over stretch, shear and relative rotation of rigidity g g^T, with the rows g of B^T R (NHPD eq. 3), which
-    /// take the unknowns of A and B to (s, gamma, theta_rel).
-    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
-        let [stretch, (shear_rigidity, mut shear), _] = self.springs.modes();
-        (shear[2], shear[5]) = (-0.5, -0.5);
-        let rotation = [0.0, 0.0, -1.0, 0.0, 0.0, 1.0];
+    /// take the motions of A and B to (s, gamma, theta_rel).
+    fn modes(&self) -> [(f64, [[f64; 3]; 2]); 3] {
+        let [(axial_rigidity, stretch), (shear_rigidity, shear)] = self.springs.modes();
+        let rotation = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
         [
-            stretch,
-            (shear_rigidity, shear),
+            (axial_rigidity, stretch.map(|[x, y]| [x, y, 0.0])),
+            (shear_rigidity, shear.map(|[x, y]| [x, y, -0.5])),
             (self.rotational_rigidity, rotation),
         ]
     }

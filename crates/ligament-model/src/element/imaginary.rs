@@ -25,8 +25,9 @@ mod surroundings;
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::{BondSet, Incidence};
+use crate::layout::Component;
 pub use class::BondClass;
 pub(super) use quotients::{Axis, Quotient, Quotients};
 pub use surroundings::Surroundings;
@@ -94,7 +95,9 @@ impl ImaginaryElements {
     }
 }
 
-impl Elements for ImaginaryElements {
+impl Elements<2> for ImaginaryElements {
+    const COMPONENTS: [Component; 2] = [Component::X, Component::Y];
+
     type Element = ImaginaryElement;
 
     #[inline]
@@ -115,10 +118,6 @@ impl Elements for ImaginaryElements {
                 [0.0; 6]
             },
         }
-    }
-
-    fn turns_points(&self) -> bool {
-        false
     }
 
     fn turns_freely(&self) -> bool {
@@ -256,7 +255,7 @@ impl ImaginaryElement {
 
     /// Block of the stiffness between two of its points, given by their places among them: rows of the first, columns of
     /// the second, shape (2, 2), N/m.
-    fn block(&self, first: usize, second: usize) -> [[f64; 2]; 2] {
+    fn block(&self, first: usize, second: usize) -> Block<2> {
         let [d11, d12, d16, d22, d26, d66] = self.stiffness;
         let Gradient { by_x, by_y, .. } = &self.gradient;
         let ([x, y], [x_2, y_2]) = ([by_x[first], by_y[first]], [by_x[second], by_y[second]]);
@@ -290,7 +289,7 @@ impl ImaginaryElement {
     }
 }
 
-impl Element for ImaginaryElement {
+impl Element<2> for ImaginaryElement {
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
         // D has no parts of its own for stretch and shear.
@@ -301,11 +300,11 @@ impl Element for ImaginaryElement {
     }
 
     #[inline]
-    fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
+    fn deformation(&self, motions: &[f64]) -> BondDeformation {
         let mut strain = [0.0; 3];
         for (point, x, y) in self.gradient.weights() {
-            let first = UNKNOWNS * point as usize;
-            let [u, v] = [unknowns[first], unknowns[first + 1]];
+            let first = 2 * point as usize;
+            let [u, v] = [motions[first], motions[first + 1]];
             strain[0] += x * u;
             strain[1] += y * v;
             strain[2] += y * u + x * v;
@@ -331,10 +330,10 @@ impl Element for ImaginaryElement {
     }
 
     #[inline]
-    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; UNKNOWNS])) {
+    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; 2])) {
         let [xx, yy, xy] = self.stress(deformation);
         for (point, x, y) in self.gradient.weights() {
-            add(point, [x * xx + y * xy, y * yy + x * xy, 0.0]);
+            add(point, [x * xx + y * xy, y * yy + x * xy]);
         }
     }
 
@@ -344,15 +343,15 @@ impl Element for ImaginaryElement {
     }
 
     /// One term for each eigenvalue of D.
-    fn terms(&self) -> [Term; 3] {
+    fn terms(&self) -> Vec<Term> {
         let SymmetricEigen {
             eigenvalues,
             eigenvectors,
         } = matrix(self.stiffness).symmetric_eigen();
-        [0, 1, 2].map(|mode| {
+        let term = |mode: usize| {
             let of_strain: Vector3<f64> = eigenvectors.column(mode).into();
             let entries = self.gradient.weights().flat_map(|(point, x, y)| {
-                let first = UNKNOWNS * point as usize;
+                let first = 2 * point as usize;
                 let [xx, yy, xy] = [of_strain[0], of_strain[1], of_strain[2]];
                 [(first, xx * x + xy * y), (first + 1, yy * y + xy * x)]
             });
@@ -360,17 +359,17 @@ impl Element for ImaginaryElement {
                 eigenvalues[mode],
                 entries.filter(|(_, value)| *value != 0.0).collect(),
             )
-        })
+        };
+        (0..eigenvalues.len()).map(term).collect()
     }
 
-    fn upper_blocks(&self, point: u32, mut add: impl FnMut(u32, Block)) {
+    fn upper_blocks(&self, point: u32, mut add: impl FnMut(u32, Block<2>)) {
         let points = self.gradient.points();
         let Some(column) = points.iter().position(|&it| it == point) else {
             return;
         };
         for (row, &other) in points.iter().enumerate().filter(|(_, it)| **it <= point) {
-            let [[xx, xy], [yx, yy]] = self.block(row, column);
-            add(other, [[xx, xy, 0.0], [yx, yy, 0.0], [0.0; UNKNOWNS]]);
+            add(other, self.block(row, column));
         }
     }
 }

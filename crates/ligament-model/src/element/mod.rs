@@ -8,8 +8,8 @@
 //! | [`true_strain`] | the same | the same | the same, over distances after the deformation | `mbb-pd` |
 //! | [`pairwise`] | the same | the same, with forces on two ends | the same as the first | `mbb-pd` as printed |
 //!
-//! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Arrays over degrees of freedom have
-//! three components a point for all elements; the rotations of a body without them are zero and no unknowns.
+//! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Elements know as a type how many
+//! components M the motion of a point has, and arrays over degrees of freedom have as many a point.
 
 pub mod beam;
 pub mod imaginary;
@@ -19,9 +19,7 @@ pub mod spring;
 pub mod true_strain;
 
 use crate::bonds::{BondSet, Incidence};
-
-/// Components of a point: displacement along x, along y, rotation.
-pub const UNKNOWNS: usize = 3;
+use crate::layout::Component;
 
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,10 +175,13 @@ impl Remaining {
     }
 }
 
-/// The elements of all bonds: what makes the element of a bond from the bonds that are left.
-pub trait Elements: Sync {
+/// The elements of all bonds, between points with M components: what makes the element of a bond from the bonds that are left.
+pub trait Elements<const M: usize>: Sync {
+    /// Components of the motion of a point.
+    const COMPONENTS: [Component; M];
+
     /// Element of a bond.
-    type Element: Element;
+    type Element: Element<M>;
 
     /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
     fn element(
@@ -190,9 +191,6 @@ pub trait Elements: Sync {
         intact: &[bool],
         bond: usize,
     ) -> Self::Element;
-
-    /// Whether the points turn, and their rotations have a stiffness where bonds resist them.
-    fn turns_points(&self) -> bool;
 
     /// Whether a rotation of the whole body costs nothing, although bonds resist shear.
     fn turns_freely(&self) -> bool;
@@ -230,12 +228,14 @@ pub trait Elements: Sync {
 }
 
 /// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
-pub trait Element: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
+pub trait Element<const M: usize>:
+    Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
+{
     /// The element with its rigidities times what is left of them.
     fn weakened(self, remaining: &Remaining) -> Self;
 
-    /// Deformation for the unknowns [u_x, u_y, theta] of all points, shape (3 n_points).
-    fn deformation(&self, unknowns: &[f64]) -> BondDeformation;
+    /// Deformation for the motions of all points, shape (M n_points), m and rad.
+    fn deformation(&self, motions: &[f64]) -> BondDeformation;
 
     /// Deformation in a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations.
     fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation;
@@ -244,21 +244,21 @@ pub trait Element: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64;
 
     /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
-    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS]));
+    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; M]));
 
     /// Internal forces at the ends A and B of a bond of two points, N and N m; None for one that couples others as well.
-    fn end_forces(&self, _deformation: &BondDeformation) -> Option<[[f64; UNKNOWNS]; 2]> {
+    fn end_forces(&self, _deformation: &BondDeformation) -> Option<[[f64; M]; 2]> {
         None
     }
 
     /// Sum over the points of internal force (x) position, its symmetric part (xx, yy, xy), J.
     fn dyad(&self, deformation: &BondDeformation) -> [f64; 3];
 
-    /// K as a sum of rigidity g g^T; the rows g are given by degree of freedom (of 3 n_points).
-    fn terms(&self) -> [Term; 3];
+    /// K as a sum of rigidity g g^T; the rows g are given by degree of freedom.
+    fn terms(&self) -> Vec<Term>;
 
     /// Adds the blocks of K in the columns of one of its points, at the rows of points up to this one.
-    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block));
+    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block<M>));
 
     /// Adds the derivatives of the forces by the unknowns: row, column, value.
     fn derivatives(&self, mut add: impl FnMut(usize, usize, f64)) {
@@ -273,7 +273,7 @@ pub trait Element: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
 }
 
 /// A block of a stiffness between two points: rows of the first, columns of the second.
-pub type Block = [[f64; UNKNOWNS]; UNKNOWNS];
+pub type Block<const M: usize> = [[f64; M]; M];
 
 /// A term rigidity g g^T of an element stiffness: the rigidity, J, and the entries of g by degree of freedom.
 pub type Term = (f64, Vec<(usize, f64)>);

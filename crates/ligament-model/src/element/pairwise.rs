@@ -13,8 +13,9 @@
 //! form is here to show what the printed equations give.
 
 use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::{BondSet, Incidence};
+use crate::layout::Component;
 
 /// The elements of a lattice with the printed forces.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +28,9 @@ pub struct PairwiseElements {
     pub spacing: Vec<f64>,
 }
 
-impl Elements for PairwiseElements {
+impl Elements<2> for PairwiseElements {
+    const COMPONENTS: [Component; 2] = ImaginaryElements::COMPONENTS;
+
     type Element = PairwiseElement;
 
     fn element(
@@ -50,10 +53,6 @@ impl Elements for PairwiseElements {
                 BondClass::from_direction(bonds.direction[bond]),
             ),
         }
-    }
-
-    fn turns_points(&self) -> bool {
-        self.lattice.turns_points()
     }
 
     fn turns_freely(&self) -> bool {
@@ -144,7 +143,7 @@ fn greatest_common_divisor(one: u32, other: u32) -> u32 {
     }
 }
 
-impl Element for PairwiseElement {
+impl Element<2> for PairwiseElement {
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
             strains: self.strains.weakened(remaining),
@@ -153,8 +152,8 @@ impl Element for PairwiseElement {
     }
 
     #[inline]
-    fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
-        self.strains.deformation(unknowns)
+    fn deformation(&self, motions: &[f64]) -> BondDeformation {
+        self.strains.deformation(motions)
     }
 
     #[inline]
@@ -173,10 +172,10 @@ impl Element for PairwiseElement {
     }
 
     #[inline]
-    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; UNKNOWNS])) {
+    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; 2])) {
         let [x, y] = self.force(deformation);
-        add(self.ends[0], [-x, -y, 0.0]);
-        add(self.ends[1], [x, y, 0.0]);
+        add(self.ends[0], [-x, -y]);
+        add(self.ends[1], [x, y]);
     }
 
     fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
@@ -185,12 +184,12 @@ impl Element for PairwiseElement {
     }
 
     /// Terms of the energy form: the forces have none.
-    fn terms(&self) -> [Term; 3] {
+    fn terms(&self) -> Vec<Term> {
         self.strains.terms()
     }
 
     /// Blocks of the energy form.
-    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block)) {
+    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block<2>)) {
         self.strains.upper_blocks(point, add);
     }
 
@@ -202,7 +201,7 @@ impl Element for PairwiseElement {
                 for r in 0..2 {
                     for (c, column) in of_columns.iter().enumerate() {
                         let [row, at] = [(end, r), (point, c)]
-                            .map(|(point, component)| UNKNOWNS * point as usize + component);
+                            .map(|(point, component)| 2 * point as usize + component);
                         add(row, at, sign * column[r]);
                     }
                 }

@@ -4,8 +4,9 @@
 //! rigid rotation costs energy.
 
 use super::pair::PairKinematics;
-use super::{BondDeformation, Remaining, Rigidities, UNKNOWNS};
+use super::{BondDeformation, Remaining, Rigidities};
 use crate::bonds::BondSet;
+use crate::layout::Component;
 
 /// Geometry and rigidity of one bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,8 +21,8 @@ pub struct SpringBond {
     pub shear_rigidity: f64,
 }
 
-impl PairKinematics for SpringBond {
-    const TURNS_POINTS: bool = false;
+impl PairKinematics<2> for SpringBond {
+    const COMPONENTS: [Component; 2] = [Component::X, Component::Y];
 
     #[inline]
     fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self {
@@ -69,27 +70,26 @@ impl PairKinematics for SpringBond {
             + self.shear_rigidity * one.shear * other.shear)
     }
 
-    /// Internal forces K u at the ends A and B, N; the moments are zero.
+    /// Internal forces K u at the ends A and B, N.
     #[inline]
-    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; UNKNOWNS]; 2] {
+    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; 2]; 2] {
         let [a, b] = self.direction;
         let per_length = 1.0 / self.length;
         let axial = self.axial_rigidity * deformation.stretch * per_length;
         let transverse = self.shear_rigidity * deformation.shear * per_length;
         let (force_x, force_y) = (axial * a - transverse * b, axial * b + transverse * a);
-        [[-force_x, -force_y, 0.0], [force_x, force_y, 0.0]]
+        [[-force_x, -force_y], [force_x, force_y]]
     }
 
-    /// K as a sum over stretch and shear of rigidity g g^T, and a third term of rigidity zero.
-    fn modes(&self) -> [(f64, [f64; 2 * UNKNOWNS]); 3] {
+    /// K as a sum over stretch and shear of rigidity g g^T.
+    fn modes(&self) -> [(f64, [[f64; 2]; 2]); 2] {
         let [a, b] = [
             self.direction[0] / self.length,
             self.direction[1] / self.length,
         ];
         [
-            (self.axial_rigidity, [-a, -b, 0.0, a, b, 0.0]),
-            (self.shear_rigidity, [b, -a, 0.0, -b, a, 0.0]),
-            (0.0, [0.0; 2 * UNKNOWNS]),
+            (self.axial_rigidity, [[-a, -b], [a, b]]),
+            (self.shear_rigidity, [[b, -a], [-b, a]]),
         ]
     }
 }

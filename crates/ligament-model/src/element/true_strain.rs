@@ -10,8 +10,9 @@
 //! a strain's share of itself.
 
 use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term, UNKNOWNS};
+use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::{BondSet, Incidence};
+use crate::layout::Component;
 
 /// One bond with its surroundings as they are left.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +30,9 @@ pub struct TrueStrainElements {
     pub lattice: ImaginaryElements,
 }
 
-impl Elements for TrueStrainElements {
+impl Elements<2> for TrueStrainElements {
+    const COMPONENTS: [Component; 2] = ImaginaryElements::COMPONENTS;
+
     type Element = TrueStrainElement;
 
     #[inline]
@@ -50,10 +53,6 @@ impl Elements for TrueStrainElements {
             quotients,
             distances,
         }
-    }
-
-    fn turns_points(&self) -> bool {
-        self.lattice.turns_points()
     }
 
     fn turns_freely(&self) -> bool {
@@ -81,7 +80,7 @@ impl Elements for TrueStrainElements {
     }
 }
 
-impl Element for TrueStrainElement {
+impl Element<2> for TrueStrainElement {
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
@@ -91,12 +90,12 @@ impl Element for TrueStrainElement {
     }
 
     #[inline]
-    fn deformation(&self, unknowns: &[f64]) -> BondDeformation {
+    fn deformation(&self, motions: &[f64]) -> BondDeformation {
         let mut strain = [0.0; 3];
         for (quotient, distance) in self.quotients.iter().zip(self.distances) {
-            let [from, to] = quotient.ends.map(|end| UNKNOWNS * end as usize);
+            let [from, to] = quotient.ends.map(|end| 2 * end as usize);
             let [u, v] =
-                [0, 1].map(|component| unknowns[to + component] - unknowns[from + component]);
+                [0, 1].map(|component| motions[to + component] - motions[from + component]);
             match quotient.axis {
                 Axis::X => {
                     strain[0] += quotient.weight * u / (distance + u);
@@ -122,7 +121,7 @@ impl Element for TrueStrainElement {
     }
 
     #[inline]
-    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; UNKNOWNS])) {
+    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; 2])) {
         self.small.forces(deformation, add);
     }
 
@@ -131,12 +130,12 @@ impl Element for TrueStrainElement {
     }
 
     /// Terms of small strains.
-    fn terms(&self) -> [Term; 3] {
+    fn terms(&self) -> Vec<Term> {
         self.small.terms()
     }
 
     /// Blocks of small strains.
-    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block)) {
+    fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block<2>)) {
         self.small.upper_blocks(point, add);
     }
 }

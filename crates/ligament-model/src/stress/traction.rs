@@ -13,7 +13,7 @@ use crate::system::{BondsLeft, Typed};
 /// Stresses of the planes with normal x (xx, yx) and with normal y (yy, xy), Pa; the first letter is the force's direction.
 pub type Tractions = [f64; 4];
 
-impl<E: Elements> Typed<'_, E> {
+impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// Traction at every point on the planes with normal x and with normal y, shape (n_points).
     ///
     /// The planes of a point are segments of width w_i = sqrt(V_i/t), the point in their middle, and the mean is taken of those
@@ -59,7 +59,7 @@ impl<E: Elements> Typed<'_, E> {
                 continue;
             };
             // The end force is what holds the end in place against the bond: the bond pulls the other way.
-            let Some([[x, y, _], _]) = element.end_forces(deformation) else {
+            let Some([at_a, _]) = element.end_forces(deformation) else {
                 continue;
             };
             let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
@@ -76,7 +76,7 @@ impl<E: Elements> Typed<'_, E> {
             }
             let area: f64 = crossed.iter().map(|(_, area)| area).sum();
             // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
-            let force = [-x, -y].map(|component| component * band.extent());
+            let force = [-at_a[0], -at_a[1]].map(|component| component * band.extent());
             for (point, part) in crossed.drain(..) {
                 for (sum, component) in sums[point].iter_mut().zip(force) {
                     *sum += component * (part / area);

@@ -8,7 +8,7 @@ use crate::system::{BondsLeft, Typed};
 /// Stresses xx, yy and xy, Pa.
 pub type SymmetricStress = [f64; 3];
 
-impl<E: Elements> Typed<'_, E> {
+impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// Virial stress of every point, shape (n_points).
     pub(crate) fn virial_stresses(
         self,

@@ -19,23 +19,23 @@ macro_rules! typed {
         let system: &BondSystem = $system;
         match &system.kinematics {
             Kinematics::Beam(elements) => {
-                let $typed = Typed { system, elements };
+                let $typed = Typed::new(system, elements);
                 $value
             }
             Kinematics::Spring(elements) => {
-                let $typed = Typed { system, elements };
+                let $typed = Typed::new(system, elements);
                 $value
             }
             Kinematics::Imaginary(elements) => {
-                let $typed = Typed { system, elements };
+                let $typed = Typed::new(system, elements);
                 $value
             }
             Kinematics::TrueStrain(elements) => {
-                let $typed = Typed { system, elements };
+                let $typed = Typed::new(system, elements);
                 $value
             }
             Kinematics::Pairwise(elements) => {
-                let $typed = Typed { system, elements };
+                let $typed = Typed::new(system, elements);
                 $value
             }
         }
@@ -48,7 +48,7 @@ impl Bonds for BondSystem {
     }
 
     fn components(&self) -> &'static [Component] {
-        &Component::ALL
+        typed!(self, it => it.components())
     }
 
     fn strain_names(&self) -> &'static [&'static str] {
@@ -126,13 +126,11 @@ impl Bonds for BondSystem {
         let resisted =
             (0..self.n_points()).flat_map(|_| components.iter().map(|it| !it.is_rotation()));
         let mut resisted: Vec<bool> = resisted.collect();
-        if typed!(self, it => it.elements.turns_points()) {
-            for (bond, ends) in self.bonds.ends.iter().enumerate() {
-                if self.resists_rotations(bond) {
-                    for end in ends {
-                        let first = components.len() * *end as usize;
-                        resisted[first..first + components.len()].fill(true);
-                    }
+        let layout = self.layout();
+        for (bond, ends) in self.bonds.ends.iter().enumerate() {
+            if self.resists_rotations(bond) {
+                for end in ends {
+                    resisted[layout.range(*end)].fill(true);
                 }
             }
         }
@@ -211,7 +209,7 @@ impl Bonds for BondSystem {
             let positions = self.cloud.positions.iter();
             let moved = positions.map(|p| of_point(from_middle(p)));
             moved
-                .flat_map(|motion| components.iter().map(move |it| motion[it.index()]))
+                .flat_map(|motion| components.iter().map(move |it| motion[*it as usize]))
                 .collect()
         };
         CentralMotions {
@@ -347,14 +345,13 @@ impl BondSystem {
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
         let resist = bonds.any(|&bond| self.resists_rotations(bond as usize));
-        let (turn_points, turn_freely) =
-            typed!(self, it => (it.elements.turns_points(), it.elements.turns_freely()));
-        let turn = match (resist, turn_freely) {
+        let turn_points = self.components().contains(&Component::Rotation);
+        let turn = match (resist, typed!(self, it => it.elements.turns_freely())) {
             (true, true) if turn_points => Turn::OfPointsAlong,
             (true, false) => Turn::Costly,
             (false, _) | (true, true) => Turn::OfPositions,
         };
-        RigidMotions::new(&self.cloud.positions, points, turn)
+        RigidMotions::new(self.layout(), &self.cloud.positions, points, turn)
     }
 
     /// Whether a bond resists rotations of its ends, if these can turn.
@@ -381,7 +378,11 @@ impl BondSystem {
     }
 }
 
-impl<E: Elements> Typed<'_, E> {
+impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
+    fn components(self) -> &'static [Component] {
+        &E::COMPONENTS
+    }
+
     fn energy_density(
         self,
         bonds: BondsLeft<'_>,
@@ -409,7 +410,8 @@ impl<E: Elements> Typed<'_, E> {
             let element = self.left(bonds, bond as usize)?;
             let forces = element.end_forces(&deformations[bond as usize])?;
             // The end force is what holds the end in place against the bond: the bond pulls the other way.
-            Some(-forces[usize::from(!first_is_near)][component.index()])
+            let place = E::COMPONENTS.iter().position(|it| *it == component)?;
+            Some(-forces[usize::from(!first_is_near)][place])
         });
         pulls.sum()
     }

@@ -21,8 +21,17 @@ impl Sheet {
     /// If the file cannot be read, or a row has not as many values as there are columns.
     pub fn read(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let text = read_text(&path)?;
-        let mut records = records(&text).into_iter();
+        Self::parse(&path, &read_text(&path)?)
+    }
+
+    /// The table of a text, which is that of the file `path`, or would be.
+    ///
+    /// # Errors
+    ///
+    /// If a row has not as many values as there are columns.
+    pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, Error> {
+        let path = path.into();
+        let mut records = records(text).into_iter();
         let columns = records.next().unwrap_or_default();
         let rows: Vec<Vec<String>> = records.collect();
         if let Some(place) = rows.iter().position(|row| row.len() != columns.len()) {
@@ -82,6 +91,21 @@ impl Sheet {
         self.rows(|row| row.value(column))
     }
 
+    /// The numbers of several columns, row by row.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such column, or something else in it.
+    pub fn numbers<const N: usize>(&self, columns: [&str; N]) -> Result<Vec<[f64; N]>, Error> {
+        let mut rows = vec![[0.0; N]; self.rows.len()];
+        for (place, column) in columns.into_iter().enumerate() {
+            for (row, value) in rows.iter_mut().zip(self.values(column)?) {
+                row[place] = value;
+            }
+        }
+        Ok(rows)
+    }
+
     fn place(&self, column: &str) -> Result<usize, Error> {
         let place = self.columns.iter().position(|name| name == column);
         place.ok_or_else(|| self.strange(format!("it has no column `{column}`")))
@@ -118,7 +142,7 @@ impl Row<'_> {
 }
 
 /// The records of a text that end in a line feed; what is quoted may hold commas, quotes (doubled) and line feeds.
-fn records(text: &str) -> Vec<Vec<String>> {
+pub fn records(text: &str) -> Vec<Vec<String>> {
     let (mut records, mut record, mut value) = (Vec::new(), Vec::new(), String::new());
     let mut is_quoted = false;
     let mut letters = text.chars().peekable();

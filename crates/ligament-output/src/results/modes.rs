@@ -5,12 +5,12 @@
 //! | `modes.csv` | a row a mode |
 //! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode |
 
-use ligament_analysis::COMPONENTS;
 use ligament_analysis::modal::ModalOutcome;
+use ligament_analysis::{Bonds, Component};
 use ligament_model::{BodyGrid, FixedFields};
 
 use super::grid::{fixed_fields, write_grid};
-use super::point_fields::in_plane;
+use super::point_fields::{in_plane, values};
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
@@ -32,12 +32,11 @@ const COLUMNS: [&str; 12] = [
     "share_inertia",
 ];
 
-/// Writes all modes of a body with points of given volumes (n_points) and nearest distances (n_points).
+/// Writes all modes of a body.
 pub fn write_modes(
     folder: &ResultFolder,
     grid: &BodyGrid,
-    volumes: &[f64],
-    spacing: &[f64],
+    system: &dyn Bonds,
     fixed: &FixedFields,
     outcome: &ModalOutcome,
 ) -> Result<(), Error> {
@@ -57,15 +56,14 @@ pub fn write_modes(
         row.extend(effective.chain(shares).map(Value::from));
         table.append(&row)?;
         let name = format!("mode_{number:04}.vtu");
-        let displacement = in_plane(&mode.shape);
-        let motions = mode.shape.chunks(COMPONENTS);
-        let rotation: Vec<f64> = motions.map(|motion| motion[2]).collect();
+        let displacement = in_plane(system.layout(), &mode.shape);
+        let rotation = values(system.layout(), Component::Rotation, &mode.shape);
         let mut fields = vec![
             Field::scalar("rotation", &rotation),
             Field::scalar("strain_energy_density", &mode.strain_energy_density),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        fields.extend(fixed_fields(fixed, volumes, spacing));
+        fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
         write_grid(&folder.file(&name), grid, Some(&displacement), &fields)?;
         collection.append(f64::from(number), name)?;
     }

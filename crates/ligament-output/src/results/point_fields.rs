@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use ligament_analysis::COMPONENTS;
 use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
+use ligament_analysis::{Component, Layout};
 use ligament_model::{BodyGrid, FixedFields};
 
 use super::grid::{fixed_fields, write_grid};
@@ -52,16 +52,16 @@ impl Motion {
     fn read(view: &View<'_>) -> Self {
         let (state, balanced) = (view.state, view.balanced);
         let reactions = (view.loads).reactions(state.load_factor, &balanced.internal.values);
-        let motions = state.displacement.chunks(COMPONENTS);
-        let held = state.held.chunks(COMPONENTS);
+        let layout = view.system.layout();
+        let held = state.held.chunks(layout.components.len());
         Self {
-            rotation: motions.map(|motion| motion[2]).collect(),
+            rotation: values(layout, Component::Rotation, &state.displacement),
             density: fields::strain_energy_density(
                 view.system,
                 state.bonds(),
                 &balanced.deformations,
             ),
-            reaction: in_plane(&reactions),
+            reaction: in_plane(layout, &reactions),
             fragment: (view.fragments.of_point.iter())
                 .map(|&fragment| i64::from(fragment))
                 .collect(),
@@ -155,13 +155,20 @@ fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
 
 /// Displacements of the points.
 pub(super) fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
-    in_plane(&view.state.displacement)
+    in_plane(view.system.layout(), &view.state.displacement)
 }
 
 /// The x and y components with a third of zero, as readers expect vectors, shape (n_points).
-pub(super) fn in_plane(values: &[f64]) -> Vec<[f64; 3]> {
-    values
-        .chunks(COMPONENTS)
-        .map(|components| [components[0], components[1], 0.0])
-        .collect()
+pub(super) fn in_plane(layout: Layout, of_all: &[f64]) -> Vec<[f64; 3]> {
+    let of_point = |point| {
+        let [x, y] = [Component::X, Component::Y].map(|it| layout.value(point, it, of_all));
+        [x, y, 0.0]
+    };
+    (0..layout.n_points as u32).map(of_point).collect()
+}
+
+/// Values of a component, shape (n_points).
+pub(super) fn values(layout: Layout, component: Component, of_all: &[f64]) -> Vec<f64> {
+    let of_point = |point| layout.value(point, component, of_all);
+    (0..layout.n_points as u32).map(of_point).collect()
 }

@@ -132,8 +132,10 @@ pub struct StoredBreak {
 /// The motions of the points in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motions {
-    /// Displacements along x and y and rotation of each point, shape (n_points).
-    pub of_points: Vec<[f64; 3]>,
+    /// Displacements of the points along x and y, shape (n_points), m.
+    pub displacement: Vec<[f64; 2]>,
+    /// Rotations of the points, shape (n_points), rad.
+    pub rotation: Vec<f64>,
     /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, shape (n_points, 3); empty
     /// where it does not change.
     pub thermal_strain: Vec<[f64; 3]>,
@@ -196,9 +198,10 @@ impl StoredRun {
         if rotation.len() != n_points {
             return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
         }
-        let motions = displacement.chunks_exact(3).zip(rotation);
+        let in_plane = displacement.chunks_exact(3).map(|u| [u[0], u[1]]);
         Ok(Some(Motions {
-            of_points: motions.map(|(u, turn)| [u[0], u[1], turn]).collect(),
+            displacement: in_plane.collect(),
+            rotation,
             thermal_strain: thermal.as_chunks().0.to_vec(),
         }))
     }

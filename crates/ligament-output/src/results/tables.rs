@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use ligament_analysis::Bonds;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
+use ligament_analysis::{Bonds, Component};
 
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -215,8 +215,13 @@ impl Tables {
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
-        let forces = record.group_forces.as_flattened().iter();
-        row.extend(forces.chain(&record.probes).copied().map(Value::from));
+        let layout = view.system.layout();
+        let of_groups = record.group_forces.iter().flat_map(|force| {
+            // The forces of a group stand as those of one point.
+            Component::ALL.map(|component| layout.value(0, component, force))
+        });
+        row.extend(of_groups.map(Value::from));
+        row.extend(record.probes.iter().map(|&value| Value::from(value)));
         self.history.append(&row)?;
         self.time(record.step, view.costs)
     }

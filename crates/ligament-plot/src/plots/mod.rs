@@ -149,6 +149,22 @@ impl Series {
 }
 
 impl Plot {
+    /// A plot of curves, with the name of its file, its title and the quantities along x and y.
+    pub fn new(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        [x, y]: [&str; 2],
+        series: Vec<Series>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            x: x.to_owned(),
+            y: y.to_owned(),
+            series,
+        }
+    }
+
     /// The plot as the text of an SVG file for a screen.
     ///
     /// # Errors

@@ -62,7 +62,7 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     let system = &model.system;
     Ok(match model.setup.analysis {
         Analysis::Modal(settings) => {
-            let vibration = Vibration::new(&model.setup, &system.cloud)?;
+            let vibration = Vibration::new(&model.setup, system)?;
             let analysis = ModalAnalysis::new(&vibration.problem(system), settings)?;
             memory::of_equations(system, analysis.stiffness())
         }

@@ -1,23 +1,30 @@
 //! Supports and loads of a setup on the points of its body.
 
 use ligament_analysis::{
-    BoundaryError, COMPONENTS, Component, Control, ControlKind, ProportionalLoading, Unknowns,
+    BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
-use ligament_model::{BondSystem, PointCloud};
+use ligament_model::{BondSystem, Bonds, PointCloud};
 
 use super::places::Places;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Load, Place, Profile, Setup};
 
-/// Supports and loads on the points.
+/// A force along x and along y and a couple, or their directions.
+type Wrench = [f64; 3];
+
+/// Supports and loads on the points with all components of the plane, whichever of them the bonds have.
 pub(super) fn boundary(
     setup: &Setup,
     cloud: &PointCloud,
 ) -> Result<ProportionalLoading, SetupError> {
     let places = Places { setup, cloud };
     let heating = heating(&places)?;
-    let mut boundary = ProportionalLoading::new(cloud.len(), places.control(heating.as_ref())?);
+    let plane = Layout {
+        n_points: cloud.len(),
+        components: &Component::ALL,
+    };
+    let mut boundary = ProportionalLoading::new(plane, places.control(heating.as_ref())?);
     if let Some(Heating { change, strain }) = heating {
         boundary.temperature_change = change;
         boundary.thermal_strain = strain;
@@ -29,7 +36,11 @@ pub(super) fn boundary(
             let at_rest = vec![1.0; points.len()];
             places.prescribe(&mut boundary, field, (&points, &at_rest), (component, 0.0))?;
         }
-        boundary.report_group(&support.name(index), points, [0.0; COMPONENTS]);
+        boundary.report_group(
+            &support.name(index),
+            points,
+            vec![0.0; Component::ALL.len()],
+        );
     }
     for (index, load) in setup.loads.iter().enumerate() {
         let field = Field::element("loads", index);
@@ -40,12 +51,11 @@ pub(super) fn boundary(
                 places.prescribe(&mut boundary, field, (&points, &factors), given)?;
             }
         }
-        let mut total = [0.0; COMPONENTS];
+        let mut total = vec![0.0; Component::ALL.len()];
         for (point, force) in places.forces(field, load, &points)?.at_points {
-            for component in Component::ALL {
-                let value = force[component.index()];
+            for ((component, value), sum) in Component::ALL.into_iter().zip(force).zip(&mut total) {
                 boundary.add_force(point, component, value);
-                total[component.index()] += value;
+                *sum += value;
             }
         }
         boundary.report_group(&load.name, points, total);
@@ -63,15 +73,15 @@ pub(super) fn couples_have_stiffness(
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
-    let unknowns = Unknowns::all_but(system, |dof| boundary.prescribed[dof].is_some());
-    let is_idle = |dof: usize| {
-        boundary.force[dof] != 0.0
-            && boundary.prescribed[dof].is_none()
-            && unknowns.number(dof).is_none()
+    let (bonds, resisted) = (system.layout(), system.resisted());
+    let is_idle = |&point: &u32| {
+        let [given, turned] = [boundary.layout, bonds]
+            .map(|layout| layout.degree_of_freedom(point, Component::Rotation));
+        let is_resisted = turned.is_some_and(|dof| resisted[dof]);
+        let acts = |dof: usize| boundary.force[dof] != 0.0 && boundary.prescribed[dof].is_none();
+        given.is_some_and(acts) && !is_resisted
     };
-    let rotations =
-        (0..boundary.force.len()).filter(|&dof| Component::at(dof) == Component::Rotation);
-    match rotations.filter(|&dof| is_idle(dof)).count() {
+    match (0..bonds.n_points as u32).filter(is_idle).count() {
         0 => Ok(()),
         points => {
             let field = Field::element("loads", load).part("action");
@@ -84,7 +94,7 @@ pub(super) fn couples_have_stiffness(
 #[derive(Default)]
 struct Given {
     /// Shares of the points of the load.
-    at_points: Vec<(u32, [f64; COMPONENTS])>,
+    at_points: Vec<(u32, Wrench)>,
     /// Size before the profile: of the sum over the points, or the pressure, Pa.
     size: f64,
 }
@@ -155,15 +165,13 @@ impl Places<'_> {
                 let direction = motion.map(|value| value / magnitude);
                 let shape = factors
                     .iter()
-                    .map(|factor| direction.map(|cosine| factor * cosine));
+                    .flat_map(|factor| direction.map(|cosine| factor * cosine));
                 (ControlKind::Displacement, (points, shape.collect()))
             }
             None => {
-                let at_points = given.at_points.into_iter();
-                let shape = at_points
-                    .map(|(point, force)| (point, force.map(|value| value / magnitude)))
-                    .unzip();
-                (ControlKind::Force, shape)
+                let (points, forces): (Vec<u32>, Vec<Wrench>) = given.at_points.into_iter().unzip();
+                let shares = forces.as_flattened().iter().map(|value| value / magnitude);
+                (ControlKind::Force, (points, shares.collect()))
             }
         };
         Ok(Control {
@@ -265,10 +273,10 @@ impl Places<'_> {
 }
 
 /// A force in the plane, without a couple.
-fn in_plane([x, y]: &[f64; 2]) -> [f64; COMPONENTS] {
+fn in_plane([x, y]: &[f64; 2]) -> Wrench {
     [*x, *y, 0.0]
 }
 
-fn norm(vector: [f64; COMPONENTS]) -> f64 {
+fn norm(vector: Wrench) -> f64 {
     vector.iter().map(|value| value * value).sum::<f64>().sqrt()
 }

@@ -11,8 +11,8 @@ use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::Probe;
 use ligament_analysis::solver::SolverSettings;
-use ligament_model::BondSystem;
 use ligament_model::failure::Criteria;
+use ligament_model::{BondSystem, Bonds};
 
 pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
@@ -42,7 +42,7 @@ impl Loading {
         let boundary = boundary(setup, &system.cloud)?;
         couples_have_stiffness(setup, &boundary, system)?;
         Ok(Self {
-            boundary: Arc::new(boundary),
+            boundary: Arc::new(boundary.reduced(system.layout())),
             probes: setup.probes.iter().map(|it| it.on(system)).collect(),
             solver: setup.solver,
         })

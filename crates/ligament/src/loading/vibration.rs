@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ligament_analysis::modal::ModalProblem;
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{Component, Supports};
-use ligament_model::{BondSystem, LumpedMass, PointCloud};
+use ligament_model::{BondSystem, Bonds, LumpedMass};
 
 use super::places::Places;
 use crate::error::{Field, SetupError};
@@ -23,17 +23,17 @@ pub struct Vibration {
 }
 
 impl Vibration {
-    /// Supports and masses of the setup on the points of a model.
+    /// Supports and masses of the setup on the points and bonds of a model.
     ///
     /// # Errors
     ///
     /// If a name of the setup is not in the body.
-    pub fn new(setup: &Setup, cloud: &PointCloud) -> Result<Self, SetupError> {
+    pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
         let materials = setup.materials.iter();
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {
-            supports: Arc::new(supports(&Places { setup, cloud })?),
-            mass: Arc::new(LumpedMass::new(cloud, &densities)),
+            supports: Arc::new(supports(setup, system)?),
+            mass: Arc::new(LumpedMass::new(&system.cloud, &densities)),
             solver: setup.solver,
         })
     }
@@ -50,9 +50,11 @@ impl Vibration {
 }
 
 /// The supports on the points.
-fn supports(places: &Places<'_>) -> Result<Supports, SetupError> {
-    let mut supports = Supports::none(places.cloud.len());
-    for (index, support) in places.setup.supports.iter().enumerate() {
+fn supports(setup: &Setup, system: &BondSystem) -> Result<Supports, SetupError> {
+    let cloud = &system.cloud;
+    let places = Places { setup, cloud };
+    let mut supports = Supports::none(system.layout());
+    for (index, support) in setup.supports.iter().enumerate() {
         let points = places.points(Field::element("supports", index), &support.place)?;
         let components: Vec<Component> = support.components().collect();
         supports.hold(&support.name(index), points, &components);
