@@ -10,7 +10,7 @@ use ligament_analysis::Termination;
 use ligament_analysis::history::Notice;
 use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
-use verification::bench::{Bench, Run};
+use verification::bench::{Bench, Run, domain};
 use verification::numbers::{component, deviation, largest, relative_error, short};
 use verification::problems::DISK;
 use verification::table::Table;
@@ -72,7 +72,7 @@ fn bonds_of_the_square() {
         assert_eq!(bonds.len(), expected.len(), "{set}: number of bonds");
         assert_eq!(bonds.len(), summary.count(row, "bonds"));
         assert_eq!(
-            model.correction.unwrap().sweeps,
+            domain(&model).sweeps,
             summary.count(row, "sweeps"),
             "{set}"
         );
@@ -308,7 +308,7 @@ fn separation_of_the_square() {
 #[test]
 fn path_of_the_disk() {
     let bench = Bench::new(DISK, &AS_IN_REFERENCE);
-    assert_eq!(bench.model.correction.unwrap().sweeps, 72);
+    assert_eq!(domain(&bench.model).sweeps, 72);
     let run = bench.break_up();
     compare_path(&bench, &run, "disk", 100);
     let first_peak = run.outcome.first_peak(0.02).unwrap();

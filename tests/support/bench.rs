@@ -12,6 +12,7 @@ use ligament_analysis::probe::Probe;
 use ligament_analysis::{Bonds, Component, ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
+use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_run::model::{Model, build_model};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::run::{self, Report};
@@ -72,6 +73,12 @@ pub fn run_program(case: &CaseFile, out: &Path) -> Summary {
         Report::Loading(summary) => *summary,
         Report::Modes(_) => panic!("this case has no loads"),
     }
+}
+
+/// Report on the domain correction of a model that has one.
+pub fn domain(model: &Model) -> &DomainReport {
+    let report = model.correction.as_ref().and_then(CorrectionReport::domain);
+    report.expect("a domain correction")
 }
 
 impl Bench {

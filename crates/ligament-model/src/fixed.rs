@@ -11,6 +11,10 @@ pub struct FixedFields {
     pub energy_ratios: [Vec<f64>; 4],
     /// Omega of each bond, shape (n_bonds).
     pub domain_factor: Vec<f64>,
+    /// Factors of the shear stiffness over Omega, shape (n_bonds); empty where all are 1.
+    pub shear_ratio: Vec<f64>,
+    /// What the patch correction leaves of the equations of each point, shape (n_points); empty without it.
+    pub patch_residual: Vec<f64>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: Vec<bool>,
     /// Pairs within a horizon that are no bonds, in the order of their ends.

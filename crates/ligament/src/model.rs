@@ -93,6 +93,10 @@ impl Model {
             precrack_share,
             energy_ratios,
             domain_factor: correction.domain_factor.clone(),
+            shear_ratio: correction.shear_ratio.clone(),
+            patch_residual: (correction.report.as_ref())
+                .and_then(CorrectionReport::patch)
+                .map_or_else(Vec::new, |report| report.residual.clone()),
             no_fail,
             absent,
         };

@@ -98,7 +98,13 @@ fn try_it() {
             system.cloud.len(),
             (square / deformations.len() as f64).sqrt() / strain,
             model.correction_range,
-            model.across_holes, model.warnings.iter().map(|it| it.to_string()).collect::<Vec<_>>().join("; ")
+            model.across_holes,
+            model
+                .warnings
+                .iter()
+                .map(|it| it.to_string())
+                .collect::<Vec<_>>()
+                .join("; ")
         );
     }
 }

@@ -43,6 +43,24 @@ pub enum CorrectionReport {
     Patch(patch::Report),
 }
 
+impl CorrectionReport {
+    /// The sweeps of the domain correction, if it was the one.
+    pub fn domain(&self) -> Option<&DomainReport> {
+        match self {
+            Self::Domain(report) => Some(report),
+            Self::Patch(_) => None,
+        }
+    }
+
+    /// The Newton steps of the patch correction, if it was the one.
+    pub fn patch(&self) -> Option<&patch::Report> {
+        match self {
+            Self::Domain(_) => None,
+            Self::Patch(report) => Some(report),
+        }
+    }
+}
+
 /// Report on the sweeps of the domain correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DomainReport {

@@ -15,7 +15,7 @@ pub(super) fn fixed_fields<'a>(
     spacing: &'a [f64],
 ) -> Vec<Field<'a>> {
     let [uniaxial_x, uniaxial_y, biaxial, shear] = &fixed.energy_ratios;
-    vec![
+    let mut fields = vec![
         Field::scalar("volume", volumes),
         Field::scalar("horizon", &fixed.horizon),
         Field::scalar("nearest_distance", spacing),
@@ -24,7 +24,11 @@ pub(super) fn fixed_fields<'a>(
         Field::scalar("energy_ratio_y", uniaxial_y),
         Field::scalar("energy_ratio_biaxial", biaxial),
         Field::scalar("energy_ratio_shear", shear),
-    ]
+    ];
+    if !fixed.patch_residual.is_empty() {
+        fields.push(Field::scalar("patch_residual", &fixed.patch_residual));
+    }
+    fields
 }
 
 /// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.

@@ -127,6 +127,9 @@ impl<'a> ResultWriter<'a> {
             Field::scalar("domain_factor", &self.fixed.domain_factor),
             Field::integer("step_of_breaking", &self.step_of_breaking),
         ];
+        if !self.fixed.shear_ratio.is_empty() {
+            cell_fields.push(Field::scalar("shear_ratio", &self.fixed.shear_ratio));
+        }
         let named = names.iter().zip(&deformations);
         cell_fields.extend(named.map(|(name, values)| Field::scalar(name, values)));
         let grid = UnstructuredGrid {

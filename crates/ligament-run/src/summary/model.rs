@@ -1,7 +1,7 @@
 //! The discrete model in numbers and words, whatever is then done with it.
 
 use ligament_model::ElementKind;
-use ligament_model::correction::CorrectionReport;
+use ligament_model::correction::{CorrectionReport, DomainReport};
 use serde::Serialize;
 
 use ligament::Model;
@@ -66,6 +66,12 @@ pub struct CorrectionSummary {
     pub factor_max: f64,
     /// Largest |energy ratio - 1| of a point under uniaxial strain along x or y.
     pub largest_residual: Option<f64>,
+    /// Newton steps of the patch correction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub newton_steps: Option<usize>,
+    /// Root mean square of what the patch correction leaves of its equations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left: Option<f64>,
     /// Energy ratios over the points for uniaxial x, uniaxial y, biaxial and shear strain.
     pub energy_ratios: [Spread; 4],
 }
@@ -126,16 +132,20 @@ impl CorrectionSummary {
     /// The correction of a model.
     pub fn new(model: &Model) -> Self {
         let report = model.correction.as_ref();
+        let domain = report.and_then(CorrectionReport::domain);
+        let patch = report.and_then(CorrectionReport::patch);
         let (factor_min, factor_max) = model.correction_range;
         Self {
             alpha: Word(model.setup.correction.alpha),
             surface: Word(model.setup.correction.surface),
-            sweeps: report.map(|it| it.sweeps),
-            converged: report.map(|it| it.converged),
-            last_change: report.map(|it| it.last_change),
+            sweeps: domain.map(|it| it.sweeps),
+            converged: domain.map(|it| it.converged),
+            last_change: domain.map(|it| it.last_change),
             factor_min,
             factor_max,
-            largest_residual: report.map(|it| it.largest_residual),
+            largest_residual: domain.map(|it| it.largest_residual),
+            newton_steps: patch.map(|it| it.steps),
+            left: patch.map(|it| it.left),
             energy_ratios: model
                 .fixed
                 .energy_ratios
@@ -198,12 +208,19 @@ pub fn correction_line(correction: &Correction, report: Option<&CorrectionReport
     let surface = match correction.surface {
         Surface::None => "no surface correction".to_owned(),
         Surface::Volume => "surface correction by volume".to_owned(),
-        Surface::Domain(_) => report.map(domain_correction).unwrap_or_default(),
+        Surface::Domain(_) | Surface::Patch(_) => match report {
+            Some(CorrectionReport::Domain(report)) => domain_correction(report),
+            Some(CorrectionReport::Patch(report)) => format!(
+                "patch correction in {} Newton steps, uniform strains are equilibria to {:.1e}",
+                report.steps, report.left
+            ),
+            None => String::new(),
+        },
     };
     format!("{alpha}, {surface}")
 }
 
-fn domain_correction(report: &CorrectionReport) -> String {
+fn domain_correction(report: &DomainReport) -> String {
     let verdict = if report.converged {
         "converged"
     } else {

@@ -3,9 +3,12 @@
 use std::borrow::Cow;
 use std::fmt::Debug;
 
+use ligament_model::correction::patch;
 use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
 
-use super::{Action, Alpha, Analysis, Calibration, Form, Horizon, Law, Load, Place};
+use super::{
+    Action, Alpha, Analysis, Calibration, CorrectionDomain, Form, Horizon, Law, Load, Place,
+};
 use super::{Reading, Setup, Strains, Surface};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
@@ -159,6 +162,9 @@ impl Setup {
             let reason = "the discrete calibration has the surfaces in its sums: take `Surface::None`, or `Calibration::Integral`";
             return contradiction(field.part("surface"), reason);
         }
+        if let Surface::Patch(settings) = surface {
+            self.check_patch(field.part("surface"), settings)?;
+        }
         if !matches!(self.law, Law::MbbPd { .. }) {
             return Ok(());
         }
@@ -176,6 +182,40 @@ impl Setup {
     }
 
     /// Elements with strains of their own need rows and columns, and not all analyses take all of their variants.
+    fn check_patch(&self, field: Field, settings: patch::Settings) -> Checked {
+        if matches!(self.body.origin(), Origin::Points) {
+            let reason = "the forces of uniform strains are those of the cells of a body, and points from arrays have none: take a mesh or a \
+                          lattice, or `Surface::Volume`";
+            return contradiction(field, reason);
+        }
+        if self.correction.domain == CorrectionDomain::Cracked {
+            let reason = "the cells of the body know nothing of its pre-cracks: take `CorrectionDomain::Whole`";
+            return contradiction(Field::whole("correction").part("domain"), reason);
+        }
+        let (lowest, highest) = (settings.lowest, settings.highest);
+        let is_share = |value: f64| value > 0.0 && value < 1.0;
+        let r = settings.regularisation;
+        require(
+            is_share(lowest),
+            field.part("lowest"),
+            "between 0 and 1",
+            lowest,
+        )?;
+        require(
+            highest > 1.0 && highest.is_finite(),
+            field.part("highest"),
+            "greater than 1",
+            highest,
+        )?;
+        positive(field.part("moment_weight"), Some(settings.moment_weight))?;
+        require(
+            is_share(r),
+            field.part("regularisation"),
+            "between 0 and 1",
+            r,
+        )
+    }
+
     fn check_strains_of_bonds(&self) -> Checked {
         let Law::MbbPd { form, strains } = self.law else {
             return Ok(());
