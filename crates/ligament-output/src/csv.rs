@@ -90,6 +90,11 @@ impl Table {
         Ok(table)
     }
 
+    /// Creates the file as [`Table::create`] does, with the columns of a header such as `step,load`.
+    pub fn with_header(path: impl Into<PathBuf>, header: &str) -> Result<Self, Error> {
+        Self::create(path, &header.split(',').collect::<Vec<_>>())
+    }
+
     /// Appends one row, one value per column of the header.
     pub fn append(&mut self, row: &[Value<'_>]) -> Result<(), Error> {
         if row.len() != self.n_columns {

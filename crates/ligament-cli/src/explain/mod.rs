@@ -7,7 +7,6 @@ mod files;
 mod life;
 mod report;
 mod strains;
-mod table;
 mod words;
 
 use std::io::Write;

@@ -5,8 +5,9 @@ use std::ops::Add;
 use ligament_model::Absence;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
+use ligament_output::columns::aligned;
+
 use super::life::{Life, Lives};
-use super::table::Columns;
 use super::words::{self, label, number, place};
 use ligament_case::case::Units;
 
@@ -59,7 +60,7 @@ pub(super) fn bond(run: &StoredRun, [a, b]: [u32; 2], lives: &Lives) -> Text {
     lines.extend(words::fate(run, lives, life).iter().map(|it| indented(it)));
     lines.extend(missing(run, lives));
     lines.push(path_title(lives));
-    lines.extend(bond_path(lives, life).lines());
+    lines.extend(in_columns(&bond_path(lives, life)));
     text(title, lines)
 }
 
@@ -83,9 +84,9 @@ pub(super) fn family(run: &StoredRun, point: u32, sought: Option<[f64; 2]>, live
     }
     lines.extend(missing(run, lives));
     lines.push("bonds, as they broke; then by their largest utilisation".to_owned());
-    lines.extend(family_table(run, point, lives).lines());
+    lines.extend(in_columns(&family_table(run, point, lives)));
     lines.push(path_title(lives));
-    lines.extend(family_path(run, point, lives).lines());
+    lines.extend(in_columns(&family_path(run, point, lives)));
     text(title, lines)
 }
 
@@ -198,7 +199,7 @@ fn load(moment: &StoredStep) -> Vec<String> {
 }
 
 /// Deformation and utilisations of a bond over the moments.
-fn bond_path(lives: &Lives, life: &Life) -> Columns {
+fn bond_path(lives: &Lives, life: &Life) -> Vec<Vec<String>> {
     let mut header = load_header(lives.units);
     let names: &[&str] = match lives.components {
         strains @ [_, _, _] => strains,
@@ -211,7 +212,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
             header.extend(["mu", "omega"].map(|it| format!("{it} {}", limit.name)));
         }
     }
-    let mut table = Columns::new(header);
+    let mut table = vec![header];
     for (place, (moment, deformation)) in lives.moments.iter().zip(&life.deformation).enumerate() {
         let mut row = load(moment);
         let values = deformation.components().into_iter();
@@ -235,7 +236,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
 }
 
 /// All bonds of a point: those that broke in their order, then the nearest to breakage first.
-fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
+fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Vec<Vec<String>> {
     let bonds = &run.model.bonds;
     let mut header = [
         run.model.tagged,
@@ -254,7 +255,7 @@ fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
             .map(|it| format!("limit {}", it.name)),
     );
     header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
-    let mut table = Columns::new(header);
+    let mut table = vec![header];
     let mut order: Vec<&Life> = lives.of_bonds.iter().collect();
     let number_of_breakage = |life: &Life| {
         let broke = life.breakage.as_ref().map(|(it, _)| it.order);
@@ -294,12 +295,12 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
 }
 
 /// Intact bonds, damage and the bond nearest to breakage over the moments.
-fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
+fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Vec<Vec<String>> {
     let tagged = run.model.tagged;
     let mut header = load_header(lives.units);
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
     header.extend([format!("to {tagged}"), "by".to_owned()]);
-    let mut table = Columns::new(header);
+    let mut table = vec![header];
     for (place, moment) in lives.moments.iter().enumerate() {
         let intact = || lives.of_bonds.iter().filter(|life| place < life.n_intact);
         let mut worst: Option<(f64, &Life, usize)> = None;
@@ -338,4 +339,11 @@ fn damage(run: &StoredRun, lives: &Lives, place: usize) -> f64 {
     let is_broken = |life: &&Life| place >= life.n_intact;
     let broken = sum(&mut lives.of_bonds.iter().filter(is_broken));
     if all > 0.0 { broken / all } else { 0.0 }
+}
+
+/// The lines of a table with its columns at the right.
+fn in_columns(table: &[Vec<String>]) -> impl Iterator<Item = String> {
+    aligned(table, 0)
+        .into_iter()
+        .map(|line| format!("  {line}"))
 }
