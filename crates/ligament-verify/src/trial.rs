@@ -12,7 +12,7 @@ use ligament_analysis::modal::Mode;
 use ligament_analysis::{Bonds, Component, Termination};
 use ligament_mesh::gmsh;
 
-use ligament_case::case::{Case, CaseFile};
+use ligament_case::case::CaseFile;
 
 /// A case file of the repository, as it was when the program was built.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ impl Trial {
 
     /// Runs the case, as `ligament run` does.
     pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        self.with_setup(|_| {}, run)
+        self.with_setup(run)
     }
 
     /// The discrete model of the case, as `ligament run` builds it.
@@ -102,37 +102,33 @@ impl Trial {
         self.model_with(|_| {})
     }
 
-    /// The discrete model of the case after a change that no setting makes.
-    pub(super) fn model_with(&self, change: impl FnOnce(&mut Case)) -> anyhow::Result<Model> {
-        self.with_setup(change, |case, setup| {
+    /// The discrete model of the case after a change of its setup that no setting makes.
+    pub(super) fn model_with(&self, change: impl FnOnce(&mut Setup)) -> anyhow::Result<Model> {
+        self.with_setup(|case, mut setup| {
+            change(&mut setup);
             Ok(Model::build(setup, &mut ()).map_err(|error| case.located(error))?)
         })
     }
 
     /// The natural modes of the case, as `ligament run` finds them.
     pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
-        self.with_setup(
-            |_| {},
-            |case, setup| {
-                let found = setup.modes().map_err(|error| case.explained(error))?;
-                match found.notices.first() {
-                    Some(notice) => Err(anyhow::anyhow!("{notice}")),
-                    None => Ok(found.modes),
-                }
-            },
-        )
+        self.with_setup(|case, setup| {
+            let found = setup.modes().map_err(|error| case.explained(error))?;
+            match found.notices.first() {
+                Some(notice) => Err(anyhow::anyhow!("{notice}")),
+                None => Ok(found.modes),
+            }
+        })
     }
 
-    /// What `work` makes of the case after a change; the command stands above its errors.
+    /// What `work` makes of the setup of the case; the command stands above its errors.
     fn with_setup<T>(
         &self,
-        change: impl FnOnce(&mut Case),
         work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         let attempt = || {
             let text = self.template.text.to_owned();
-            let mut case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
-            change(&mut case.case);
+            let case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
             let setup = match self.mesh {
                 Some(mesh) => case.setup_on(Arc::new(MeshBody::from(gmsh::parse(mesh.bytes)?)))?,
                 None => case.setup(&mut ())?,

@@ -9,7 +9,7 @@ use ligament_output::columns::aligned;
 
 use super::life::{Life, Lives};
 use super::words::{self, label, number, place};
-use ligament_case::case::Units;
+use ligament::units::Units;
 
 /// An explanation.
 pub(super) struct Text {

@@ -25,10 +25,10 @@ pub(super) fn draw(
     on_threads(case.threads(), || {
         let model = model(case)?;
         let point = find(&model, place)?;
-        let poisson = poisson(request, case, &model)?[point as usize];
+        let poisson = poisson(request, &model)?[point as usize];
         let label = model.body().label(point);
         let mut comparisons = Vec::new();
-        for (criterion, criteria) in criteria(request, case, &model)? {
+        for (criterion, criteria) in criteria(request, &model)? {
             let subject = Subject::of_point(label.clone(), &model.system, &criteria, point);
             comparisons.push(Comparison {
                 criterion,
