@@ -148,13 +148,7 @@ mod tests {
             Colour::Blue,
             vec![[0.0, 0.0], [9.0, 9.0]],
         );
-        let plot = Plot {
-            name: "locus".to_owned(),
-            title: "Locus".to_owned(),
-            x: "s1".to_owned(),
-            y: "s2".to_owned(),
-            series: vec![line],
-        };
+        let plot = Plot::new("locus", "Locus", ["s1", "s2"], vec![line]);
         let of = |window| {
             let plot = plot.clone();
             EqualScales { plot, window }.to_svg()

@@ -410,13 +410,7 @@ mod tests {
     use super::*;
 
     fn plot(series: Vec<Series>) -> Plot {
-        Plot {
-            name: "peak".to_owned(),
-            title: "Peak & strength".to_owned(),
-            x: "lambda".to_owned(),
-            y: "F, N".to_owned(),
-            series,
-        }
+        Plot::new("peak", "Peak & strength", ["lambda", "F, N"], series)
     }
 
     #[test]
@@ -473,22 +467,12 @@ mod tests {
 
     #[test]
     fn paper_has_its_width_and_room_for_the_legend() {
-        let series = Series::new(
-            "a long name",
-            Mark::Curve,
-            Colour::Blue,
-            vec![[0.0, 0.0], [1.0, 1.0]],
-        );
+        let points = vec![[0.0, 0.0], [1.0, 1.0]];
+        let series = Series::curve("a long name", Colour::Blue, points);
         let with = Paper::new(120.0, Some(11));
         let without = Paper::new(120.0, None);
         assert!(with.plane() < without.plane() && with.dots().0 == without.dots().0);
-        let plot = Plot {
-            name: "p".to_owned(),
-            title: String::new(),
-            x: "x".to_owned(),
-            y: "y".to_owned(),
-            series: vec![series],
-        };
+        let plot = Plot::new("p", "", ["x", "y"], vec![series]);
         let svg = plot.for_paper(120.0).unwrap();
         assert!(
             svg.starts_with("<svg width=\"120.000mm\" height=\""),

@@ -209,7 +209,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
     }
     let of_bond = "stretch and sliding of a bond";
     let mut plots = Vec::new();
-    for (kind, title, [x, y], curves, dashes) in [
+    for (kind, title, axes, curves, dashes) in [
         (
             "locus",
             "principal stretches",
@@ -224,16 +224,9 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
         };
         let mut series = vec![Series::curve("theory", Colour::Black, dashes)];
         series.extend(curves);
-        plots.push(EqualScales {
-            plot: Plot {
-                name: file_name(kind, criterion),
-                title: format!("First yield, {criterion}: {title}"),
-                x: x.to_owned(),
-                y: y.to_owned(),
-                series,
-            },
-            window,
-        });
+        let title = format!("First yield, {criterion}: {title}");
+        let plot = Plot::new(file_name(kind, criterion), title, axes, series);
+        plots.push(EqualScales { plot, window });
     }
     Ok(plots)
 }

@@ -227,17 +227,16 @@ fn distribution(layers: &[Layer], is_interior: &[bool]) -> Plot {
         let name = format!("{}, {}", layer.criterion, layer.strain.name);
         Series::curve(name, *colour, points.collect())
     };
-    Plot {
-        name: "distribution".to_owned(),
-        title: "Anisotropy of first yield at interior points".to_owned(),
-        x: "largest error over the orientation, %".to_owned(),
-        y: "points with no larger one, %".to_owned(),
-        series: layers
-            .iter()
-            .zip(Colour::CYCLE.iter().cycle())
-            .map(curve)
-            .collect(),
-    }
+    let series = layers.iter().zip(Colour::CYCLE.iter().cycle()).map(curve);
+    Plot::new(
+        "distribution",
+        "Anisotropy of first yield at interior points",
+        [
+            "largest error over the orientation, %",
+            "points with no larger one, %",
+        ],
+        series.collect(),
+    )
 }
 
 fn write_fields(
