@@ -413,11 +413,7 @@ fn breaks(sheet: &Sheet, tagged: &str, names: &[&str]) -> Result<Vec<StoredBreak
         tags: [a[row], b[row]],
         criterion,
         utilisation: utilisation[row],
-        deformation: BondDeformation {
-            stretch: component(0, row),
-            shear: component(1, row),
-            rotation: component(2, row),
-        },
+        deformation: BondDeformation::new([0, 1, 2].map(|place| component(place, row))),
     };
     Ok(criterion.into_iter().enumerate().map(of_row).collect())
 }
