@@ -3,7 +3,8 @@
 
 use std::path::PathBuf;
 
-use ligament_case::case::{BodySection, CaseFile, Surface};
+use ligament::setup::Surface;
+use ligament_case::case::{CaseFile, Word};
 use ligament_cli::check::{Extent, check};
 use ligament_study::sweep::plan;
 use ligament_study::sweep::study::Study;
@@ -75,7 +76,7 @@ fn every_case_names_a_mesh_of_the_repository() {
             "{} has no title",
             path.display()
         );
-        let BodySection::Mesh(mesh) = &case.case.body else {
+        let Some(mesh) = &case.case.mesh else {
             continue;
         };
         let mesh = &mesh.file;
@@ -119,7 +120,8 @@ fn every_case_passes_the_check() {
         let converges = report.contains("domain correction converged");
         let factor = case.case.model.horizon_factor;
         let may_not = factor.is_some_and(|factor| factor < 2.0);
-        let iterates = case.case.correction.surface == Surface::Domain;
+        let surface = case.case.correction.surface;
+        let iterates = matches!(surface, Some(Word(Surface::Domain(_))));
         assert!(
             converges || may_not || !iterates,
             "{}:\n{report}",

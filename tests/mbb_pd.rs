@@ -35,8 +35,8 @@ const HOLES: &str = "lattice.remove=[{ circle = { centre = [0.002, 0.001], radiu
 
 /// The stiffness of the plane of the one material.
 fn plane_stiffness(bench: &Bench) -> Matrix3<f64> {
-    let materials = ligament_case::setup::materials(&bench.case);
-    let plane = ligament_case::setup::plane(&bench.case);
+    let materials = bench.model.setup.materials();
+    let plane = bench.model.setup.plane();
     materials[0].elasticity.plane_stiffness(plane)
 }
 

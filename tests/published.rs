@@ -1,8 +1,8 @@
 //! The fast subset of `ligament verify`: values of the papers, computed by the functions of `ligament run`.
 #![allow(clippy::unwrap_used)]
 
+use ligament_output::csv::read::records;
 use ligament_verify::entry::Verdict;
-use ligament_verify::published::cells;
 use ligament_verify::table::{Extent, Table};
 use ligament_verify::tally::Tally;
 use ligament_verify::{EXPERIMENTS, Experiment};
@@ -30,7 +30,7 @@ fn passes(experiment: &Experiment) {
         is_stored(experiment, table);
     }
     for case in experiment.cases {
-        assert!(repository().join(case).is_file(), "{case}");
+        assert!(repository().join(case.path).is_file(), "{}", case.path);
     }
     let tally = Tally::from_findings(&findings);
     assert!(
@@ -55,7 +55,7 @@ fn is_stored(experiment: &Experiment, table: &Table) {
     let size = largest(table.rows.iter().map(|row| row.computed));
     let file = format!("cases/verification/{}.csv", table.heading.name);
     let text = std::fs::read_to_string(repository().join(&file)).unwrap();
-    let stored: Vec<Vec<String>> = text.lines().map(cells).collect();
+    let stored = records(&text);
     let n_keys = table.heading.keys.len();
     for row in &table.rows {
         let place = format!("{file}, {}", table.labels(row));

@@ -1,9 +1,10 @@
 //! An observer that keeps what a run has in memory, apart from the writer of the results.
 
+use ligament::setup::Analysis;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::{Component, ControlKind, fields};
-use ligament_case::case::{Control, StressField};
+use ligament_case::case::StressField;
 use ligament_model::{Absence, Bonds};
 use ligament_run::model::Model;
 use verification::numbers::by_point;
@@ -128,13 +129,10 @@ impl<'a> Recorder<'a> {
             expected: Expected::default(),
             model,
             canvas,
-            fields_every: case.output.fields_every as usize,
+            fields_every: case.output.fields_every.unwrap() as usize,
             bonds: case.output.bonds,
             stress: case.output.stress.clone(),
-            times_are_steps: matches!(
-                case.fracture.as_ref().map(|it| &it.control),
-                Some(Control::Event)
-            ),
+            times_are_steps: matches!(model.setup.analysis, Analysis::Event(_)),
             labels: labels(&problem),
             problem: problem.clone(),
             history: Rows::new(history.chain(groups).chain(probes)),

@@ -28,7 +28,7 @@ fn error(text: &str, settings: &[&str]) -> String {
 
 #[test]
 fn the_analysis_follows_from_the_sections_or_is_named() {
-    let analysis = |text, settings: &[&str]| read(text, settings).unwrap().case.analysis;
+    let analysis = |text, settings: &[&str]| read(text, settings).unwrap().case.analysis.unwrap();
     assert_eq!(analysis(STATIC, &[]), Analysis::Static);
     assert_eq!(analysis(STATIC, &["analysis=static"]), Analysis::Static);
     assert_eq!(analysis(STATIC, &["fracture.steps=5"]), Analysis::Fracture);

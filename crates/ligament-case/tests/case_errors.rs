@@ -4,7 +4,8 @@
 
 use std::path::Path;
 
-use ligament_case::case::{CaseError, CaseFile, Fault, Law, Location};
+use ligament::setup::Law;
+use ligament_case::case::{CaseError, CaseFile, Fault, Location};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -25,7 +26,7 @@ fn error_of(text: &str) -> String {
 
 /// The words of all laws.
 fn laws() -> String {
-    Law::ALL.map(|law| format!("\"{}\"", law.word())).join(", ")
+    Law::ALL.map(|law| format!("\"{}\"", law.name())).join(", ")
 }
 
 /// The text of the case without the lines from the one that starts with `from` to the next blank one.

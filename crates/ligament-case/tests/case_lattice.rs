@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use ligament_case::case::{
-    BodySection, CaseFile, CellSet, Circle, Hole, HoleShape, LatticeSection,
+    CaseFile, CellSet, Circle, Hole, LatticeSection, Polygon, Rectangle, Spacing,
 };
 use ligament_model::Plane;
 
@@ -18,10 +18,7 @@ fn parse(text: &str, settings: &[&str]) -> Result<CaseFile, String> {
 }
 
 fn section(text: &str, settings: &[&str]) -> LatticeSection {
-    match parse(text, settings).unwrap().case.body {
-        BodySection::Lattice(section) => section,
-        BodySection::Mesh(_) => panic!("the case has a lattice"),
-    }
+    parse(text, settings).unwrap().case.lattice.unwrap()
 }
 
 /// The error of the case with `old` replaced by `new`.
@@ -33,21 +30,27 @@ fn error_with(old: &str, new: &str) -> String {
 #[test]
 fn the_section_is_read_with_its_defaults() {
     let lattice = section(TEXT, &[]);
-    assert_eq!((lattice.cells, lattice.spacing), ([20, 12], [0.01; 2]));
+    assert_eq!(
+        (lattice.cells, lattice.spacing),
+        ([20, 12], Spacing([0.01; 2]))
+    );
     assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], 1.0));
     assert_eq!(lattice.plane.0, Plane::Stress);
     let circle = |centre, radius| Circle { centre, radius };
-    let hole = |name: Option<&str>, shape| Hole {
+    let hole = |name: Option<&str>, circle, outside| Hole {
         name: name.map(str::to_owned),
-        shape,
+        circle,
+        rectangle: None,
+        polygon: None,
+        outside,
     };
     let bore = circle([0.1, 0.06], 0.02);
-    assert_eq!(lattice.remove, [hole(None, HoleShape::Circle(bore))]);
+    assert_eq!(lattice.remove, [hole(None, Some(bore), None)]);
     let named =
         "lattice.remove=[{ name = \"rim\", outside = { centre = [0.1, 0.06], radius = 0.02 } }]";
     assert_eq!(
         section(TEXT, &[named]).remove,
-        [hole(Some("rim"), HoleShape::Outside(bore))]
+        [hole(Some("rim"), None, Some(bore))]
     );
     let sets: Vec<(&str, &CellSet)> = (lattice.sets.iter())
         .map(|(name, set)| (name.as_str(), set))
@@ -56,11 +59,41 @@ fn the_section_is_read_with_its_defaults() {
     assert_eq!(
         sets,
         [
-            ("disk", &CellSet::Circle(circle([0.0; 2], 0.03))),
-            ("left", &CellSet::Left(3)),
-            ("right", &CellSet::Right(1)),
-            ("rock", &CellSet::Box([[0.0, 0.0], [0.2, 0.12]])),
-            ("tip", &CellSet::Polygon(corners)),
+            (
+                "disk",
+                &CellSet {
+                    circle: Some(circle([0.0; 2], 0.03)),
+                    ..CellSet::default()
+                }
+            ),
+            (
+                "left",
+                &CellSet {
+                    left: Some(3),
+                    ..CellSet::default()
+                }
+            ),
+            (
+                "right",
+                &CellSet {
+                    right: Some(1),
+                    ..CellSet::default()
+                }
+            ),
+            (
+                "rock",
+                &CellSet {
+                    r#box: Some(Rectangle([[0.0, 0.0], [0.2, 0.12]])),
+                    ..CellSet::default()
+                }
+            ),
+            (
+                "tip",
+                &CellSet {
+                    polygon: Some(Polygon(corners)),
+                    ..CellSet::default()
+                }
+            ),
         ]
     );
     let settings = [
@@ -72,7 +105,7 @@ fn the_section_is_read_with_its_defaults() {
     let lattice = section(TEXT, &settings);
     assert_eq!(
         (lattice.spacing, lattice.corner),
-        ([1e-3, 2.0], [-1.0, 5.0])
+        (Spacing([1e-3, 2.0]), [-1.0, 5.0])
     );
     assert_eq!((lattice.thickness, lattice.plane.0), (0.1, Plane::Strain));
 }

@@ -4,9 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
+use ligament::setup::Iteration;
 use ligament_case::case::{
-    Action, CaseFile, Control, CorrectionRule, CrackLine, Displacement, Place, Precrack, Region,
-    Steps, Vector, Word,
+    CaseFile, Control, Displacement, Precrack, Rectangle, Region, Steps, Vector, Word,
 };
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
@@ -36,25 +36,27 @@ fn set(setting: &str) -> Result<CaseFile, String> {
 fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;
     assert_eq!(
-        (case.body.thickness(), case.body.plane()),
-        (1.0, Plane::Stress)
+        case.mesh.as_ref().map(|it| (it.thickness, it.plane.0)),
+        Some((1.0, Plane::Stress))
     );
+    let mean = Some(Word(Some(Iteration::MEAN)));
     assert_eq!(
-        case.correction.iteration.map(|it| (it.rule, it.max_sweeps)),
-        Some((CorrectionRule::Mean, 500))
+        (case.correction.rule, case.correction.max_sweeps),
+        (mean, Some(500))
     );
-    assert_eq!(case.loads[0].name, "load-1");
+    assert_eq!(case.loads[0].name.as_deref(), Some("load-1"));
+    assert_eq!(case.loads[0].body_force, Some(Vector { x: 0.0, y: -2.5e4 }));
+    let top = &case.loads[1];
     assert_eq!(
-        case.loads[0].action,
-        Action::BodyForce(Vector { x: 0.0, y: -2.5e4 })
-    );
-    assert_eq!(
-        (case.loads[1].name.as_str(), &case.loads[1].place),
-        ("top", &Some(Place::Group("top".into())))
+        (top.name.as_deref(), top.group.as_deref()),
+        (Some("top"), Some("top"))
     );
     assert_eq!(case.materials[1].key(), "material.\"soft layer\"");
     assert_eq!(case.fracture, None);
-    assert_eq!((case.output.fields_every, case.output.bonds), (10, false));
+    assert_eq!(
+        (case.output.fields_every, case.output.bonds),
+        (Some(10), false)
+    );
 }
 
 #[test]
@@ -63,9 +65,10 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(
         case.precracks,
         [Precrack {
-            line: CrackLine::Polyline {
-                points: vec![[-0.015, 0.0], [0.015, 0.0]]
-            },
+            points: Some(vec![[-0.015, 0.0], [0.015, 0.0]]),
+            centre: None,
+            length: None,
+            angle: None,
             ends: Word(Ends::Excluded),
         }]
     );
@@ -75,14 +78,16 @@ fn the_case_is_read_as_it_is_written() {
         rotation: None,
     };
     assert_eq!(case.supports[1].displacement, held);
-    assert_eq!(case.no_fail, [Region::Box([[-0.01, 0.04], [0.01, 0.05]])]);
-    let fracture = case.fracture.unwrap();
-    let Control::Stepped(stepping) = fracture.control else {
-        panic!("load steps are the default")
+    let ordered = Region {
+        group: None,
+        r#box: Some(Rectangle([[-0.01, 0.04], [0.01, 0.05]])),
     };
+    assert_eq!(case.no_fail, [ordered]);
+    let fracture = case.fracture.unwrap();
+    assert_eq!(fracture.control, Control::Stepped);
     assert_eq!(
-        (stepping.steps, stepping.bonds_per_iteration),
-        (Steps::Uniform(100), 5)
+        (fracture.steps, fracture.bonds_per_iteration),
+        (Some(Steps::Uniform(100)), Some(5))
     );
     assert_eq!(
         (fracture.stop.load_fraction, fracture.stop.wall_time),
@@ -113,7 +118,7 @@ fn the_exact_path_has_no_keys_of_load_steps() {
         (fracture.tie_tolerance, fracture.stop.bonds),
         (1e-8, Some(300))
     );
-    assert_eq!(case_file.case.output.fields_every, 100);
+    assert_eq!(case_file.case.output.fields_every, Some(100));
     let resolved = case_file.resolved_toml().unwrap();
     let lines: Vec<&str> = resolved.lines().collect();
     assert!(lines.contains(&"control = \"event\"") && lines.contains(&"tie_tolerance = 1e-8"));
@@ -180,23 +185,24 @@ fn overrides_change_make_and_replace_settings() {
         ],
     );
     let case = case.unwrap().case;
-    assert_eq!(case.body.plane(), Plane::Strain);
+    assert_eq!(case.plane(), Plane::Strain);
     let pushed = Displacement {
         x: None,
         y: Some(-1e-6),
         rotation: None,
     };
-    assert_eq!(case.loads[0].action, Action::Displacement(pushed));
+    assert_eq!(case.loads[0].displacement, Some(pushed));
     let stop = case.fracture.unwrap().stop;
     assert_eq!(
         (stop.bonds, stop.wall_time, stop.load_fraction),
         (Some(10), Some(60.0), None)
     );
     assert!(case.output.bonds);
-    assert_eq!(case.precracks[0].points()[1], [0.02, 0.001]);
+    let points = case.precracks[0].points.as_ref().unwrap();
+    assert_eq!(points[1], [0.02, 0.001]);
     assert_eq!(case.title, "Disk under a small load");
     let small = with(SMALL, &["output.fields_every=3"]).unwrap();
-    assert_eq!(small.case.output.fields_every, 3);
+    assert_eq!(small.case.output.fields_every, Some(3));
 }
 
 #[test]

@@ -5,7 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use ligament_case::case::{CaseFile, Law, Place, schema};
+use ligament::setup::{Form, Law, Strains};
+use ligament_case::case::{CaseFile, schema};
 use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
 use ligament_cli::check::{Extent, check};
 use serde_json::Value;
@@ -81,19 +82,9 @@ fn groups_are_found_by_their_names() {
     ] {
         let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
         let case = case(&starter, folder.path()).case;
-        assert_eq!(
-            case.supports[0].place,
-            Place::Group(held.to_owned()),
-            "{mesh}"
-        );
-        assert_eq!(
-            case.loads[0].place,
-            Some(Place::Group(loaded.to_owned())),
-            "{mesh}"
-        );
-        let ligament_case::case::Action::Displacement(moved) = case.loads[0].action else {
-            panic!("{:?}", case.loads[0].action)
-        };
+        assert_eq!(case.supports[0].group.as_deref(), Some(held), "{mesh}");
+        assert_eq!(case.loads[0].group.as_deref(), Some(loaded), "{mesh}");
+        let moved = case.loads[0].displacement.unwrap();
         let components = [moved.x, moved.y];
         assert!(
             components[axis].unwrap() * sign > 0.0,
@@ -110,11 +101,7 @@ fn without_groups_boxes_are_taken() {
     for mesh in ["annulus-coarse.msh", "heated-disk.msh"] {
         let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
         let case = case(&starter, folder.path());
-        assert!(
-            matches!(case.case.supports[0].place, Place::Box(_)),
-            "{}",
-            starter.text
-        );
+        assert!(case.case.supports[0].r#box.is_some(), "{}", starter.text);
         let report = checked(&case, Extent::Matrix);
         assert!(!report.contains(" 0 points"), "{report}");
     }
@@ -227,24 +214,15 @@ fn names_are_quoted() {
         .map(|it| it.group.as_deref().unwrap())
         .collect();
     assert_eq!(materials, ["left half", "right.half"]);
-    assert_eq!(
-        case.case.supports[0].place,
-        Place::Group(names[2].to_owned())
-    );
-    assert_eq!(
-        case.case.loads[0].place,
-        Some(Place::Group(names[3].to_owned()))
-    );
+    assert_eq!(case.case.supports[0].group.as_deref(), Some(names[2]));
+    assert_eq!(case.case.loads[0].group.as_deref(), Some(names[3]));
     checked(&case, Extent::Matrix);
     let (folder, starter) = of_text(&square(0.1, ["a", "b", "top", "bottom, \u{e9}"]));
     let case = self::case(&starter.unwrap(), folder.path());
-    assert_eq!(
-        case.case.loads[0].place,
-        Some(Place::Group("top".to_owned()))
-    );
+    assert_eq!(case.case.loads[0].group.as_deref(), Some("top"));
     let (folder, starter) = of_text(&square(0.1, ["a", "b", "base", "top, moved"]));
     let case = self::case(&starter.unwrap(), folder.path());
-    assert_eq!(case.case.loads[0].name, "load");
+    assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
 }
 
 /// Groups whose names tell nothing are found by where they lie.
@@ -252,8 +230,8 @@ fn names_are_quoted() {
 fn groups_are_found_by_their_place() {
     let (folder, starter) = of_text(&square(0.1, ["1", "2", "17", "4"]));
     let case = case(&starter.unwrap(), folder.path());
-    assert_eq!(case.case.supports[0].place, Place::Group("17".to_owned()));
-    assert_eq!(case.case.loads[0].place, Some(Place::Group("4".to_owned())));
+    assert_eq!(case.case.supports[0].group.as_deref(), Some("17"));
+    assert_eq!(case.case.loads[0].group.as_deref(), Some("4"));
     checked(&case, Extent::Matrix);
 }
 
@@ -328,7 +306,11 @@ fn what_is_no_mesh_is_refused() {
     );
     let error = of("plate.msh", "*NODE\n", Law::Nhpd);
     assert!(error.contains("cannot use the mesh"), "{error}");
-    let error = of("a.msh", &square(1.0, ["a", "b", "c", "d"]), Law::MbbPd);
+    let lattices = Law::MbbPd {
+        form: Form::Full,
+        strains: Strains::Small,
+    };
+    let error = of("a.msh", &square(1.0, ["a", "b", "c", "d"]), lattices);
     assert!(error.contains("--lattice"), "{error}");
     let missing = of_mesh(Path::new("nowhere.msh"), folder.path(), Law::Nhpd).unwrap_err();
     assert!(

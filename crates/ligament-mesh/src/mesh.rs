@@ -8,7 +8,7 @@ use crate::remark::Remark;
 /// A planar mesh of triangles and quadrangles.
 ///
 /// Only nodes that a cell uses are kept; they are numbered from zero in the order of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     /// Tag of each node in the mesh file, shape (n_nodes).
     pub node_tags: Vec<u64>,

@@ -10,7 +10,6 @@ use ligament_case::case::CaseFile;
 
 /// Times the stages of a case and tells of what they find.
 struct Preparation<'a> {
-    case: &'a CaseFile,
     stages: &'a mut Stages,
     progress: &'a Progress,
 }
@@ -27,7 +26,9 @@ impl StageWatcher for Preparation<'_> {
     fn found(&mut self, finding: &Finding<'_>) {
         self.progress.stage(&match finding {
             Finding::Bonds { points, bonds } => format!("{points} points, {bonds} bonds"),
-            Finding::Correction(report) => summary::correction_line(self.case, *report),
+            Finding::Correction(correction, report) => {
+                summary::correction_line(correction, *report)
+            }
         });
     }
 }
@@ -42,11 +43,7 @@ pub fn build_model(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
-    let mut preparation = Preparation {
-        case,
-        stages,
-        progress,
-    };
+    let mut preparation = Preparation { stages, progress };
     let setup = case.setup(&mut preparation)?;
     Ok(Model::build(setup, &mut preparation).map_err(|error| case.located(error))?)
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use ligament_case::case::Units;
+use ligament::units::Units;
 
 /// Steps that follow sooner than this on the last logged one are left out of a log, ...
 const LOG_PAUSE: Duration = Duration::from_secs(2);

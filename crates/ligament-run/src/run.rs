@@ -16,7 +16,7 @@ use crate::progress::{Progress, ProgressMode};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use crate::watch::Watch;
-use ligament_case::case::{CaseFile, Control, StressField};
+use ligament_case::case::{CaseFile, StressField};
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,19 +79,20 @@ fn follow_loads(
     let folder = ResultFolder::create(out, force)?;
     folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
     let grid = model.body().grid();
+    let output = &case.case.output;
     let rule = WriteRule {
-        fields_every: case.case.output.fields_every as usize,
-        bonds: case.case.output.bonds,
-        model: case.case.output.model,
-        virial: case.case.output.stress.contains(&StressField::Virial),
-        traction: case.case.output.stress.contains(&StressField::Traction),
-        time: match case.case.fracture.as_ref().map(|it| &it.control) {
-            Some(Control::Event) => Time::Step,
-            Some(Control::Stepped(_)) | None => Time::Load,
+        fields_every: output.fields_every.unwrap_or_default() as usize,
+        bonds: output.bonds,
+        model: output.model,
+        virial: output.stress.contains(&StressField::Virial),
+        traction: output.stress.contains(&StressField::Traction),
+        time: match model.setup.analysis {
+            Analysis::Event(_) => Time::Step,
+            _ => Time::Load,
         },
     };
     let writer = ResultWriter::new(&folder, &grid, &model.fixed, rule, &problem)?;
-    let mut watch = Watch::new(writer, &mut progress, model.body(), &case.case);
+    let mut watch = Watch::new(writer, &mut progress, &model.setup);
     let outcome = stages.time("solution", || {
         follow(&problem, &model.setup.analysis, &mut watch)
     })?;

@@ -14,7 +14,8 @@ use serde::ser::{SerializeMap, Serializer};
 
 use crate::stages::Stage;
 use ligament::Model;
-use ligament_case::case::{CaseFile, Units};
+use ligament::units::Units;
+use ligament_case::case::CaseFile;
 
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{
@@ -160,7 +161,7 @@ impl Summary {
         Self {
             model: ModelSummary::new(case, model),
             temperature_change: temperature_change(boundary),
-            units: case.case.units(),
+            units: model.setup.units(),
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),

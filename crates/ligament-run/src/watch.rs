@@ -1,12 +1,12 @@
 //! Watches a run: writes its results, shows its progress and keeps its notices.
 
-use ligament::Body;
+use ligament::setup::Analysis;
+use ligament::{Body, Setup};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_output::results::ResultWriter;
 
 use crate::gauges;
 use crate::progress::{Progress, StepLine};
-use ligament_case::case::{Case, Control, Steps};
 
 /// Notices that are shown while the run goes on, and points that a notice lists; all are in `summary.json`.
 const SHOWN: usize = 5;
@@ -21,29 +21,20 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Watches a case with a writer and a progress display.
-    pub fn new(
-        writer: ResultWriter<'a>,
-        progress: &'a mut Progress,
-        body: &'a dyn Body,
-        case: &Case,
-    ) -> Self {
-        let total = match case.fracture.as_ref().map(|fracture| &fracture.control) {
-            None => Some(1),
-            Some(Control::Stepped(stepping)) => Some(match &stepping.steps {
-                Steps::Uniform(count) => u64::from(*count),
-                Steps::Factors(factors) => factors.len() as u64,
-            }),
-            Some(Control::Event) => None,
+    /// Watches the run of a setup with a writer and a progress display.
+    pub fn new(writer: ResultWriter<'a>, progress: &'a mut Progress, setup: &'a Setup) -> Self {
+        let total = match &setup.analysis {
+            Analysis::Stepped(settings) => Some(settings.load_factors.len() as u64),
+            Analysis::Event(_) => None,
+            Analysis::Elastic { .. } | Analysis::Modal(_) => Some(1),
         };
         progress.begin_steps(total);
-        let units = case.units();
         let last = StepLine {
             step: 0,
             load_factor: 0.0,
             displacement: None,
             load: None,
-            units,
+            units: setup.units(),
             broken_bonds: 0,
         };
         Self {
@@ -51,7 +42,7 @@ impl<'a> Watch<'a> {
             progress,
             notices: Vec::new(),
             last,
-            body,
+            body: &*setup.body,
         }
     }
 

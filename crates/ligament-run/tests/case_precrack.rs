@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use ligament_case::case::{CaseFile, CrackLine, Precrack};
+use ligament::body::Points;
+use ligament_case::case::CaseFile;
+use ligament_model::bonds::precrack::PreCrack;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
@@ -20,27 +23,29 @@ fn with(keys: &str, overrides: &[&str]) -> Result<CaseFile, String> {
     CaseFile::parse(Path::new("case.toml"), text, &overrides).map_err(|error| error.to_string())
 }
 
-fn crack(keys: &str, overrides: &[&str]) -> Precrack {
-    with(keys, overrides).unwrap().case.precracks[0].clone()
+fn crack(keys: &str, overrides: &[&str]) -> PreCrack {
+    let body = Points::new(vec![[0.0; 2]], vec![1.0]).unwrap();
+    let setup = with(keys, overrides).unwrap().setup_on(Arc::new(body));
+    setup.unwrap().precracks.remove(0)
 }
 
 #[test]
 fn a_straight_crack_has_two_ends() {
     let given = crack("centre = [0.5, 0.25]\nlength = 0.5\nangle = 0.0", &[]);
-    assert_eq!(given.points(), [[0.25, 0.25], [0.75, 0.25]]);
+    assert_eq!(given.points, [[0.25, 0.25], [0.75, 0.25]]);
     // 3-4-5: atan(4/3), from the lower left to the upper right.
     let given = crack(
         "centre = [0, 0]\nlength = 10\nangle = 0.9272952180016122",
         &[],
     );
-    for (end, expected) in given.points().iter().zip([[-3.0, -4.0], [3.0, 4.0]]) {
+    for (end, expected) in given.points.iter().zip([[-3.0, -4.0], [3.0, 4.0]]) {
         for (value, expected) in end.iter().zip(expected) {
             assert!((value - expected).abs() < 1e-14, "{value} for {expected}");
         }
     }
     let straight = "centre = [0, 0]\nlength = 0.03\nangle = 0.0";
     let upright = crack(straight, &["precrack.0.angle=1.5707963268"]);
-    assert_eq!(upright.points(), [[0.0, -0.015], [0.0, 0.015]]);
+    assert_eq!(upright.points, [[0.0, -0.015], [0.0, 0.015]]);
 }
 
 #[test]
@@ -49,12 +54,11 @@ fn a_resolved_case_keeps_what_was_given() {
     let resolved = case.resolved_toml().unwrap();
     let back = CaseFile::parse(Path::new("case.resolved.toml"), resolved.clone(), &[]).unwrap();
     assert_eq!(back.case, case.case);
-    let expected = CrackLine::Straight {
-        centre: [0.01, 0.0],
-        length: 0.03,
-        angle: 0.6,
-    };
-    assert_eq!(back.case.precracks[0].line, expected);
+    let crack = &back.case.precracks[0];
+    assert_eq!(
+        (crack.centre, crack.length, crack.angle),
+        (Some([0.01, 0.0]), Some(0.03), Some(0.6))
+    );
     assert!(!resolved.contains("points"), "{resolved}");
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use ligament::Loading;
 use ligament_analysis::ControlKind;
-use ligament_case::case::{CaseFile, Expansion, Region, TemperatureChange};
+use ligament_case::case::{CaseFile, Rectangle};
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
@@ -142,19 +142,16 @@ fn changes(text: &str) -> Result<Vec<f64>, String> {
 fn the_sections_are_read() {
     let case = parse(LATTICE).unwrap().case;
     assert_eq!(case.temperatures.len(), 1);
-    assert_eq!(case.temperatures[0].region, None);
-    let uniform = TemperatureChange::Uniform { change: 50.0 };
-    assert_eq!(case.temperatures[0].change, uniform);
-    let expansion = Expansion::Uniform {
-        thermal_expansion: 1e-5,
-    };
-    assert_eq!(case.materials[0].expansion, Some(expansion));
+    let first = &case.temperatures[0];
+    assert_eq!((&first.group, first.r#box), (&None, None));
+    assert_eq!(first.change, Some(50.0));
+    assert_eq!(case.materials[0].thermal_expansion, Some(1e-5));
     let text = format!("{LATTICE}[[temperature]]\nbox = [[1, 2], [0, 1]]\nfile = \"a.csv\"\n");
     let case = parse_in(Path::new("/somewhere"), &text).unwrap();
     let second = &case.case.temperatures[1];
-    assert_eq!(second.region, Some(Region::Box([[0.0, 1.0], [1.0, 2.0]])));
+    assert_eq!(second.r#box, Some(Rectangle([[0.0, 1.0], [1.0, 2.0]])));
     let file = Path::new("/somewhere/a.csv").to_owned();
-    assert_eq!(second.change, TemperatureChange::Table { file });
+    assert_eq!(second.file, Some(file));
     // What a run writes of it is the same case.
     let again = parse(&case.resolved_toml().unwrap()).unwrap();
     assert_eq!(again.case, case.case);
@@ -170,12 +167,10 @@ fn orthotropic_materials_have_coefficients_along_their_axes() {
     let axes = "thermal_expansion_1 = -1e-6\nthermal_expansion_2 = 3e-5";
     let text = text.replace("thermal_expansion = 1e-5", axes);
     let case = parse(&text).unwrap();
-    let expected = Expansion::Axes {
-        thermal_expansion_1: -1e-6,
-        thermal_expansion_2: 3e-5,
-        thermal_expansion_3: None,
-    };
-    assert_eq!(case.case.materials[0].expansion, Some(expected));
+    let material = &case.case.materials[0];
+    let (one, two) = (material.thermal_expansion_1, material.thermal_expansion_2);
+    assert_eq!((one, two), (Some(-1e-6), Some(3e-5)));
+    assert_eq!(material.thermal_expansion_3, None);
     let again = parse(&case.resolved_toml().unwrap()).unwrap();
     assert_eq!(again.case, case.case);
     let wrong = |old: &str, new: &str| parse(&text.replacen(old, new, 1)).unwrap_err();

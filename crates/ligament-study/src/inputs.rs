@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ligament_case::case::{BodySection, CaseFile, TemperatureChange};
+use ligament_case::case::CaseFile;
 
 /// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,7 +47,7 @@ impl Inputs {
                 .identity(path)
                 .map_err(|error| (path.clone(), error))
         };
-        if let BodySection::Mesh(section) = &mut plain.case.body {
+        if let Some(section) = &mut plain.case.mesh {
             let content = match mesh {
                 Some(content) => content.to_owned(),
                 None => content(&section.file)?,
@@ -55,7 +55,7 @@ impl Inputs {
             section.file = content.into();
         }
         for temperature in &mut plain.case.temperatures {
-            if let TemperatureChange::Table { file } = &mut temperature.change {
+            if let Some(file) = &mut temperature.file {
                 *file = content(file)?.into();
             }
         }

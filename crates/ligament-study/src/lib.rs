@@ -14,9 +14,9 @@
 )]
 
 pub mod calibrate;
-pub mod inputs;
-pub mod line_fit;
+mod inputs;
+mod line_fit;
 pub mod meshing;
-pub mod quantities;
+mod quantities;
 pub mod sweep;
 pub mod yielding;

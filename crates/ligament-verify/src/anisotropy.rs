@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use ligament_model::failure::Criteria;
-use ligament_model::failure::frictional::Calibration;
 use ligament_model::yielding::field::{Distribution, families, interior, mean_error};
 use ligament_model::yielding::{Family, PrincipalStretches, lattice};
 
@@ -33,27 +32,18 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             The frontal algorithm fills the plate with nearly equilateral triangles: that is a triangular lattice, whose families all err \
             in the same directions. With the strength of NHPD the scatter of s_0 among the bonds of a family outweighs their directions \
             (disk: 38 to 17 % in the mean), and more bonds help little; its common part is small on the disk again.",
-    cases: &[
-        "cases/brazilian-disk/case.toml",
-        "cases/plate-tension/case.toml",
-    ],
+    cases: &[&DISK, &PLATE],
     compute,
 };
 
 static DISK: Template = template!("brazilian-disk/case.toml");
-
 static PLATE: Template = template!("plate-tension/case.toml");
 
 static DISK_MESH: StoredMesh = stored_mesh!("disk-2mm-platen-1.5mm.msh");
-
 static PLATE_MESH: StoredMesh = stored_mesh!("plate.msh");
 
 /// Limits that are the same for all bonds; the errors under one measure do not depend on them.
-const STRENGTHS: Strengths = Strengths {
-    poisson: 0.0,
-    ratio: 3.0,
-    calibration: Calibration::Printed,
-};
+const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
@@ -114,16 +104,15 @@ fn statistic(labels: Labels<'_>, memory: &mut Memory<Anisotropy>) -> anyhow::Res
         "disk" => (&DISK, &DISK_MESH),
         _ => (&PLATE, &PLATE_MESH),
     };
-    let trial = template
-        .trial()
-        .set("model.horizon_factor", labels.number("lambda")?);
-    let trial = trial
+    let trial = (template.trial())
+        .set("model.horizon_factor", labels.number("lambda")?)
         .set("material.poisson", 0.21)
         .set("material.tensile_strength", 3.81e6)
-        .set("fracture.steps", 1);
+        .set("fracture.steps", 1)
+        .on_mesh(mesh);
     let (name, strains) = (criterion(labels)?, strains(labels)?);
     let key = format!("{} {name} {strains:?}", trial.command());
-    let found = memory.result(key, || anisotropy(&trial.model_on(mesh)?, name, strains))?;
+    let found = memory.result(key, || anisotropy(&trial.model()?, name, strains))?;
     let Distribution {
         mean,
         percentile_5,
@@ -182,46 +171,34 @@ fn anisotropy(
 
 /// The statistics over lambda, with the lattice beside them.
 fn plot(table: &Table, criterion: &str, strain: &str) -> Result<Plot, LabelError> {
-    let curve = |mesh: &str, statistic: &str, name: String, mark, colour| {
-        let of = [
-            ("mesh", mesh),
-            ("criterion", criterion),
-            ("strain", strain),
-            ("statistic", statistic),
-        ];
-        let points = table.computed("lambda", &of)?;
-        Ok::<_, LabelError>(Series::new(&name, mark, colour, points))
-    };
     let mut series = Vec::new();
     for (mesh, colour, of_lattice) in [
         ("disk", Colour::Blue, Colour::Sky),
         ("plate", Colour::Vermilion, Colour::Orange),
     ] {
-        let range = format!("{mesh}, 5 and 95 %");
-        series.push(curve(
-            mesh,
-            "mean",
-            format!("{mesh}, mean"),
-            Mark::Line,
-            colour,
-        )?);
-        series.push(curve(mesh, "5 %", range, Mark::Dashes, colour)?);
-        series.push(curve(mesh, "95 %", String::new(), Mark::Dashes, colour)?);
-        series.push(curve(
-            mesh,
-            "worst",
-            format!("{mesh}, worst"),
-            Mark::Circles,
-            colour,
-        )?);
-        let name = format!("lattice, as {mesh}");
-        series.push(curve(mesh, "lattice", name, Mark::Line, of_lattice)?);
+        for (statistic, label, mark, colour) in [
+            ("mean", format!("{mesh}, mean"), Mark::Line, colour),
+            ("5 %", format!("{mesh}, 5 and 95 %"), Mark::Dashes, colour),
+            ("95 %", String::new(), Mark::Dashes, colour),
+            ("worst", format!("{mesh}, worst"), Mark::Circles, colour),
+            (
+                "lattice",
+                format!("lattice, as {mesh}"),
+                Mark::Line,
+                of_lattice,
+            ),
+        ] {
+            let of = format!(
+                "mesh={mesh}, criterion={criterion}, strain={strain}, statistic={statistic}"
+            );
+            let points = table.computed("lambda", &of)?;
+            series.push(Series::new(label, mark, colour, points));
+        }
     }
-    Ok(Plot {
-        name: format!("mesh-anisotropy-{criterion}"),
-        title: format!("Error of first yield on meshes: {criterion}, {strain}"),
-        x: "horizon factor lambda".to_owned(),
-        y: "error, %".to_owned(),
+    Ok(Plot::new(
+        format!("mesh-anisotropy-{criterion}"),
+        format!("Error of first yield on meshes: {criterion}, {strain}"),
+        ["horizon factor lambda", "error, %"],
         series,
-    })
+    ))
 }

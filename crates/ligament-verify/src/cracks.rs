@@ -18,18 +18,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             lower one held in y; no failure within three rows of either. A central crack of 10 mm across the load (central), cracks of 10 \
             mm from the middle of the left, right and upper side (three), a hole of 10 x 10 mm (hole). The exact path until the load \
             has fallen to 0.8 of its largest.",
-    cases: &[
-        "cases/mbb-central-crack/case.toml",
-        "cases/three-cracks/case.toml",
-        "cases/square-hole/case.toml",
-    ],
+    cases: &[&CENTRAL, &THREE, &HOLE],
     compute,
 };
 
 static CENTRAL: Template = template!("mbb-central-crack/case.toml");
-
 static THREE: Template = template!("three-cracks/case.toml");
-
 static HOLE: Template = template!("square-hole/case.toml");
 
 /// Side of the plate, m.
@@ -56,8 +50,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         let (case, d) = (labels.text("case")?, labels.number("d")?);
         let cells = (1e3 * SIDE / d).round() as u32;
         let trial = (template(case)?.trial())
-            .set("lattice.cells", [cells, cells])
-            .set("lattice.spacing", 1e-3 * d)
+            .on_lattice([cells, cells], 1e-3 * d)
             .set("fracture.stop.load_fraction", 0.8);
         runs.result(trial.command(), || {
             let failure = Failure::from_outcome(&trial.solve()?.outcome)?;
@@ -84,15 +77,14 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         Colour::Purple,
     ];
     let series = curves.into_iter().zip(colours);
-    let plot = Plot {
-        name: "mbb-fracture".to_owned(),
-        title: "Plates with cracks and a hole".to_owned(),
-        x: "strain, %".to_owned(),
-        y: "stress on the whole section, MPa".to_owned(),
-        series: series
+    let plot = Plot::new(
+        "mbb-fracture",
+        "Plates with cracks and a hole",
+        ["strain, %", "stress on the whole section, MPa"],
+        series
             .map(|((label, curve), colour)| Series::curve(label, colour, curve))
             .collect(),
-    };
+    );
     Ok(Findings::new(vec![peaks, griffith], vec![plot]))
 }
 

@@ -13,7 +13,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     source: "Lame's solution, independent calculation; Masoumi, Ravandi and Salehi (MBB-PD), section 4.2",
     setup: "Ring from 1.5 to 2.2 m on a square lattice, E = 65.8 GPa, plane strain, m = 3, 400 MPa on the faces of the cells at the \
             hole. u_r of all points, less the rigid motion that leaves nothing of it in the mean, against Lame's solution.",
-    cases: &["cases/thick-cylinder/case.toml"],
+    cases: &[&RING],
     compute,
 };
 
@@ -29,8 +29,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         let (spacing, nu) = (1e-3 * labels.number("d")?, labels.number("nu")?);
         let cells = 2 * (OUTER / spacing).round() as u32;
         let trial = (RING.trial())
-            .set("lattice.cells", [cells, cells])
-            .set("lattice.spacing", spacing)
+            .on_lattice([cells, cells], spacing)
             .set("material.poisson", nu);
         Ok(100.0 * difference(&trial.solve()?, nu))
     })?;

@@ -20,14 +20,13 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             meshes of 3 mm (1,440 points) and 2 mm (2,948 points). The platens are the nodes of the rim with |x| <= \
             1.5 mm, moved together in steps of 4 um, five bonds an iteration. The peak is the largest load before \
             the load first falls.",
-    cases: &["cases/brazilian-disk/case.toml"],
+    cases: &[&CASE],
     compute,
 };
 
 static CASE: Template = template!("brazilian-disk/case.toml");
 
 static COARSE: StoredMesh = stored_mesh!("disk-3mm-platen-1.5mm.msh");
-
 static FINE: StoredMesh = stored_mesh!("disk-2mm-platen-1.5mm.msh");
 
 /// Load at which a disk of a material with this strength splits: pi D t F_t/2, N.
@@ -35,24 +34,20 @@ const CLOSED_FORM: f64 = 0.5 * PI * 0.1 * 1.0 * 3.81e6;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let table = published!("disk-peak").judge(extent, relative_peak)?;
-    let curve = |mesh: &str, colour| {
-        let points = table.computed("lambda", &[("mesh", mesh)])?;
-        anyhow::Ok(Series::line(format!("computed, {mesh}"), colour, points))
-    };
     let eq_22 = (8..=16)
         .map(|quarters| 0.25 * f64::from(quarters))
         .map(|l| [l, (3.0 * l - 1.0) / 8.0]);
-    let plot = Plot {
-        name: "disk-peak".to_owned(),
-        title: "Strength of the Brazilian disk".to_owned(),
-        x: "horizon factor lambda".to_owned(),
-        y: "peak load / (pi D t F_t/2)".to_owned(),
-        series: vec![
-            Series::dashes("NHPD eq. 22", Colour::Black, eq_22.collect()),
-            curve("3 mm", Colour::Blue)?,
-            curve("2 mm", Colour::Vermilion)?,
-        ],
-    };
+    let mut series = vec![Series::dashes(
+        "NHPD eq. 22",
+        Colour::Black,
+        eq_22.collect(),
+    )];
+    for (mesh, colour) in [("3 mm", Colour::Blue), ("2 mm", Colour::Vermilion)] {
+        let points = table.computed("lambda", &format!("mesh={mesh}"))?;
+        series.push(Series::line(format!("computed, {mesh}"), colour, points));
+    }
+    let axes = ["horizon factor lambda", "peak load / (pi D t F_t/2)"];
+    let plot = Plot::new("disk-peak", "Strength of the Brazilian disk", axes, series);
     Ok(Findings::new(vec![table], vec![plot]))
 }
 
@@ -64,7 +59,7 @@ fn relative_peak(labels: Labels<'_>) -> anyhow::Result<f64> {
     let trial = CASE
         .trial()
         .set("model.horizon_factor", labels.number("lambda")?);
-    let solution = trial.solve_on(mesh)?;
+    let solution = trial.on_mesh(mesh).solve()?;
     let peak = solution
         .outcome
         .first_peak(DROP)

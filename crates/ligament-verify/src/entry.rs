@@ -62,7 +62,7 @@ pub enum Verdict {
 
 impl Entry {
     /// What becomes of the entry with this computed value.
-    pub fn verdict(&self, computed: f64) -> Verdict {
+    pub(super) fn verdict(&self, computed: f64) -> Verdict {
         let agrees = |printed: &Printed| self.allowed.admits(printed, computed);
         match &self.standing {
             _ if !computed.is_finite() => Verdict::Failed,
@@ -80,7 +80,7 @@ impl Entry {
 
 impl Standing {
     /// The reason why the known value is not taken as it is.
-    pub fn reason(&self) -> Option<&str> {
+    pub(super) fn reason(&self) -> Option<&str> {
         match self {
             Self::Sound => None,
             Self::Truncated { reason }
@@ -90,7 +90,7 @@ impl Standing {
     }
 
     /// What the computed value is compared with instead of the known one.
-    pub fn instead(&self) -> Option<&Printed> {
+    pub(super) fn instead(&self) -> Option<&Printed> {
         match self {
             Self::Misprint { instead, .. } | Self::Open { instead, .. } => Some(instead),
             Self::Sound | Self::Truncated { .. } => None,

@@ -4,6 +4,7 @@ use anyhow::Context;
 use ligament_plot::plots::Plot;
 
 use super::table::{Extent, Table};
+use super::trial::Template;
 
 /// A published case, or several that belong together.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +18,7 @@ pub struct Experiment {
     /// What is computed, and how.
     pub setup: &'static str,
     /// The cases that are run, with settings of each entry.
-    pub cases: &'static [&'static str],
+    pub cases: &'static [&'static Template],
     /// Computes the tables, or their fast subset.
     pub compute: fn(Extent) -> anyhow::Result<Findings>,
 }

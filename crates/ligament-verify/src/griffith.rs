@@ -20,18 +20,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             irregular meshes of 2,231 to 4,038 points that are finer along the crack. A central crack of half-length a = \
             15.2 mm, a line that bonds do not cross, under equal forces on the ends: the largest force of the exact path \
             over that at which K = sqrt(E G_c). And an edge crack of 30 mm, opened until the plate is in two.",
-    cases: &[
-        "cases/central-crack/case.toml",
-        "cases/central-crack/lattice.toml",
-        "cases/central-crack/mode-one.toml",
-    ],
+    cases: &[&ON_MESH, &ON_LATTICE, &MODE_ONE],
     compute,
 };
 
 static ON_MESH: Template = template!("central-crack/case.toml");
-
 static ON_LATTICE: Template = template!("central-crack/lattice.toml");
-
 static MODE_ONE: Template = template!("central-crack/mode-one.toml");
 
 /// Meshes by their size along the crack, mm.
@@ -88,10 +82,9 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let crossing = published!("fracture-energy-crossing").judge(extent, crossing_energy)?;
     let mut memory = Memory::default();
     let mut separated = |labels: Labels<'_>| -> anyhow::Result<Separation> {
-        let trial = with_labels(MODE_ONE.trial(), labels)?;
-        let mesh = mesh(labels)?;
-        memory.result(format!("{} {}", trial.command(), mesh.path), || {
-            Separation::from_solution(&trial.solve_on(mesh)?)
+        let trial = with_labels(MODE_ONE.trial(), labels)?.on_mesh(mesh(labels)?);
+        memory.result(trial.command(), || {
+            Separation::from_solution(&trial.solve()?)
         })
     };
     let work = published!("fracture-energy-released")
@@ -110,58 +103,49 @@ const CURVES: [(&str, Colour, &str); 6] = [
     (
         "lattice, bbpd",
         Colour::Sky,
-        "body=lattice law=bbpd lambda=4",
+        "body=lattice, law=bbpd, lambda=4",
     ),
     (
         "lattice, nhpd",
         Colour::Blue,
-        "body=lattice law=nhpd lambda=4 nu=0.2",
+        "body=lattice, law=nhpd, lambda=4, nu=0.2",
     ),
-    ("mesh, bbpd", Colour::Orange, "body=mesh law=bbpd"),
+    ("mesh, bbpd", Colour::Orange, "body=mesh, law=bbpd"),
     (
         "mesh, nhpd, energy",
         Colour::Vermilion,
-        "body=mesh nu=0.2 criterion=bond-energy",
+        "body=mesh, nu=0.2, criterion=bond-energy",
     ),
     (
         "mesh, nhpd, stretch",
         Colour::Purple,
-        "body=mesh nu=0.2 criterion=critical-stretch",
+        "body=mesh, nu=0.2, criterion=critical-stretch",
     ),
     (
         "5/3 mm, m = 2 to 6",
         Colour::Green,
-        "size=5/3 law=nhpd nu=1/3",
+        "size=5/3, law=nhpd, nu=1/3",
     ),
 ];
 
 /// Strength over the horizon; on one lattice by its own mark, because the horizon factor varies there.
 fn plot(strength: &Table) -> Result<Plot, LabelError> {
-    let mut series = vec![Series::dashes(
-        "LEFM",
-        Colour::Black,
-        vec![[0.1, 1.0], [0.7, 1.0]],
-    )];
+    let lefm = vec![[0.1, 1.0], [0.7, 1.0]];
+    let mut series = vec![Series::dashes("LEFM", Colour::Black, lefm)];
     for (label, colour, of) in CURVES {
-        let of: Vec<(&str, &str)> = (of.split(' '))
-            .filter_map(|it| it.split_once('='))
-            .collect();
-        let is_one_size = of.iter().any(|(key, _)| *key == "size");
-        let mark = if is_one_size {
-            Mark::Circles
-        } else {
-            Mark::Line
+        let mark = match of.starts_with("size=") {
+            true => Mark::Circles,
+            false => Mark::Line,
         };
-        let points = strength.computed("delta/a", &of)?;
+        let points = strength.computed("delta/a", of)?;
         series.push(Series::new(label, mark, colour, points));
     }
-    Ok(Plot {
-        name: "griffith".to_owned(),
-        title: "Failure stress of a plate with a central crack".to_owned(),
-        x: "horizon / half-length of the crack".to_owned(),
-        y: "failure stress over LEFM".to_owned(),
-        series,
-    })
+    let title = "Failure stress of a plate with a central crack";
+    let axes = [
+        "horizon / half-length of the crack",
+        "failure stress over LEFM",
+    ];
+    Ok(Plot::new("griffith", title, axes, series))
 }
 
 /// Failure stress of a plate of width 2W with a central crack of length 2a:
@@ -208,13 +192,13 @@ fn central_crack(labels: Labels<'_>, intact: bool) -> anyhow::Result<Solution> {
             .set("load.1.force_per_length.y", -1.0);
     }
     if !is_lattice {
-        return trial.solve_on(mesh(labels)?);
+        return trial.on_mesh(mesh(labels)?).solve();
     }
     let columns = (2e3 * HALF_WIDTH / labels.number("size")?).round();
     let rows = columns * HALF_HEIGHT / HALF_WIDTH;
+    let spacing = 2.0 * HALF_WIDTH / columns;
     trial
-        .set("lattice.cells", [columns as u32, rows as u32])
-        .set("lattice.spacing", 2.0 * HALF_WIDTH / columns)
+        .on_lattice([columns as u32, rows as u32], spacing)
         .solve()
 }
 

@@ -1,7 +1,7 @@
 //! Natural frequencies of an orthotropic lamina with a hole, and their convergence (OMPPD Tables 3 to 5, Fig. 18).
 
 use super::experiment::{Experiment, Findings};
-use super::named_modes::Frequencies;
+use super::named_modes::{self, Frequencies};
 use super::published::{Published, published};
 use super::table::{Extent, LabelError, Row, Table};
 use super::trial::{Memory, Template, template};
@@ -18,7 +18,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             end are held in all unknowns. k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface \
             correction by volumes. The coarse and the fine lattice have 748 and 11,988 points (cells of 10 and 2.5 \
             mm).",
-    cases: &["cases/verification/lamina-modes.toml"],
+    cases: &[&CASE],
     compute,
 };
 
@@ -27,13 +27,10 @@ static CASE: Template = template!("verification/lamina-modes.toml");
 /// The lamina sticks out along x.
 const ALONG: usize = 0;
 
-/// A table and the mode it is of.
-type OfMode = (Published, fn(Frequencies) -> f64);
-
-const TABLES: [OfMode; 3] = [
-    (published!("omppd-table-3"), |it| it.flexural),
-    (published!("omppd-table-4"), |it| it.axial),
-    (published!("omppd-table-5"), |it| it.second_flexural),
+const TABLES: [Published; 3] = [
+    published!("omppd-table-3"),
+    published!("omppd-table-4"),
+    published!("omppd-table-5"),
 ];
 
 /// Cells along x: half of them along y.
@@ -66,19 +63,12 @@ fn tables(
     memory: &mut Memory<Frequencies>,
     cells: u32,
 ) -> anyhow::Result<Vec<Table>> {
-    let table = |(table, frequency): OfMode| {
-        table.judge(extent, |labels| {
-            let trial = CASE.trial();
-            let trial = trial.set("material.angle", labels.number("angle")?.to_radians());
-            let trial = trial.set("lattice.cells", [cells, cells / 2]);
-            let trial = trial.set("lattice.spacing", 0.4 / f64::from(cells));
-            let trial = trial.set("lattice.set.end.left", cells / COARSE);
-            memory
-                .result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
-                .map(frequency)
-        })
-    };
-    TABLES.into_iter().map(table).collect()
+    named_modes::tables(TABLES, extent, memory, ALONG, |labels| {
+        let trial = CASE.trial();
+        let trial = trial.set("material.angle", labels.number("angle")?.to_radians());
+        let trial = trial.on_lattice([cells, cells / 2], 0.4 / f64::from(cells));
+        Ok(trial.set("lattice.set.end.left", cells / COARSE))
+    })
 }
 
 /// Median and largest difference from the 15 printed frequencies.
@@ -131,21 +121,15 @@ fn differences(pairs: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
 
 /// A frequency over the angle of the axes.
 fn of_angle(table: &Table) -> Result<Plot, LabelError> {
-    let of = |from| [("of", from)];
-    let elements = table.known("angle", &of("finite elements"))?;
-    let printed = table.known("angle", &of("lattice"))?;
-    let computed = table.computed("angle", &of("lattice"))?;
-    Ok(Plot {
-        name: table.heading.name.clone(),
-        title: table.heading.title.clone(),
-        x: "angle of axis 1, degrees".to_owned(),
-        y: "frequency, Hz".to_owned(),
-        series: vec![
-            Series::dashes("finite elements, printed", Colour::Black, elements),
-            Series::circles("lattice, printed", Colour::Vermilion, printed),
-            Series::line("lattice, computed", Colour::Vermilion, computed),
-        ],
-    })
+    let elements = table.known("angle", "of=finite elements")?;
+    let printed = table.known("angle", "of=lattice")?;
+    let computed = table.computed("angle", "of=lattice")?;
+    let series = vec![
+        Series::dashes("finite elements, printed", Colour::Black, elements),
+        Series::circles("lattice, printed", Colour::Vermilion, printed),
+        Series::line("lattice, computed", Colour::Vermilion, computed),
+    ];
+    Ok(table.plot(["angle of axis 1, degrees", "frequency, Hz"], series))
 }
 
 /// The first flexural frequency over that of finite elements, on three lattices.
@@ -161,7 +145,7 @@ fn of_horizon(tables: [&Table; 3]) -> Result<Plot, LabelError> {
     for (angle, colour) in angles {
         let mut points = Vec::new();
         for (table, horizon) in tables.iter().zip([32.0, 16.0, 8.0]) {
-            let of = [("of", "finite elements"), ("angle", angle)];
+            let of = format!("of=finite elements, angle={angle}");
             let (known, computed) = (table.known("angle", &of)?, table.computed("angle", &of)?);
             let pairs = known.iter().zip(&computed);
             points.extend(
@@ -170,11 +154,7 @@ fn of_horizon(tables: [&Table; 3]) -> Result<Plot, LabelError> {
         }
         series.push(Series::line(format!("{angle} degrees"), colour, points));
     }
-    Ok(Plot {
-        name: "omppd-convergence".to_owned(),
-        title: "First flexural frequency: difference from finite elements".to_owned(),
-        x: "horizon, mm".to_owned(),
-        y: "difference, %".to_owned(),
-        series,
-    })
+    let title = "First flexural frequency: difference from finite elements";
+    let axes = ["horizon, mm", "difference, %"];
+    Ok(Plot::new("omppd-convergence", title, axes, series))
 }

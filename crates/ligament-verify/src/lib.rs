@@ -24,7 +24,7 @@ mod cracks;
 mod cylinder;
 mod disk;
 pub mod entry;
-pub mod experiment;
+mod experiment;
 mod frequencies;
 mod griffith;
 mod lamina;
@@ -32,8 +32,8 @@ mod moduli;
 mod named_modes;
 mod plates;
 mod poisson;
-pub mod printed;
-pub mod published;
+mod printed;
+mod published;
 pub mod report;
 mod softening;
 mod statics;
@@ -44,6 +44,7 @@ mod trial;
 mod yielding;
 
 pub use experiment::{Experiment, Findings};
+pub use trial::Template;
 
 use entry::Verdict;
 use report::{console, files, markdown};

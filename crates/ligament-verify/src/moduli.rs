@@ -21,7 +21,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             the family). PDS and MPPD are the same here. How much of a family lies inside its partial volumes \
             decides what other horizons miss; the beam form (MPPD eqs 42, 43) weighs short bonds more, and sums \
             over the family in place of integrals halve what E and nu miss and overshoot G.",
-    cases: &["cases/verification/lattice.toml"],
+    cases: &[&CASE],
     compute,
 };
 
@@ -93,14 +93,13 @@ fn plot(table: &Table, constant: &str, axis: &str) -> Result<Plot, LabelError> {
     ];
     let mut series = Vec::new();
     for (law, nu, colour) in laws {
-        let of = [("law", law), ("nu", nu), ("constant", constant)];
+        let of = format!("law={law}, nu={nu}, constant={constant}");
         series.push(Series::line(law, colour, table.computed("m", &of)?));
     }
-    Ok(Plot {
-        name: format!("moduli-{constant}"),
-        title: format!("Elastic constants of lattices: {constant}"),
-        x: "horizon over spacing, m".to_owned(),
-        y: axis.to_owned(),
+    Ok(Plot::new(
+        format!("moduli-{constant}"),
+        format!("Elastic constants of lattices: {constant}"),
+        ["horizon over spacing, m", axis],
         series,
-    })
+    ))
 }

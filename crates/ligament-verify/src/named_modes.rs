@@ -3,7 +3,13 @@
 use anyhow::ensure;
 use ligament_analysis::modal::Mode;
 
-use super::trial::Trial;
+use super::published::Published;
+use super::table::{Extent, Labels, Table};
+use super::trial::{Memory, Trial};
+
+/// The modes of the three tables in the papers.
+const MODES: [fn(Frequencies) -> f64; 3] =
+    [|it| it.flexural, |it| it.axial, |it| it.second_flexural];
 
 /// Frequencies of the three lowest modes of a cantilever, Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,4 +41,24 @@ impl Frequencies {
             second_flexural: flexural[1].frequency(),
         })
     }
+}
+
+/// Tables of the first flexural, the axial and the second flexural mode: the frequencies of the trial that an entry asks for,
+/// whose cantilever lies along the component `axis`.
+pub(super) fn tables(
+    published: [Published; 3],
+    extent: Extent,
+    memory: &mut Memory<Frequencies>,
+    axis: usize,
+    trial: impl Fn(Labels<'_>) -> anyhow::Result<Trial>,
+) -> anyhow::Result<Vec<Table>> {
+    let table = |(table, frequency): (Published, fn(Frequencies) -> f64)| {
+        table.judge(extent, |labels| {
+            let trial = trial(labels)?;
+            memory
+                .result(trial.command(), || Frequencies::from_trial(&trial, axis))
+                .map(frequency)
+        })
+    };
+    published.into_iter().zip(MODES).map(table).collect()
 }

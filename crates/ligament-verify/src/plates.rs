@@ -3,11 +3,12 @@
 use anyhow::{Context, bail};
 
 use super::experiment::{Experiment, Findings};
-use super::published::{numbers, published};
+use super::published::published;
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, Trial, displacement_at, probe, template};
 use ligament::run::Solution;
-use ligament_plot::plots::{Colour, Mark, Plot, Series};
+use ligament_output::csv::read::Sheet;
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -18,24 +19,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             columns along x. Shear: u_x = 1 mm and u_y = 0 on the upper row, the lower one held, nu = 0.3. Heated by 50 K: nu = 0.4, \
             23e-6 1/K, upper and lower row held (thermal), and the left column too (thermal-left). The elements end at the rows \
             that are prescribed.",
-    cases: &[
-        "cases/mbb-plate/tension.toml",
-        "cases/mbb-plate/tension-x.toml",
-        "cases/mbb-plate/shear.toml",
-        "cases/thermal-plates/case.toml",
-        "cases/thermal-plates/three-edges.toml",
-    ],
+    cases: &[&TENSION_Y, &TENSION_X, &SHEAR, &THERMAL, &THERMAL_LEFT],
     compute,
 };
 
 static TENSION_Y: Template = template!("mbb-plate/tension.toml");
-
 static TENSION_X: Template = template!("mbb-plate/tension-x.toml");
-
 static SHEAR: Template = template!("mbb-plate/shear.toml");
-
 static THERMAL: Template = template!("thermal-plates/case.toml");
-
 static THERMAL_LEFT: Template = template!("thermal-plates/three-edges.toml");
 
 /// Problem, d, x, y (mm), u_x, u_y (um) by finite elements.
@@ -111,9 +102,7 @@ fn spacing(labels: Labels<'_>) -> anyhow::Result<f64> {
 /// The plate on the lattice of a spacing.
 fn on_lattice(trial: Trial, spacing: f64) -> Trial {
     let cells = (SIDE / spacing).round() as u32;
-    trial
-        .set("lattice.cells", [cells, cells])
-        .set("lattice.spacing", spacing)
+    trial.on_lattice([cells, cells], spacing)
 }
 
 /// u at the middle of a free side, -nu s/E (L - d)/2, m.
@@ -133,23 +122,19 @@ struct Elements {
     displacement: [f64; 2],
 }
 
-fn elements() -> anyhow::Result<Vec<Elements>> {
-    let rows = ELEMENTS.split_inclusive('\n').skip(1);
-    rows.enumerate()
-        .map(|(line, row)| {
-            let (problem, rest) = row.split_once(',').context("a row has a problem")?;
-            let name = format!("mbb-pd-elements, row {}", line + 1);
-            let [[spacing, x, y, u_x, u_y]] = numbers::<5>(&name, &format!("\n{rest}"))?[..] else {
-                bail!("{name} is no row");
-            };
-            Ok(Elements {
-                problem: problem.to_owned(),
-                spacing,
-                place: [1e-3 * x, 1e-3 * y],
-                displacement: [u_x / MICROMETRES, u_y / MICROMETRES],
-            })
+fn elements() -> Result<Vec<Elements>, ligament_output::Error> {
+    let sheet = Sheet::parse("mbb-pd-elements.csv", ELEMENTS)?;
+    let problems = sheet.values::<String>("problem")?.into_iter();
+    let numbers = sheet.numbers(["d_mm", "x_mm", "y_mm", "ux_um", "uy_um"])?;
+    Ok(problems
+        .zip(numbers)
+        .map(|(problem, [spacing, x, y, u_x, u_y])| Elements {
+            problem,
+            spacing,
+            place: [1e-3 * x, 1e-3 * y],
+            displacement: [u_x / MICROMETRES, u_y / MICROMETRES],
         })
-        .collect()
+        .collect())
 }
 
 /// A plate against finite elements.
@@ -191,32 +176,13 @@ impl Compared {
 
 /// u_A over Poisson's ratio.
 fn plot(table: &Table) -> anyhow::Result<Plot> {
-    let of = |along| [("d", "2"), ("along", along)];
-    let series = |label: &str, mark, colour, points| Series::new(label, mark, colour, points);
-    Ok(Plot {
-        name: table.heading.name.clone(),
-        title: "Plate in tension: displacement across the load".to_owned(),
-        x: "Poisson's ratio".to_owned(),
-        y: "u_A, um".to_owned(),
-        series: vec![
-            series(
-                "closed form",
-                Mark::Dashes,
-                Colour::Black,
-                table.known("nu", &of("y"))?,
-            ),
-            series(
-                "along y",
-                Mark::Line,
-                Colour::Blue,
-                table.computed("nu", &of("y"))?,
-            ),
-            series(
-                "along x",
-                Mark::Circles,
-                Colour::Vermilion,
-                table.computed("nu", &of("x"))?,
-            ),
-        ],
-    })
+    let (along_x, along_y) = ("d=2, along=x", "d=2, along=y");
+    let series = vec![
+        Series::dashes("closed form", Colour::Black, table.known("nu", along_y)?),
+        Series::line("along y", Colour::Blue, table.computed("nu", along_y)?),
+        Series::circles("along x", Colour::Vermilion, table.computed("nu", along_x)?),
+    ];
+    let title = "Plate in tension: displacement across the load";
+    let axes = ["Poisson's ratio", "u_A, um"];
+    Ok(Plot::new(&table.heading.name, title, axes, series))
 }

@@ -16,15 +16,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             (constant k_t); gauges in the middle, 97.5 mm along and 47.5 mm across. On a mesh: plate 0.2 x 0.1 m on \
             an irregular mesh of 4 mm (1,543 points), E = 15 GPa, plane stress, NHPD; pulled along x, free to \
             contract. Two strain gauges in the middle, 100 mm along and 55.4 mm across, give nu.",
-    cases: &[
-        "cases/verification/lattice-tension.toml",
-        "cases/plate-tension/case.toml",
-    ],
+    cases: &[&LATTICE, &PLATE],
     compute,
 };
 
 static LATTICE: Template = template!("verification/lattice-tension.toml");
-
 static PLATE: Template = template!("plate-tension/case.toml");
 
 static MESH: StoredMesh = stored_mesh!("plate.msh");
@@ -63,7 +59,7 @@ fn on_lattice(labels: Labels<'_>) -> anyhow::Result<f64> {
 fn on_mesh(labels: Labels<'_>) -> anyhow::Result<f64> {
     let trial = PLATE.trial().set("material.poisson", labels.number("nu")?);
     let trial = trial.set("model.horizon_factor", labels.number("lambda")?);
-    ratio(&trial.solve_on(&MESH)?, ON_MESH)
+    ratio(&trial.on_mesh(&MESH).solve()?, ON_MESH)
 }
 
 /// Poisson's ratio from two gauges of these lengths along and across.
@@ -81,18 +77,13 @@ fn plot(table: &Table, key: &str, curves: &[(&str, Colour)]) -> Result<Plot, Lab
         vec![[-0.5, 0.0], [0.38, 0.0]],
     )];
     for (label, colour) in curves {
-        let computed = table.computed("nu", &[(key, label)])?;
+        let computed = table.computed("nu", &format!("{key}={label}"))?;
         let missed = computed
             .into_iter()
             .map(|[input, found]| [input, found - input])
             .collect();
         series.push(Series::line(format!("{key} {label}"), *colour, missed));
     }
-    Ok(Plot {
-        name: table.heading.name.clone(),
-        title: table.heading.title.clone(),
-        x: "Poisson's ratio, input".to_owned(),
-        y: "from strain gauges, less input".to_owned(),
-        series,
-    })
+    let axes = ["Poisson's ratio, input", "from strain gauges, less input"];
+    Ok(table.plot(axes, series))
 }

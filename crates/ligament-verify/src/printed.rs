@@ -24,7 +24,7 @@ pub enum Allowed {
 
 /// Difference of two values.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Difference {
+pub(super) enum Difference {
     /// In the unit of the table.
     Amount(f64),
     /// Relative to the known value.
@@ -33,25 +33,19 @@ pub enum Difference {
 
 impl Printed {
     /// A number as it is printed, with or without an exponent; `None` if the text is none.
-    pub fn parse(text: &str) -> Option<Self> {
+    pub(super) fn parse(text: &str) -> Option<Self> {
         let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
         let text = text.to_owned();
         Some(Self { text, value })
     }
 
-    /// A number that is known exactly, shown with so many decimals.
-    pub fn exact(value: f64, decimals: usize) -> Self {
-        let text = format!("{value:.decimals$}");
-        Self { text, value }
-    }
-
     /// The number.
-    pub fn value(&self) -> f64 {
+    pub(super) fn value(&self) -> f64 {
         self.value
     }
 
     /// Unit of the last printed digit.
-    pub fn last_digit(&self) -> f64 {
+    pub(super) fn last_digit(&self) -> f64 {
         let (digits, exponent) = self
             .text
             .split_once(['e', 'E'])
@@ -63,7 +57,7 @@ impl Printed {
     }
 
     /// Another number with one digit more than this one, four at least.
-    pub fn like(&self, value: f64) -> String {
+    pub(super) fn like(&self, value: f64) -> String {
         let digits = 1 - self.last_digit().log10().round() as i32;
         let decimals = match self.value.abs() {
             0.0 => digits,
@@ -79,12 +73,12 @@ impl Printed {
     }
 
     /// Whether this is another number, rounded to the printed digits.
-    pub fn is_rounded_from(&self, value: f64) -> bool {
+    pub(super) fn is_rounded_from(&self, value: f64) -> bool {
         (value - self.value).abs() <= 0.5 * self.last_digit() * (1.0 + ROUNDING)
     }
 
     /// Whether this is another number, cut off after the printed digits.
-    pub fn is_cut_from(&self, value: f64) -> bool {
+    pub(super) fn is_cut_from(&self, value: f64) -> bool {
         let rest = (value - self.value) * if self.value < 0.0 { -1.0 } else { 1.0 };
         (-ROUNDING..1.0 + ROUNDING).contains(&(rest / self.last_digit()))
     }
@@ -95,7 +89,7 @@ const ROUNDING: f64 = 1e-6;
 
 impl Allowed {
     /// Whether a computed value is near enough to a known one.
-    pub fn admits(self, known: &Printed, computed: f64) -> bool {
+    pub(super) fn admits(self, known: &Printed, computed: f64) -> bool {
         let distance = (computed - known.value).abs();
         match self {
             Self::Digits => known.is_rounded_from(computed),
@@ -108,7 +102,7 @@ impl Allowed {
 
 impl Difference {
     /// The difference in words with its sign, an amount with one digit more than the known value.
-    pub fn words(self, known: &Printed) -> String {
+    pub(super) fn words(self, known: &Printed) -> String {
         let (digits, unit) = match self {
             Self::Share(share) => (format!("{:.2}", 100.0 * share), " %"),
             Self::Amount(amount) => (known.like(amount), ""),

@@ -15,6 +15,8 @@
 //! the unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint` or
 //! `open`.
 
+use ligament_output::csv::read::records;
+
 use super::entry::{Entry, Standing};
 use super::printed::{Allowed, Printed};
 use super::table::{Extent, Heading, Known, Labels, Table};
@@ -63,18 +65,18 @@ impl Published {
 /// What is wrong with a table, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("published table {name}, line {line}: {fault}")]
-pub struct TableError {
+pub(super) struct TableError {
     /// Name of the table.
-    pub name: String,
+    pub(super) name: String,
     /// Line, from 1.
-    pub line: usize,
+    pub(super) line: usize,
     /// What is wrong.
-    pub fault: TableFault,
+    pub(super) fault: TableFault,
 }
 
 /// What is wrong with a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TableFault {
+pub(super) enum TableFault {
     /// A line of the heading is not there.
     #[error("no line `# {key}: ...` stands above the columns")]
     NoHeading {
@@ -95,12 +97,6 @@ pub enum TableFault {
         /// Cells.
         found: usize,
     },
-    /// A cell of a table of numbers holds something else.
-    #[error("`{found}` is not a number")]
-    NotANumber {
-        /// What stands there.
-        found: String,
-    },
     /// A cell does not hold what its column takes.
     #[error("`{found}` in column `{column}`, expected {expected}")]
     Cell {
@@ -114,11 +110,7 @@ pub enum TableFault {
 }
 
 /// The known values of a table in a file of this name.
-///
-/// # Errors
-///
-/// If a line of the heading is missing, or a cell does not hold what its column takes; with the line.
-pub fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
+pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
     let at = |line: usize| {
         move |fault| TableError {
             name: name.to_owned(),
@@ -126,52 +118,25 @@ pub fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
             fault,
         }
     };
-    let is_note = |(_, line): &(usize, &str)| line.starts_with('#');
-    let mut lines = text.lines().enumerate().skip_while(is_note);
-    let (line, columns) = lines.next().ok_or_else(|| at(0)(TableFault::Columns))?;
-    let columns = cells(columns);
+    let n_notes = text
+        .lines()
+        .take_while(|line| line.starts_with('#'))
+        .count();
+    let below = text.splitn(n_notes + 1, '\n').last().unwrap_or_default();
+    let mut rows = (n_notes..).zip(records(below));
+    let (line, columns) = rows.next().ok_or_else(|| at(0)(TableFault::Columns))?;
     let n_keys = columns.len().saturating_sub(COLUMNS.len());
     if columns[n_keys..] != COLUMNS || n_keys == 0 {
         return Err(at(line)(TableFault::Columns));
     }
     let heading = heading(name, text, &columns[..n_keys]).map_err(at(line))?;
-    let entries = lines
-        .map(|(line, row)| entry(&cells(row), n_keys).map_err(at(line)))
+    let entries = rows
+        .map(|(line, cells)| entry(&cells, n_keys).map_err(at(line)))
         .collect::<Result<Vec<_>, _>>()?;
     if entries.is_empty() {
         return Err(at(line)(TableFault::Empty));
     }
     Ok(Known { heading, entries })
-}
-
-/// The rows of a table of numbers below a line of `N` column names.
-///
-/// # Errors
-///
-/// If a row has another number of cells, or a cell is no number; with the line.
-pub(super) fn numbers<const N: usize>(name: &str, text: &str) -> Result<Vec<[f64; N]>, TableError> {
-    let row = |(line, row): (usize, &str)| {
-        let read = || {
-            let cells: Vec<&str> = row.split(',').collect();
-            let found = cells.len();
-            let cells: [&str; N] = cells
-                .try_into()
-                .map_err(|_| TableFault::Cells { expected: N, found })?;
-            let mut numbers = [0.0; N];
-            for (number, cell) in numbers.iter_mut().zip(cells) {
-                *number = cell.parse().map_err(|_| TableFault::NotANumber {
-                    found: cell.to_owned(),
-                })?;
-            }
-            Ok(numbers)
-        };
-        read().map_err(|fault| TableError {
-            name: name.to_owned(),
-            line: line + 1,
-            fault,
-        })
-    };
-    text.lines().enumerate().skip(1).map(row).collect()
 }
 
 fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, TableFault> {
@@ -268,23 +233,6 @@ fn fault(column: &'static str, found: &str, expected: &'static str) -> TableFaul
     }
 }
 
-/// The cells of a line of CSV (RFC 4180, no line breaks in quotes).
-pub fn cells(line: &str) -> Vec<String> {
-    let mut cells = vec![String::new()];
-    let mut is_quoted = false;
-    let mut characters = line.chars().peekable();
-    while let Some(character) = characters.next() {
-        let last = cells.len() - 1;
-        match character {
-            '"' if is_quoted && characters.next_if_eq(&'"').is_some() => cells[last].push('"'),
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => cells.push(String::new()),
-            _ => cells[last].push(character),
-        }
-    }
-    cells
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::entry::Verdict;
@@ -301,14 +249,14 @@ nu,law,known,allowed,subset,standing,instead,reason
 ";
 
     fn parse(rows: &str) -> Result<Known, TableError> {
-        known_values("t4", &format!("{HEAD}{rows}"))
+        known_values("t4", &format!("{HEAD}{rows}\n"))
     }
 
     #[test]
     fn a_table_has_heading_labels_values_and_standings() {
         let sound = "1/3,pds,982.2,digits,fast,,,";
         let misprint = "0.1,pds,2025.5,3 %,full,misprint,2053,\"not \"\"f\"\", g\"";
-        let known = parse(&format!("{sound}\n{misprint}\n")).unwrap();
+        let known = parse(&format!("{sound}\n{misprint}")).unwrap();
         assert_eq!(known.heading.source, "Author 2019, Table 4");
         assert_eq!(known.heading.keys, ["nu", "law"]);
         assert_eq!(known.entries[1].allowed, Allowed::Relative(0.03));
@@ -318,36 +266,16 @@ nu,law,known,allowed,subset,standing,instead,reason
         assert_eq!(table.rows[0].computed, 1000.0 / 3.0);
         assert_eq!(table.rows[1].verdict, Verdict::Failed);
         assert_eq!(
-            table.known("nu", &[("law", "pds")]),
+            table.known("nu", "law=pds"),
             Ok(vec![[1.0 / 3.0, 982.2], [0.1, 2025.5]])
         );
-        assert_eq!(table.computed("nu", &[("law", "bbpd")]), Ok(vec![]));
+        assert_eq!(table.computed("nu", "law=bbpd"), Ok(vec![]));
         assert_eq!(known.judge(Extent::Fast, compute).unwrap().rows.len(), 1);
     }
 
     #[test]
-    fn tables_of_numbers_are_read_and_their_faults_told() {
-        assert_eq!(
-            numbers::<2>("edge", "x,u\n1,-2e-3\n"),
-            Ok(vec![[1.0, -2e-3]])
-        );
-        for (text, message) in [
-            (
-                "x,u\n1\n",
-                "published table edge, line 2: 1 cells, expected 2",
-            ),
-            (
-                "x,u\n1,2\n1,b\n",
-                "published table edge, line 3: `b` is not a number",
-            ),
-        ] {
-            assert_eq!(numbers::<2>("edge", text).unwrap_err().to_string(), message);
-        }
-    }
-
-    #[test]
     fn an_experiment_that_asks_for_the_wrong_label_is_told() {
-        let known = parse("0,pds,1,digits,fast,,,\n").unwrap();
+        let known = parse("0,pds,1,digits,fast,,,").unwrap();
         let error = known
             .judge(Extent::Full, |labels| Ok(labels.number("law")?))
             .unwrap_err();
@@ -391,7 +319,6 @@ nu,law,known,allowed,subset,standing,instead,reason
                 "0,pds,1,digits,fast,,2,",
                 "line 7: `2` in column `instead`, expected nothing",
             ),
-            ("", "line 6: the table has no entries"),
         ] {
             let error = parse(row).unwrap_err().to_string();
             assert!(
@@ -399,6 +326,11 @@ nu,law,known,allowed,subset,standing,instead,reason
                 "{error}"
             );
         }
+        let error = known_values("t4", HEAD).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "published table t4, line 6: the table has no entries"
+        );
         let text = HEAD.replace("# known: printed\n", "");
         let error = known_values("t4", &text).unwrap_err();
         assert_eq!(error.fault, TableFault::NoHeading { key: "known" });

@@ -18,7 +18,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             plane stress; pulled by its ends in 150 steps. Bonds soften from the strain 1e-4 on (bond-energy, bilinear or \
             exponential), by a law that takes the fracture energy, or by one that ends at 20 times that strain whatever the \
             horizon. The area is that under force over displacement of the end.",
-    cases: &["cases/softening-bar/case.toml"],
+    cases: &[&BAR],
     compute,
 };
 
@@ -61,10 +61,8 @@ fn bar(labels: &Labels<'_>) -> anyhow::Result<Trial> {
 
 /// The bar on a lattice of so many rows.
 fn rows(trial: Trial, rows: &str) -> anyhow::Result<Trial> {
-    let rows: i64 = rows.parse().context("rows must be a whole number")?;
-    Ok(trial
-        .set("lattice.cells", [5 * rows, rows])
-        .set("lattice.spacing", 0.012 / rows as f64))
+    let rows: u32 = rows.parse().context("rows must be a whole number")?;
+    Ok(trial.on_lattice([5 * rows, rows], 0.012 / f64::from(rows)))
 }
 
 /// The bar with an end of its law, or with that of the fracture energy. The force of an exponential one takes longer to fall.
@@ -104,11 +102,13 @@ fn curves(wanted: &str, title: &str) -> anyhow::Result<Plot> {
         let name = format!("{count} rows");
         series.push(Series::line(name, colour, points.collect()));
     }
-    Ok(Plot {
-        name: format!("softening-{wanted}"),
-        title: format!("Notched bar, {title}"),
-        x: "displacement of the end, um".to_owned(),
-        y: "force / section between the notches, MPa".to_owned(),
-        series,
-    })
+    let axes = [
+        "displacement of the end, um",
+        "force / section between the notches, MPa",
+    ];
+    let (name, title) = (
+        format!("softening-{wanted}"),
+        format!("Notched bar, {title}"),
+    );
+    Ok(Plot::new(name, title, axes, series))
 }

@@ -18,18 +18,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             k_theta = k_t l (1 - l/delta)/2; partial volumes and the surface correction by volumes. Displacements \
             are the largest of all points; those of shear are u_x at (0, 300) mm and u_y at (300, 0) mm, turned \
             until they are equal; the last table is read at (270, 270) mm.",
-    cases: &[
-        "cases/verification/square-traction.toml",
-        "cases/verification/square-shear.toml",
-        "cases/verification/square-bending.toml",
-    ],
+    cases: &[&TRACTION, &SHEAR, &BENDING],
     compute,
 };
 
 static TRACTION: Template = template!("verification/square-traction.toml");
-
 static SHEAR: Template = template!("verification/square-shear.toml");
-
 static BENDING: Template = template!("verification/square-bending.toml");
 
 /// Half-width of the plate between its outermost points, m.
@@ -41,117 +35,72 @@ const INSIDE: f64 = 0.27;
 const MILLIMETRES: f64 = 1e3;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let mut bent = Memory::default();
+    let mut memory = Memory::default();
+    let mut read = |case: &'static Template, labels: Labels<'_>, model: &str| {
+        let trial = (case.trial())
+            .set("material.poisson", labels.number("nu")?)
+            .set("model.law", model.to_lowercase());
+        memory.result(trial.command(), || Reading::from_solution(&trial.solve()?))
+    };
+    let poisson = published!("mppd-table-1-poisson")
+        .judge(extent, |labels| Ok(read(&TRACTION, labels, "PDS")?.poisson))?;
+    let mut judge = |table: Published, case, displacement: fn(Reading) -> [f64; 2]| {
+        table.judge(extent, |labels| {
+            let [x, y] = displacement(read(case, labels, labels.text("model")?)?);
+            let is_along_x = labels.text("component")? == "u_x";
+            Ok(MILLIMETRES * if is_along_x { x } else { y })
+        })
+    };
     let tables = vec![
-        judge(
-            published!("mppd-table-1"),
-            extent,
-            &mut Memory::default(),
-            &TRACTION,
-            largest_displacements,
-        )?,
-        published!("mppd-table-1-poisson").judge(extent, poisson_inside)?,
-        judge(
-            published!("mppd-table-2"),
-            extent,
-            &mut Memory::default(),
-            &SHEAR,
-            |it| Ok([shear_displacement(it)?; 2]),
-        )?,
-        judge(
-            published!("mppd-table-3"),
-            extent,
-            &mut bent,
-            &BENDING,
-            largest_displacements,
-        )?,
-        judge(
-            published!("bending-closed-form"),
-            extent,
-            &mut bent,
-            &BENDING,
-            largest_displacements,
-        )?,
-        judge(
-            published!("bending-inside"),
-            extent,
-            &mut Memory::default(),
-            &BENDING,
-            |it| Ok(displacement_at(it, [INSIDE; 2]).map(f64::abs)),
-        )?,
+        judge(published!("mppd-table-1"), &TRACTION, |it| it.largest)?,
+        poisson,
+        judge(published!("mppd-table-2"), &SHEAR, |it| it.of_sides)?,
+        judge(published!("mppd-table-3"), &BENDING, |it| it.largest)?,
+        judge(published!("bending-closed-form"), &BENDING, |it| it.largest)?,
+        judge(published!("bending-inside"), &BENDING, |it| it.inside)?,
     ];
-    let plots = vec![
-        plot(
-            &tables[0],
-            "Simple traction: largest displacement across the load",
-            "u_x",
-        )?,
-        plot(
-            &tables[4],
-            "Simple bending: largest displacement along the load",
-            "u_x",
-        )?,
-    ];
+    let traction = "Simple traction: largest displacement across the load";
+    let bending = "Simple bending: largest displacement along the load";
+    let plots = vec![plot(&tables[0], traction)?, plot(&tables[4], bending)?];
     Ok(Findings { tables, plots })
 }
 
-/// Judges a table of displacements [u_x, u_y] in mm; runs that several entries share are done once.
-fn judge(
-    table: Published,
-    extent: Extent,
-    memory: &mut Memory<[f64; 2]>,
-    case: &'static Template,
-    read: impl Fn(&Solution) -> anyhow::Result<[f64; 2]>,
-) -> anyhow::Result<Table> {
-    table.judge(extent, |labels| {
-        let (nu, law) = (labels.number("nu")?, labels.text("model")?.to_lowercase());
-        let trial = case
-            .trial()
-            .set("material.poisson", nu)
-            .set("model.law", law);
-        let [x, y] = memory.result(trial.command(), || read(&trial.solve()?))?;
-        Ok(MILLIMETRES
-            * if labels.text("component")? == "u_x" {
-                x
-            } else {
-                y
-            })
-    })
+/// What the tables read in a run, m.
+#[derive(Debug, Clone, Copy)]
+struct Reading {
+    /// Largest |u_x| and |u_y| of all points.
+    largest: [f64; 2],
+    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, what a rigid rotation leaves of
+    /// them; twice.
+    of_sides: [f64; 2],
+    /// |u_x| and |u_y| on the diagonal, inside.
+    inside: [f64; 2],
+    /// Poisson's ratio inside, of a plate in traction.
+    poisson: f64,
 }
 
-/// Mean of u_x at the middle of the upper side and u_y at the middle of the right side: what a rigid rotation leaves of
-/// them, m.
-fn shear_displacement(solution: &Solution) -> anyhow::Result<f64> {
-    let [along_x, _] = displacement_at(solution, [0.0, HALF_WIDTH]);
-    let [_, along_y] = displacement_at(solution, [HALF_WIDTH, 0.0]);
-    Ok(0.5 * (along_x + along_y))
+impl Reading {
+    fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
+        let at = |x, y| displacement_at(solution, [x, y]);
+        Ok(Self {
+            largest: largest_displacements(solution)?,
+            of_sides: [0.5 * (at(0.0, HALF_WIDTH)[0] + at(HALF_WIDTH, 0.0)[1]); 2],
+            inside: at(INSIDE, INSIDE).map(f64::abs),
+            poisson: -at(INSIDE, 0.0)[0] / at(0.0, INSIDE)[1],
+        })
+    }
 }
 
-fn poisson_inside(labels: Labels<'_>) -> anyhow::Result<f64> {
-    let trial = TRACTION
-        .trial()
-        .set("material.poisson", labels.number("nu")?);
-    let solution = trial.set("model.law", "pds").solve()?;
-    let [across, _] = displacement_at(&solution, [INSIDE, 0.0]);
-    let [_, along] = displacement_at(&solution, [0.0, INSIDE]);
-    Ok(-across / along)
-}
-
-/// One component over Poisson's ratio, known and computed.
-fn plot(table: &Table, title: &str, component: &str) -> anyhow::Result<Plot> {
+/// u_x over Poisson's ratio, known and computed.
+fn plot(table: &Table, title: &str) -> anyhow::Result<Plot> {
     let mut series = Vec::new();
     for (model, colour) in [("PDS", Colour::Blue), ("MPPD", Colour::Vermilion)] {
-        let of = [("model", model), ("component", component)];
+        let of = format!("model={model}, component=u_x");
         let label = format!("{model}, {}", table.heading.known);
         series.push(Series::circles(label, colour, table.known("nu", &of)?));
         let label = format!("{model}, computed");
         series.push(Series::line(label, colour, table.computed("nu", &of)?));
     }
-    Ok(Plot {
-        name: table.heading.name.clone(),
-        title: title.to_owned(),
-        x: "Poisson's ratio".to_owned(),
-        y: format!("{component}, mm"),
-        series,
-    })
+    let axes = ["Poisson's ratio", "u_x, mm"];
+    Ok(Plot::new(&table.heading.name, title, axes, series))
 }

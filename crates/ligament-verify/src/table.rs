@@ -3,6 +3,7 @@
 use std::fmt;
 
 use anyhow::Context;
+use ligament_plot::plots::{Plot, Series};
 
 use super::entry::{Entry, Verdict};
 use super::printed::{Allowed, Difference};
@@ -18,11 +19,11 @@ pub enum Extent {
 
 /// A table before it is computed: what is known, and where from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Known {
+pub(super) struct Known {
     /// What the table is.
-    pub heading: Heading,
+    pub(super) heading: Heading,
     /// Values of the table, in their order.
-    pub entries: Vec<Entry>,
+    pub(super) entries: Vec<Entry>,
 }
 
 /// The heading of a table.
@@ -73,7 +74,7 @@ pub struct Labels<'a> {
 
 /// A label that an experiment asks for and its table does not have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum LabelError {
+pub(super) enum LabelError {
     /// The table has no such key.
     #[error("no key `{key}`; keys: {}", keys.join(", "))]
     NoKey {
@@ -94,11 +95,7 @@ pub enum LabelError {
 
 impl Known {
     /// Computes the entries of the table, or of its fast subset, and judges them.
-    ///
-    /// # Errors
-    ///
-    /// Those of `compute`, with the labels of the entry.
-    pub fn judge(
+    pub(super) fn judge(
         &self,
         extent: Extent,
         mut compute: impl FnMut(Labels<'_>) -> anyhow::Result<f64>,
@@ -126,43 +123,36 @@ impl Known {
 
 impl Table {
     /// Number of rows with a verdict.
-    pub fn count(&self, verdict: Verdict) -> usize {
+    pub(super) fn count(&self, verdict: Verdict) -> usize {
         self.rows
             .iter()
             .filter(|row| row.verdict == verdict)
             .count()
     }
 
-    /// Computed values over the numbers of a key, from the rows that have all these labels, shape (n, 2).
-    ///
-    /// # Errors
-    ///
-    /// If the table has no such key, or a label of it is no number.
-    pub fn computed(&self, x: &str, of: &[(&str, &str)]) -> Result<Vec<[f64; 2]>, LabelError> {
+    /// Computed values over the numbers of a key, from the rows with all the labels of `of` (`law=pds, of=lattice`; none for
+    /// all rows), shape (n, 2).
+    pub(super) fn computed(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
         self.points(x, of, |row| row.computed)
     }
 
-    /// Known values over the numbers of a key, from the rows that have all these labels, shape (n, 2).
-    ///
-    /// # Errors
-    ///
-    /// If the table has no such key, or a label of it is no number.
-    pub fn known(&self, x: &str, of: &[(&str, &str)]) -> Result<Vec<[f64; 2]>, LabelError> {
+    /// Known values over the numbers of a key, from the rows that `of` names as in [`Table::computed`], shape (n, 2).
+    pub(super) fn known(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
         self.points(x, of, |row| row.entry.known.value())
     }
 
     fn points(
         &self,
         x: &str,
-        of: &[(&str, &str)],
+        of: &str,
         y: impl Fn(&Row) -> f64,
     ) -> Result<Vec<[f64; 2]>, LabelError> {
         let mut points = Vec::new();
         for row in &self.rows {
             let labels = self.labels(row);
             let mut belongs = true;
-            for (key, label) in of {
-                belongs &= labels.text(key)? == *label;
+            for (key, label) in of.split(", ").filter_map(|it| it.split_once('=')) {
+                belongs &= labels.text(key)? == label;
             }
             if belongs {
                 points.push([labels.number(x)?, y(row)]);
@@ -171,9 +161,14 @@ impl Table {
         Ok(points)
     }
 
+    /// A plot with the name and the title of the table.
+    pub(super) fn plot(&self, axes: [&str; 2], series: Vec<Series>) -> Plot {
+        Plot::new(&self.heading.name, &self.heading.title, axes, series)
+    }
+
     /// Computed less known value of a row: an amount in a table that allows amounts and where the known value is 0, a
     /// share of the known value elsewhere.
-    pub fn difference(&self, row: &Row) -> Difference {
+    pub(super) fn difference(&self, row: &Row) -> Difference {
         let is_amount = |row: &Row| matches!(row.entry.allowed, Allowed::Absolute(_));
         let known = row.entry.known.value();
         let amount = row.computed - known;
@@ -195,11 +190,7 @@ impl Table {
 
 impl<'a> Labels<'a> {
     /// The label of a key.
-    ///
-    /// # Errors
-    ///
-    /// If the table has no such key.
-    pub fn text(&self, key: &str) -> Result<&'a str, LabelError> {
+    pub(super) fn text(&self, key: &str) -> Result<&'a str, LabelError> {
         let place = self.keys.iter().position(|name| name == key);
         let label = place.and_then(|place| self.labels.get(place));
         label.map(String::as_str).ok_or_else(|| LabelError::NoKey {
@@ -209,11 +200,7 @@ impl<'a> Labels<'a> {
     }
 
     /// The label of a key as a number; `1/3` is one.
-    ///
-    /// # Errors
-    ///
-    /// If the table has no such key, or its label is no number.
-    pub fn number(&self, key: &str) -> Result<f64, LabelError> {
+    pub(super) fn number(&self, key: &str) -> Result<f64, LabelError> {
         let label = self.text(key)?;
         let number = match label.split_once('/') {
             None => label.parse().ok(),

@@ -1,10 +1,11 @@
 //! An orthotropic lamina with a hole in tension against finite elements (OMPPD Figs 16, 17).
 
 use super::experiment::{Experiment, Findings};
-use super::published::{numbers, published};
+use super::published::published;
 use super::table::Extent;
 use super::trial::{Memory, Template, displacement_at, displacements, template};
 use ligament::run::Solution;
+use ligament_output::csv::read::Sheet;
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
@@ -15,7 +16,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     setup: "The lamina of the natural frequencies (2,992 points, m = 3.2), u_x = -0.5 and 0.5 mm in the three \
             columns at its ends, free along y (u_y is given less its mean over all points). Displacements of the \
             upper row of cells against an independent solution by finite elements at the same points.",
-    cases: &["cases/verification/lamina-tension.toml"],
+    cases: &[&CASE],
     compute,
 };
 
@@ -39,7 +40,8 @@ struct Edge {
 }
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let elements = numbers::<5>("fem-hole-edge", ELEMENTS)?;
+    let elements = Sheet::parse("fem-hole-edge.csv", ELEMENTS)?;
+    let elements = elements.numbers(["zeta", "x", "y", "ux", "uy"])?;
     let mut memory = Memory::default();
     let mut edges: Vec<Edge> = Vec::new();
     let table = published!("omppd-tension").judge(extent, |labels| {
@@ -104,22 +106,21 @@ fn plot(edges: &[Edge], component: usize) -> Plot {
     let mut series = Vec::new();
     for (edge, colour) in edges.iter().zip(colours) {
         let label = format!("{} degrees", edge.angle);
-        let lattice = edge.curve(&edge.lattice, component);
-        series.push(Series::curve(label, colour, lattice));
-        let label = if series.len() == 1 {
+        let known = if series.is_empty() {
             "finite elements"
         } else {
             ""
         };
+        let lattice = edge.curve(&edge.lattice, component);
         let elements = edge.curve(&edge.elements, component);
-        series.push(Series::dashes(label, Colour::Black, elements));
+        series.push(Series::curve(label, colour, lattice));
+        series.push(Series::dashes(known, Colour::Black, elements));
     }
     let name = ["u_x", "u_y"][component];
-    Plot {
-        name: format!("omppd-tension-{name}"),
-        title: format!("Upper edge of the lamina in tension: {name}"),
-        x: "x, mm".to_owned(),
-        y: format!("{name}, mm"),
+    Plot::new(
+        format!("omppd-tension-{name}"),
+        format!("Upper edge of the lamina in tension: {name}"),
+        ["x, mm", &format!("{name}, mm")],
         series,
-    }
+    )
 }

@@ -12,12 +12,13 @@ use ligament_analysis::modal::Mode;
 use ligament_analysis::{Bonds, Component, Termination};
 use ligament_mesh::gmsh;
 
-use ligament_case::case::{Case, CaseError, CaseFile};
+use ligament_case::case::CaseFile;
 
 /// A case file of the repository, as it was when the program was built.
-pub(super) struct Template {
+#[derive(Debug)]
+pub struct Template {
     /// Path of the case in the repository.
-    pub(super) path: &'static str,
+    pub path: &'static str,
     /// Text of the case.
     pub(super) text: &'static str,
 }
@@ -56,6 +57,7 @@ pub(super) struct StoredMesh {
 pub(super) struct Trial {
     template: &'static Template,
     settings: Vec<String>,
+    mesh: Option<&'static StoredMesh>,
 }
 
 impl Template {
@@ -64,6 +66,7 @@ impl Template {
         Trial {
             template: self,
             settings: Vec::new(),
+            mesh: None,
         }
     }
 }
@@ -75,23 +78,23 @@ impl Trial {
         self
     }
 
-    /// Runs the case, as `ligament run` does.
-    pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        let solve = || {
-            let case = self.case()?;
-            run(&case, case.setup(&mut ())?)
-        };
-        solve().with_context(|| self.command())
+    /// The trial on a lattice of so many cells along x and y, a spacing (m) wide each.
+    pub(super) fn on_lattice(self, cells: [u32; 2], spacing: f64) -> Self {
+        self.set("lattice.cells", cells)
+            .set("lattice.spacing", spacing)
     }
 
-    /// Runs the case on a stored mesh, as `ligament run` does where the file is.
-    pub(super) fn solve_on(self, mesh: &StoredMesh) -> anyhow::Result<Solution> {
-        let trial = self.set("mesh.file", mesh.path);
-        let solve = || {
-            let case = trial.case()?;
-            run(&case, case.setup_on(mesh.body()?)?)
-        };
-        solve().with_context(|| trial.command())
+    /// The trial on a stored mesh, as `ligament run` has it where the file is.
+    pub(super) fn on_mesh(self, mesh: &'static StoredMesh) -> Self {
+        Self {
+            mesh: Some(mesh),
+            ..self.set("mesh.file", mesh.path)
+        }
+    }
+
+    /// Runs the case, as `ligament run` does.
+    pub(super) fn solve(&self) -> anyhow::Result<Solution> {
+        self.with_setup(run)
     }
 
     /// The discrete model of the case, as `ligament run` builds it.
@@ -99,41 +102,40 @@ impl Trial {
         self.model_with(|_| {})
     }
 
-    /// The discrete model of the case after a change that no setting makes.
-    pub(super) fn model_with(&self, change: impl FnOnce(&mut Case)) -> anyhow::Result<Model> {
-        let model = || {
-            let mut case = self.case()?;
-            change(&mut case.case);
-            build(&case, case.setup(&mut ())?)
-        };
-        model().with_context(|| self.command())
-    }
-
-    /// The discrete model of the case on a stored mesh.
-    pub(super) fn model_on(self, mesh: &StoredMesh) -> anyhow::Result<Model> {
-        let trial = self.set("mesh.file", mesh.path);
-        let model = || {
-            let case = trial.case()?;
-            build(&case, case.setup_on(mesh.body()?)?)
-        };
-        model().with_context(|| trial.command())
+    /// The discrete model of the case after a change of its setup that no setting makes.
+    pub(super) fn model_with(&self, change: impl FnOnce(&mut Setup)) -> anyhow::Result<Model> {
+        self.with_setup(|case, mut setup| {
+            change(&mut setup);
+            Ok(Model::build(setup, &mut ()).map_err(|error| case.located(error))?)
+        })
     }
 
     /// The natural modes of the case, as `ligament run` finds them.
     pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
-        let case = self.case()?;
-        let found = case.setup(&mut ())?.modes();
-        let found = found.map_err(|it| case.explained(it));
-        let found = found.with_context(|| self.command())?;
-        match found.notices.first() {
-            Some(notice) => Err(anyhow::anyhow!("{notice}")).with_context(|| self.command()),
-            None => Ok(found.modes),
-        }
+        self.with_setup(|case, setup| {
+            let found = setup.modes().map_err(|error| case.explained(error))?;
+            match found.notices.first() {
+                Some(notice) => Err(anyhow::anyhow!("{notice}")),
+                None => Ok(found.modes),
+            }
+        })
     }
 
-    fn case(&self) -> Result<CaseFile, CaseError> {
-        let text = self.template.text.to_owned();
-        CaseFile::parse(Path::new(self.template.path), text, &self.settings)
+    /// What `work` makes of the setup of the case; the command stands above its errors.
+    fn with_setup<T>(
+        &self,
+        work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
+    ) -> anyhow::Result<T> {
+        let attempt = || {
+            let text = self.template.text.to_owned();
+            let case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
+            let setup = match self.mesh {
+                Some(mesh) => case.setup_on(Arc::new(MeshBody::from(gmsh::parse(mesh.bytes)?)))?,
+                None => case.setup(&mut ())?,
+            };
+            work(&case, setup)
+        };
+        attempt().with_context(|| self.command())
     }
 
     /// The command that runs the same case.
@@ -144,17 +146,6 @@ impl Trial {
             .collect();
         format!("ligament run {}{}", self.template.path, words.concat())
     }
-}
-
-impl StoredMesh {
-    fn body(&self) -> anyhow::Result<Arc<MeshBody>> {
-        Ok(Arc::new(gmsh::parse(self.bytes)?.into()))
-    }
-}
-
-/// The discrete model of a case.
-fn build(case: &CaseFile, setup: Setup) -> anyhow::Result<Model> {
-    Ok(Model::build(setup, &mut ()).map_err(|error| case.located(error))?)
 }
 
 /// What a case comes to, if it gets anywhere.

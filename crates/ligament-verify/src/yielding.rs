@@ -21,18 +21,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             times the tensile one. The error is the one of the orientation that yields last, as `ligament yield` computes \
             it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
             bonds of a lattice, in the worst direction of a bond.",
-    cases: &["cases/verification/lattice.toml"],
+    cases: &[&CASE],
     compute,
 };
 
 static CASE: Template = template!("verification/lattice.toml");
 
 /// Strengths as in the paper's tables.
-const STRENGTHS: Strengths = Strengths {
-    poisson: 0.0,
-    ratio: 3.0,
-    calibration: Calibration::Printed,
-};
+const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
 
 /// Young's modulus and tensile strength of the bar, Pa.
 const YOUNG: f64 = 70e9;
@@ -106,11 +102,7 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         .set("material.tensile_strength", TENSILE_STRENGTH)
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)
         .set("fracture.steps", 1);
-    let model = trial.model_with(|case| {
-        if let Some(fracture) = &mut case.fracture {
-            fracture.criteria = choices;
-        }
-    })?;
+    let model = trial.model_with(|setup| setup.criteria = choices)?;
     let middle = model.system.cloud.nearest_point([0.0, 0.0]);
     let family = Family::of_point(&model.system, &model.criteria, middle);
     let sign = match labels.text("bar")? {
@@ -139,11 +131,10 @@ fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
         let name = format!("m = {ratio}");
         series.push(Series::curve(name, colour, points));
     }
-    Ok(Plot {
-        name: format!("first-yield-{criterion}"),
-        title: format!("Simple extension, error of first yield: {criterion}"),
-        x: "orientation, degrees".to_owned(),
-        y: "error, %".to_owned(),
+    Ok(Plot::new(
+        format!("first-yield-{criterion}"),
+        format!("Simple extension, error of first yield: {criterion}"),
+        ["orientation, degrees", "error, %"],
         series,
-    })
+    ))
 }

@@ -1,5 +1,6 @@
 //! What can be wrong with a setup, where, and what to do about it.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use ligament_analysis::modal::ModalError;
@@ -68,7 +69,7 @@ pub enum Fault {
     #[error("must be {expected}, found {found}")]
     OutOfRange {
         /// The condition, in words.
-        expected: &'static str,
+        expected: Cow<'static, str>,
         /// The value as given.
         found: String,
     },
@@ -211,7 +212,7 @@ pub enum Fault {
     },
     /// Choices that do not go together.
     #[error("{0}")]
-    Contradiction(&'static str),
+    Contradiction(Cow<'static, str>),
 }
 
 impl Field {

@@ -77,7 +77,8 @@ impl Model {
         } = stage(watcher, "correction", || {
             correct(&setup, &cloud, &horizons, bonds, &is_cut)
         });
-        watcher.found(&Finding::Correction(correction.report.as_ref()));
+        let report = correction.report.as_ref();
+        watcher.found(&Finding::Correction(&setup.correction, report));
 
         let no_fail = loading::no_fail(&setup, &cloud)?;
         let fixed = FixedFields {

@@ -2,6 +2,8 @@
 
 use ligament_model::correction::CorrectionReport;
 
+use crate::setup::Correction;
+
 /// Watcher of the stages of a computation; `()` if nobody need know.
 pub trait StageWatcher {
     /// Tells that a stage begins: `points`, `bonds`, `correction`.
@@ -26,8 +28,8 @@ pub enum Finding<'a> {
         /// Number of bonds, before pre-cracks cut any.
         bonds: usize,
     },
-    /// How the correction went; none where nothing was iterated.
-    Correction(Option<&'a CorrectionReport>),
+    /// The correction, and how it went; none where nothing was iterated.
+    Correction(&'a Correction, Option<&'a CorrectionReport>),
 }
 
 /// Does a stage, and tells of its beginning and its end.

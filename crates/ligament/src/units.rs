@@ -1,5 +1,7 @@
 //! Units of the force-displacement curve.
 
+use crate::setup::{Action, Setup};
+
 /// Units of the axes of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Units {
@@ -26,6 +28,30 @@ impl Units {
             displacement,
             force,
             stiffness,
+        }
+    }
+}
+
+impl Setup {
+    /// Units of the displacement and the force in the history, which are those of the first load, or of the temperature where
+    /// there is none.
+    pub fn units(&self) -> Units {
+        let first = self.loads.first();
+        first.map_or(Units::TEMPERATURE, |load| load.action.units())
+    }
+}
+
+impl Action {
+    /// Units of the displacement and the force of the action in the history: their product is work.
+    pub fn units(&self) -> Units {
+        match self {
+            Self::Displacement(it) if it.x.is_none() && it.y.is_none() => Units::COUPLE,
+            Self::Displacement(_)
+            | Self::Force(_)
+            | Self::ForcePerLength(_)
+            | Self::BodyForce(_) => Units::FORCE,
+            Self::Moment(_) | Self::BodyCouple(_) => Units::COUPLE,
+            Self::Pressure(_) => Units::PRESSURE,
         }
     }
 }

@@ -5,8 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::sections::Case;
 use super::word::Word;
-use ligament_analysis::modal::Rotations;
+use ligament::setup;
+use ligament_analysis::modal::{ModalSettings, Rotations};
 
 /// Modes at most: each keeps three vectors of the search in memory.
 pub const MOST_MODES: u32 = 1000;
@@ -23,114 +25,105 @@ pub enum Analysis {
     Modal,
 }
 
-/// Settings of a modal analysis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Natural modes that are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct Modal {
     /// Number of modes, rigid ones included, lowest first.
+    #[schemars(range(min = 1, max = MOST_MODES))]
     pub modes: u32,
     /// Inertia of the rotations of the points.
     pub rotations: Word<Option<Rotations>>,
-    /// Residual of the iteration below which a mode is found.
+    /// Residual of the search, relative to 1/omega^2.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance: f64,
 }
 
-#[derive(Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct RawModal {
-    /// Number of modes, rigid ones included, lowest first.
-    #[schemars(range(min = 1, max = MOST_MODES), extend("default" = 10))]
-    modes: Option<u32>,
-    /// Inertia of the rotations of the points.
-    rotations: Word<Option<Rotations>>,
-    /// Residual of the search, relative to 1/omega^2.
-    #[schemars(extend("default" = 1e-10, "exclusiveMinimum" = 0))]
-    tolerance: Option<f64>,
-}
-
-impl RawModal {
-    pub(super) fn complete(self) -> Modal {
-        Modal {
-            modes: self.modes.unwrap_or(10),
-            rotations: self.rotations,
-            tolerance: self.tolerance.unwrap_or(1e-10),
+impl Default for Modal {
+    fn default() -> Self {
+        let ModalSettings {
+            modes,
+            rotations,
+            tolerance,
+        } = setup::modal();
+        Self {
+            modes: modes as u32,
+            rotations: Word(rotations),
+            tolerance,
         }
     }
 }
 
-/// Sections and keys that not every analysis has: whether they are given.
-pub(super) struct Given {
-    pub(super) fracture: bool,
-    pub(super) modal: bool,
-    pub(super) loads: bool,
-    pub(super) temperature: bool,
-    pub(super) probes: bool,
-    pub(super) output: bool,
+impl Modal {
+    pub(super) fn setup(&self) -> ModalSettings {
+        ModalSettings {
+            modes: self.modes as usize,
+            rotations: self.rotations.0,
+            tolerance: self.tolerance,
+        }
+    }
 }
 
-impl Analysis {
-    /// The analysis that a case names, or that its sections mean; all sections must go with it.
-    pub(super) fn named_or_meant(named: Option<Self>, given: &Given) -> Result<Self, KeyFault> {
-        let meant = if given.fracture {
-            Self::Fracture
-        } else {
-            Self::Static
+impl Case {
+    /// Names the analysis: the one that the case says, or that its sections mean; all sections must go with it.
+    pub(super) fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
+        let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
+        let meant = match is_breaking {
+            true => Analysis::Fracture,
+            false => Analysis::Static,
         };
-        let analysis = named.unwrap_or(meant);
-        if analysis == Self::Fracture && !given.fracture {
-            let reason = "\"fracture\" needs a [fracture] section, which says how the loads rise";
-            return Err(KeyFault::new(KeyPath::default().child("analysis"), reason));
-        }
-        let why_no_modes =
-            "it says which modes are wanted, and only analysis = \"modal\" finds any";
-        let misfit = match analysis {
-            Self::Static if given.fracture => Some((
-                "fracture",
-                "analysis = \"static\"",
-                "no bond breaks in an elastic solution",
-            )),
-            Self::Static if given.modal => Some(("modal", "analysis = \"static\"", why_no_modes)),
-            Self::Fracture if given.modal => {
-                Some(("modal", "analysis = \"fracture\"", why_no_modes))
+        let analysis = *self.analysis.get_or_insert(meant);
+        let modes = (
+            "modal",
+            is_modal,
+            "it says which modes are wanted, and only analysis = \"modal\" finds any",
+        );
+        let (word, unfit) = match analysis {
+            Analysis::Fracture if !is_breaking => {
+                let reason =
+                    "\"fracture\" needs a [fracture] section, which says how the loads rise";
+                return Err(KeyFault::new(KeyPath::default().child("analysis"), reason));
             }
-            Self::Static | Self::Fracture => None,
-            Self::Modal => given.unfit_for_modes(),
+            Analysis::Fracture => ("fracture", vec![modes]),
+            Analysis::Static => {
+                let reason = "no bond breaks in an elastic solution";
+                ("static", vec![("fracture", is_breaking, reason), modes])
+            }
+            Analysis::Modal => {
+                self.modal.get_or_insert_default();
+                let free = "modes are free vibrations without loads";
+                let sections = vec![
+                    ("fracture", is_breaking, "no bond breaks in a mode"),
+                    (
+                        "load",
+                        !self.loads.is_empty(),
+                        "modes are free vibrations without loads; supports hold",
+                    ),
+                    ("temperature", !self.temperatures.is_empty(), free),
+                    (
+                        "probe",
+                        !self.probes.is_empty(),
+                        "modes have no history to read",
+                    ),
+                    (
+                        "output",
+                        has_output,
+                        "every mode is written, to a file of its own",
+                    ),
+                ];
+                ("modal", sections)
+            }
         };
-        match misfit {
-            None => Ok(analysis),
-            Some((key, setting, reason)) => Err(KeyFault::new(
+        match unfit.into_iter().find(|(_, is_given, _)| *is_given) {
+            None => Ok(()),
+            Some((key, _, reason)) => Err(KeyFault::new(
                 KeyPath::default().child(key),
                 Fault::NotWith {
                     key,
-                    setting: setting.to_owned(),
+                    setting: format!("analysis = \"{word}\""),
                     reason,
                 },
             )),
         }
-    }
-}
-
-impl Given {
-    fn unfit_for_modes(&self) -> Option<(&'static str, &'static str, &'static str)> {
-        let sections = [
-            ("fracture", self.fracture, "no bond breaks in a mode"),
-            (
-                "load",
-                self.loads,
-                "modes are free vibrations without loads; supports hold",
-            ),
-            (
-                "temperature",
-                self.temperature,
-                "modes are free vibrations without loads",
-            ),
-            ("probe", self.probes, "modes have no history to read"),
-            (
-                "output",
-                self.output,
-                "every mode is written, to a file of its own",
-            ),
-        ];
-        let found = sections.into_iter().find(|(_, given, _)| *given);
-        found.map(|(key, _, reason)| (key, "analysis = \"modal\"", reason))
     }
 }

@@ -2,12 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::checked::Case;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
 use super::keys::{check_ranges, unit_of};
-use super::sections::RawCase;
+use super::sections::Case;
 use super::{overrides, resolved};
 
 /// A case with the text it was read from, so that faults found later can still be located.
@@ -68,24 +67,29 @@ impl CaseFile {
             })?;
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        let case = check_ranges(&document).and_then(|()| RawCase::checked(&document, folder));
+        let case = check_ranges(&document).and_then(|()| Case::read(&document, folder));
         let case = case.map_err(|fault| {
+            let document = &document;
             Source {
                 path,
                 text: &text,
                 overrides,
-                document: &document,
+                document,
             }
             .error(fault)
         })?;
         let (path, overrides) = (path.to_owned(), overrides.to_vec());
-        Ok(Self {
+        let file = Self {
             path,
             text,
             overrides,
             case,
             document,
-        })
+        };
+        let setup = file.case.stand_in().and_then(|body| file.case.setup(body));
+        let setup = setup.map_err(|fault| file.source().error(fault))?;
+        setup.check().map_err(|error| file.located(error))?;
+        Ok(file)
     }
 
     /// Line and column (both from 1) of the value at a key path such as `load.0.group`.
@@ -104,20 +108,16 @@ impl CaseFile {
     /// For a name that the mesh does not have, [`Fault::unknown_name`] adds the nearest one.
     pub fn error(&self, key: &str, fault: impl Into<Fault>) -> CaseError {
         let key = KeyPath::parse(key).unwrap_or_else(|| KeyPath(vec![key.to_owned()]));
-        let Self {
-            path,
-            text,
-            overrides,
-            document,
-            ..
-        } = self;
+        self.source().error(KeyFault::new(key, fault))
+    }
+
+    pub(crate) fn source(&self) -> Source<'_> {
         Source {
-            path,
-            text,
-            overrides,
-            document,
+            path: &self.path,
+            text: &self.text,
+            overrides: &self.overrides,
+            document: &self.document,
         }
-        .error(KeyFault::new(key, fault))
     }
 
     /// The number at a key path such as `material.young`: as given, or else its default; `None` where neither is a number.

@@ -1,59 +1,110 @@
 //! `[material]` or `[material.NAME]`: the materials of the body.
 
-mod elasticity;
-mod tables;
+mod kind;
 
-use ligament_model::failure::Choice;
+use ligament_model::material::OutOfPlane;
+use ligament_model::{Anisotropic, Elasticity, Expansion, Isotropic, Orthotropic};
+use schemars::JsonSchema;
+use serde::de::IgnoredAny;
 use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::criterion;
 use super::decode::decode;
 use super::document::{Node, Value};
-use super::expansion::Expansion;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::model::Law;
-use super::values::require_unique;
-use elasticity::{ANISOTROPIC_KEYS, ORTHOTROPIC_KEYS};
-pub use elasticity::{Anisotropic, Elasticity, Orthotropic};
-use ligament_model::Plane;
-pub(super) use tables::schema;
-use tables::{RawAnisotropic, RawIsotropic, RawOrthotropic};
+use super::values::{missing, require_unique};
+use kind::Kind;
+pub(super) use kind::schema;
+use ligament::setup::MaterialRegion;
 
 /// A linear elastic material with its strengths.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Material {
     /// Name of the material, NAME of `[material.NAME]`; none for the one `[material]` of the whole body.
     #[serde(skip)]
     pub name: Option<String>,
-    /// The physical surface of the mesh, or the set of the lattice, that it fills; none for the whole body.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The physical surface of the mesh, or the set of the lattice, that the material fills.
     pub group: Option<String>,
-    /// Elastic constants of the material.
-    #[serde(flatten)]
-    pub elasticity: Elasticity,
-    /// Tensile strength, Pa; there, like the two after it, if a criterion of the case needs it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Young's modulus, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young: Option<f64>,
+    /// Poisson's ratio.
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
+    pub poisson: Option<f64>,
+    /// Young's modulus along the axis 1, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_1: Option<f64>,
+    /// Young's modulus along the axis 2, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_2: Option<f64>,
+    /// Poisson's ratio: contraction along 2 under stress along 1.
+    pub poisson_12: Option<f64>,
+    /// Shear modulus in the plane, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub shear_modulus: Option<f64>,
+    /// From the x axis to the axis 1, counter-clockwise, rad.
+    #[schemars(extend("default" = 0.0))]
+    pub angle: Option<f64>,
+    /// Young's modulus across the plane, Pa; for plane strain.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_3: Option<f64>,
+    /// Poisson's ratio: contraction across the plane under stress along 1; for plane strain.
+    pub poisson_13: Option<f64>,
+    /// Poisson's ratio: contraction across the plane under stress along 2; for plane strain.
+    pub poisson_23: Option<f64>,
+    /// Stiffness of sigma_xx by eps_xx, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub c11: Option<f64>,
+    /// Stiffness of sigma_xx by eps_yy, Pa.
+    pub c12: Option<f64>,
+    /// Stiffness of sigma_xx by gamma_xy, Pa.
+    pub c16: Option<f64>,
+    /// Stiffness of sigma_yy by eps_yy, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub c22: Option<f64>,
+    /// Stiffness of sigma_yy by gamma_xy, Pa.
+    pub c26: Option<f64>,
+    /// Stiffness of sigma_xy by gamma_xy, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub c66: Option<f64>,
+    /// Tensile strength, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub tensile_strength: Option<f64>,
     /// Compressive strength, Pa, positive.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub compressive_strength: Option<f64>,
-    /// Fracture energy, J/m^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Fracture energy of opening, J/m^2.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub fracture_energy: Option<f64>,
-    /// Fracture energy of sliding where it is another, J/m^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Fracture energy of sliding where it is another, J/m^2; for `mixed-mode`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub fracture_energy_sliding: Option<f64>,
-    /// Exponent between the two.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Exponent eta between the two fracture energies; for `mixed-mode`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mixed_mode_exponent: Option<f64>,
-    /// Mass density, kg/m^3; always there in a modal analysis.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Mass density, kg/m^3; for natural modes.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: Option<f64>,
-    /// Thermal expansion; always there where the temperature changes.
-    #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub expansion: Option<Expansion>,
+    /// Coefficient of linear thermal expansion, 1/K, the same in all directions; steel has 12e-6.
+    #[schemars(transform = kind::expansion_range)]
+    pub thermal_expansion: Option<f64>,
+    /// Thermal expansion along the axis 1, 1/K.
+    #[schemars(transform = kind::expansion_range)]
+    pub thermal_expansion_1: Option<f64>,
+    /// Thermal expansion along the axis 2, 1/K.
+    #[schemars(transform = kind::expansion_range)]
+    pub thermal_expansion_2: Option<f64>,
+    /// Thermal expansion across the plane, 1/K; for plane strain.
+    #[schemars(transform = kind::expansion_range)]
+    pub thermal_expansion_3: Option<f64>,
+}
+
+/// The fault of a key that is needed for a reason.
+fn required(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
+    let reason = reason.to_owned();
+    KeyFault::new(table.child(key), Fault::Required { key, reason })
 }
 
 impl Material {
@@ -62,43 +113,108 @@ impl Material {
         self.key_path().to_string()
     }
 
-    pub(super) fn key_path(&self) -> KeyPath {
-        let section = KeyPath::default().child("material");
-        self.name
-            .iter()
-            .fold(section, |path, name| path.child(name))
+    fn key_path(&self) -> KeyPath {
+        key_of(self.name.as_ref())
     }
 
-    fn check(self) -> Result<Self, KeyFault> {
+    pub(super) fn setup(&self) -> Result<MaterialRegion, KeyFault> {
         let key = self.key_path();
-        match &self.elasticity {
-            Elasticity::Isotropic { .. } => {}
-            Elasticity::Orthotropic(constants) => constants.check(&key)?,
-            Elasticity::Anisotropic(constants) => constants.check(&key)?,
+        Ok(MaterialRegion {
+            group: self.group.clone(),
+            material: ligament_model::Material {
+                name: self.name.clone().unwrap_or_default(),
+                elasticity: self.elasticity(&key)?,
+                tensile_strength: self.tensile_strength,
+                compressive_strength: self.compressive_strength,
+                fracture_energy: self.fracture_energy,
+                fracture_energy_sliding: self.fracture_energy_sliding,
+                mixed_mode_exponent: self.mixed_mode_exponent,
+                density: self.density,
+                expansion: self.expansion(&key)?,
+            },
+        })
+    }
+
+    fn elasticity(&self, key: &KeyPath) -> Result<Elasticity, KeyFault> {
+        let needed = |name: &str, value: Option<f64>| value.ok_or_else(|| missing(key, name));
+        let stiffness = [self.c11, self.c12, self.c16, self.c22, self.c26, self.c66];
+        if stiffness.iter().any(Option::is_some) {
+            return Ok(Elasticity::Anisotropic(Anisotropic::new([
+                needed("c11", self.c11)?,
+                needed("c12", self.c12)?,
+                needed("c16", self.c16)?,
+                needed("c22", self.c22)?,
+                needed("c26", self.c26)?,
+                needed("c66", self.c66)?,
+            ])));
         }
-        Ok(self)
+        // An orthotropic material has an angle, if only that of zero which it was read with.
+        if self.angle.is_none() {
+            return Ok(Elasticity::Isotropic(Isotropic {
+                young: needed("young", self.young)?,
+                poisson: needed("poisson", self.poisson)?,
+            }));
+        }
+        Ok(Elasticity::Orthotropic(Orthotropic {
+            young: [
+                needed("young_1", self.young_1)?,
+                needed("young_2", self.young_2)?,
+            ],
+            poisson: needed("poisson_12", self.poisson_12)?,
+            shear_modulus: needed("shear_modulus", self.shear_modulus)?,
+            out_of_plane: self.out_of_plane(key)?,
+            angle: self.angle.unwrap_or_default(),
+        }))
+    }
+
+    fn out_of_plane(&self, key: &KeyPath) -> Result<Option<OutOfPlane>, KeyFault> {
+        let (young, along_1, along_2) = (self.young_3, self.poisson_13, self.poisson_23);
+        if young.is_none() && along_1.is_none() && along_2.is_none() {
+            return Ok(None);
+        }
+        let needed = |name: &'static str, value: Option<f64>| {
+            let reason = "because the other constants across the plane are given";
+            value.ok_or_else(|| required(key, name, reason))
+        };
+        Ok(Some(OutOfPlane {
+            young: needed("young_3", young)?,
+            poisson: [
+                needed("poisson_13", along_1)?,
+                needed("poisson_23", along_2)?,
+            ],
+        }))
+    }
+
+    fn expansion(&self, key: &KeyPath) -> Result<Option<Expansion>, KeyFault> {
+        let (one, two) = (self.thermal_expansion_1, self.thermal_expansion_2);
+        let across = self.thermal_expansion_3;
+        if one.is_none() && two.is_none() && across.is_none() {
+            return Ok(self.thermal_expansion.map(Expansion::uniform));
+        }
+        if self.thermal_expansion.is_some() {
+            let reason = "it is the same in all directions, but coefficients along the axes are given as well: remove one of the two";
+            return Err(KeyFault::new(key.child("thermal_expansion"), reason));
+        }
+        let needed = |name: &'static str, value: Option<f64>| {
+            let reason = "(in 1/K) because a coefficient along another axis is given";
+            value.ok_or_else(|| required(key, name, reason))
+        };
+        let in_plane = [
+            needed("thermal_expansion_1", one)?,
+            needed("thermal_expansion_2", two)?,
+        ];
+        Ok(Some(Expansion { in_plane, across }))
     }
 }
 
-impl From<&Material> for ligament_model::Material {
-    fn from(material: &Material) -> Self {
-        Self {
-            name: material.name.clone().unwrap_or_default(),
-            elasticity: material.elasticity.into(),
-            tensile_strength: material.tensile_strength,
-            compressive_strength: material.compressive_strength,
-            fracture_energy: material.fracture_energy,
-            fracture_energy_sliding: material.fracture_energy_sliding,
-            mixed_mode_exponent: material.mixed_mode_exponent,
-            density: material.density,
-            expansion: material.expansion.map(Into::into),
-        }
-    }
+fn key_of(name: Option<&String>) -> KeyPath {
+    let section = KeyPath::default().child("material");
+    name.map_or(section.clone(), |name| section.child(name))
 }
 
 /// Reads the section: one material, or a table for each of several.
 pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
-    let key = KeyPath::default().child("material");
+    let key = key_of(None);
     let is_table = |node: &Node| matches!(node.value, Value::Table(_));
     let entries = section.entries();
     let Some(first) = entries.iter().find(|entry| is_table(&entry.node)) else {
@@ -132,157 +248,25 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
     Ok(materials)
 }
 
-/// The material of a table that was read: the keys that all tables of materials have go on as they are.
-macro_rules! material_of {
-    ($raw:ident, $name:ident, $elasticity:ident, $expansion:ident) => {
-        Material {
-            name: $name,
-            group: $raw.group,
-            elasticity: $elasticity,
-            tensile_strength: $raw.tensile_strength,
-            compressive_strength: $raw.compressive_strength,
-            fracture_energy: $raw.fracture_energy,
-            fracture_energy_sliding: $raw.fracture_energy_sliding,
-            mixed_mode_exponent: $raw.mixed_mode_exponent,
-            density: $raw.density,
-            expansion: $expansion,
-        }
-    };
-}
-
 /// Reads one material; one with a name must have a group.
 fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
-    let section = KeyPath::default().child("material");
-    let key = name.iter().fold(section, |path, name| path.child(name));
-    let has_one_of = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
-    let material = if has_one_of(&ANISOTROPIC_KEYS) {
-        let raw: RawAnisotropic = decode(table, &key)?;
-        let axes = [raw.thermal_expansion_1, raw.thermal_expansion_2, None];
-        let expansion = Expansion::from_keys(&key, raw.thermal_expansion, axes)?;
-        let elasticity = Elasticity::Anisotropic(Anisotropic {
-            c11: raw.c11,
-            c12: raw.c12,
-            c16: raw.c16,
-            c22: raw.c22,
-            c26: raw.c26,
-            c66: raw.c66,
-        });
-        material_of!(raw, name, elasticity, expansion)
-    } else if has_one_of(&ORTHOTROPIC_KEYS) {
-        let raw: RawOrthotropic = decode(table, &key)?;
-        let axes = [
-            raw.thermal_expansion_1,
-            raw.thermal_expansion_2,
-            raw.thermal_expansion_3,
-        ];
-        let expansion = Expansion::from_keys(&key, raw.thermal_expansion, axes)?;
-        let elasticity = Elasticity::Orthotropic(Orthotropic {
-            young_1: raw.young_1,
-            young_2: raw.young_2,
-            poisson_12: raw.poisson_12,
-            shear_modulus: raw.shear_modulus,
-            angle: raw.angle,
-            young_3: raw.young_3,
-            poisson_13: raw.poisson_13,
-            poisson_23: raw.poisson_23,
-        });
-        material_of!(raw, name, elasticity, expansion)
-    } else {
-        let raw: RawIsotropic = decode(table, &key)?;
-        let expansion = Expansion::from_keys(&key, raw.thermal_expansion, [None; 3])?;
-        let elasticity = Elasticity::Isotropic {
-            young: raw.young,
-            poisson: raw.poisson,
-        };
-        material_of!(raw, name, elasticity, expansion)
-    };
-    if material.name.is_some() && material.group.is_none() {
-        let fault = Fault::MissingKey {
-            key: "group".to_owned(),
-            table: key.table_title(),
-            unit: None,
-        };
-        return Err(KeyFault::new(key.child("group"), fault));
+    let key = key_of(name.as_ref());
+    let kind = Kind::of_table(table);
+    kind.refuse_others(table, &key)?;
+    let mut material: Material = decode(table, &key)?;
+    if kind.has_angle() {
+        material.angle.get_or_insert(0.0);
     }
-    material.check()
+    if name.is_some() && material.group.is_none() {
+        return Err(missing(&key, "group"));
+    }
+    material.name = name;
+    Ok(material)
 }
 
-/// The fault of a material without a strength or energy that a criterion takes, or with axes, for which only criteria with a
-/// limit of their own are made.
-pub(super) fn require_strengths(
-    materials: &[Material],
-    criteria: &[Choice],
-) -> Result<(), KeyFault> {
-    for material in materials {
-        let (key, material) = (material.key_path(), material.into());
-        for criterion in criteria {
-            let suits = criterion.suits(&material);
-            suits.map_err(|unfit| criterion::fault(&key, unfit))?;
-        }
-    }
-    Ok(())
-}
-
-/// The fault of a material without density in a modal analysis.
-pub(super) fn require_densities(materials: &[Material]) -> Result<(), KeyFault> {
-    match materials.iter().find(|material| material.density.is_none()) {
-        None => Ok(()),
-        Some(material) => {
-            let fault = Fault::Required {
-                key: "density",
-                reason: "(in kg/m^3) because a modal analysis needs masses".to_owned(),
-            };
-            Err(KeyFault::new(material.key_path().child("density"), fault))
-        }
-    }
-}
-
-/// The fault of a material with axes under a law for isotropic ones, or without the constants that plane strain needs.
-pub(super) fn require_suitable(
-    materials: &[Material],
-    law: Law,
-    plane: Plane,
-) -> Result<(), KeyFault> {
-    for material in materials {
-        material.require_suitable(law, plane)?;
-    }
-    Ok(())
-}
-
-impl Material {
-    fn require_suitable(&self, law: Law, plane: Plane) -> Result<(), KeyFault> {
-        let key = self.key_path();
-        // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
-        let is_of_plane = matches!(self.elasticity, Elasticity::Anisotropic(_));
-        if let Some(expansion) = self.expansion.filter(|_| !is_of_plane) {
-            expansion.require_suitable(&key, plane)?;
-        }
-        let (what, laws): (_, &[Law]) = match self.elasticity {
-            Elasticity::Isotropic { .. } => return Ok(()),
-            Elasticity::Orthotropic(_) => ("an orthotropic", &[Law::Orthotropic, Law::MbbPd]),
-            Elasticity::Anisotropic(_) => ("an anisotropic", &[Law::MbbPd]),
-        };
-        if !laws.contains(&law) {
-            let words: Vec<String> = laws.iter().map(|it| format!("\"{}\"", it.word())).collect();
-            let reason = format!(
-                "{what} material needs model.law = {}: \"{}\" is a law for {} ones",
-                words.join(" or "),
-                law.word(),
-                if law == Law::Orthotropic {
-                    "orthotropic"
-                } else {
-                    "isotropic"
-                }
-            );
-            return Err(KeyFault::new(key, reason));
-        }
-        match &self.elasticity {
-            Elasticity::Orthotropic(constants) if plane == Plane::Strain => {
-                constants.require_across(&key, "because of plane strain")
-            }
-            _ => Ok(()),
-        }
-    }
+/// Leaves the section for [`read`], which knows its two forms.
+pub(super) fn later<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Material>, D::Error> {
+    IgnoredAny::deserialize(deserializer).map(|_| Vec::new())
 }
 
 /// Writes the materials as they stand in a case file.

@@ -7,56 +7,40 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::require;
+use super::values::{metre, require};
 use super::word::Word;
 use ligament_model::Plane;
 
 /// The meshed body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct MeshSection {
-    /// The Gmsh file, as an absolute path.
+    /// The mesh, a Gmsh file (2.2 or 4.1), from the folder of the case file.
+    #[schemars(length(min = 1))]
     pub file: PathBuf,
     /// Thickness of the body, m.
+    #[serde(default = "metre")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub thickness: f64,
     /// Plane stress or plane strain.
+    #[serde(default)]
     pub plane: Word<Plane>,
 }
 
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawMesh {
-    /// The mesh, a Gmsh file (2.2 or 4.1), from the folder of the case file.
-    #[schemars(length(min = 1))]
-    file: String,
-    /// Thickness of the body, m.
-    #[schemars(extend("default" = 1.0, "exclusiveMinimum" = 0))]
-    thickness: Option<f64>,
-    /// Plane stress or plane strain.
-    #[schemars(extend("default" = "stress"))]
-    plane: Option<Word<Plane>>,
-}
-
-impl RawMesh {
-    /// Checks the section; `folder` is that of the case file.
-    pub(super) fn check(self, key: &KeyPath, folder: &Path) -> Result<MeshSection, KeyFault> {
-        require(
-            !self.file.is_empty(),
-            || key.child("file"),
-            "a path",
-            &self.file,
-        )?;
-        let file = absolute(&folder.join(self.file));
-        Ok(MeshSection {
-            file,
-            thickness: self.thickness.unwrap_or(1.0),
-            plane: self.plane.unwrap_or_default(),
-        })
-    }
-}
-
-/// An absolute path, without `..` where the file exists; whether it does is for its reader to say.
-pub(super) fn absolute(path: &Path) -> PathBuf {
-    path.canonicalize()
-        .or_else(|_| std::path::absolute(path))
-        .unwrap_or_else(|_| path.to_owned())
+/// Makes the path at a key an absolute one; without `..` where the file exists. Whether it does is for its reader to say.
+pub(super) fn complete_path(
+    key: &KeyPath,
+    file: &mut PathBuf,
+    folder: &Path,
+) -> Result<(), KeyFault> {
+    require(
+        !file.as_os_str().is_empty(),
+        || key.clone(),
+        "a path",
+        &file,
+    )?;
+    let path = folder.join(&*file);
+    let absolute = path.canonicalize().or_else(|_| std::path::absolute(&path));
+    *file = absolute.unwrap_or(path);
+    Ok(())
 }

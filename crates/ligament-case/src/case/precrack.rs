@@ -7,56 +7,74 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::exactly_one;
-use super::values::{Point, not_exactly_one, require};
+use super::values::{Point, exactly_one, first_given, missing, not_exactly_one, require};
 use super::word::Word;
-use ligament_model::bonds::precrack::Ends;
+use ligament_model::bonds::precrack::{Ends, PreCrack};
 
 /// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
 /// axis lie on a crack along it.
 const SAME_ANGLE: f64 = 1e-9;
 
 /// A crack that is there from the start.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["points", "centre"])))]
+#[schemars(extend("dependencies" = { "centre": ["length", "angle"], "length": ["centre", "angle"], "angle": ["centre", "length"] }))]
 pub struct Precrack {
-    /// Where it runs, as it was given.
-    #[serde(flatten)]
-    pub line: CrackLine,
-    /// Whether it cuts bonds that only touch it.
+    /// Corners of the polyline, two or more `[x, y]`, m.
+    #[schemars(length(min = 2))]
+    pub points: Option<Vec<Point>>,
+    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`.
+    pub centre: Option<Point>,
+    /// From end to end of a straight crack, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length: Option<f64>,
+    /// From the x axis to a straight crack, counter-clockwise, rad.
+    pub angle: Option<f64>,
+    /// Whether bonds that only touch the crack are cut.
+    #[serde(default)]
     pub ends: Word<Ends>,
 }
 
-/// Where a pre-crack runs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum CrackLine {
-    /// From corner to corner.
-    Polyline {
-        /// Corners of the polyline, two or more, m.
-        points: Vec<Point>,
-    },
-    /// A straight line.
-    Straight {
-        /// Middle of the crack, m.
-        centre: Point,
-        /// From end to end, m.
-        length: f64,
-        /// From the x axis to it, counter-clockwise, rad.
-        angle: f64,
-    },
-}
-
 impl Precrack {
-    /// Corners of the polyline, two or more, m.
-    pub fn points(&self) -> Vec<Point> {
-        match &self.line {
-            CrackLine::Polyline { points } => points.clone(),
-            CrackLine::Straight {
-                centre,
-                length,
-                angle,
-            } => straight(*centre, *length, *angle).to_vec(),
-        }
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+        let straight = first_given([
+            ("centre", self.centre.is_some()),
+            ("length", self.length.is_some()),
+            ("angle", self.angle.is_some()),
+        ]);
+        let points = match (&self.points, straight) {
+            (Some(points), None) => points.clone(),
+            (None, Some(_)) => self.ends_of_line(key)?.to_vec(),
+            (None, None) => {
+                let keys = [("points", false), ("centre", false)];
+                return Err(not_exactly_one(key, &keys));
+            }
+            (Some(_), Some(name)) => {
+                let fault = Fault::NotWith {
+                    key: name,
+                    setting: "`points`".to_owned(),
+                    reason: "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line",
+                };
+                return Err(KeyFault::new(key.child(name), fault));
+            }
+        };
+        let ends = self.ends.0;
+        Ok(PreCrack { points, ends })
+    }
+
+    fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
+        let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
+        let length = self.length.ok_or_else(|| missing(key, "length"))?;
+        let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
+        let ends = straight(centre, length, angle);
+        require(
+            ends[0] != ends[1],
+            || key.child("length"),
+            "so large that the ends differ in the digits of their coordinates",
+            length,
+        )?;
+        Ok(ends)
     }
 }
 
@@ -84,109 +102,6 @@ fn direction(angle: f64) -> [f64; 2] {
         return [angle.cos(), angle.sin()];
     }
     EIGHTHS[eighths.rem_euclid(8.0) as usize]
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["points", "centre"])))]
-#[schemars(extend("dependencies" = { "centre": ["length", "angle"], "length": ["centre", "angle"], "angle": ["centre", "length"] }))]
-pub(super) struct RawPrecrack {
-    /// Corners of the polyline, two or more `[x, y]`, m.
-    #[schemars(length(min = 2))]
-    points: Option<Vec<Point>>,
-    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`.
-    centre: Option<Point>,
-    /// From end to end of a straight crack, m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    length: Option<f64>,
-    /// From the x axis to a straight crack, counter-clockwise, rad.
-    angle: Option<f64>,
-    /// Whether bonds that only touch the crack are cut.
-    #[serde(default)]
-    ends: Word<Ends>,
-}
-
-impl RawPrecrack {
-    pub(super) fn check(self, key: &KeyPath) -> Result<Precrack, KeyFault> {
-        let straight = [
-            ("centre", self.centre.is_some()),
-            ("length", self.length.is_some()),
-            ("angle", self.angle.is_some()),
-        ];
-        let first = straight.into_iter().find(|(_, given)| *given);
-        let line = match (self.points, first) {
-            (Some(points), None) => polyline(key, points)?,
-            (None, Some(_)) => checked_straight(key, (self.centre, self.length, self.angle))?,
-            (None, None) => {
-                return Err(not_exactly_one(
-                    key,
-                    &[("points", false), ("centre", false)],
-                ));
-            }
-            (Some(_), Some((name, _))) => {
-                let fault = Fault::NotWith {
-                    key: name,
-                    setting: "`points`".to_owned(),
-                    reason: "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line",
-                };
-                return Err(KeyFault::new(key.child(name), fault));
-            }
-        };
-        Ok(Precrack {
-            line,
-            ends: self.ends,
-        })
-    }
-}
-
-fn polyline(key: &KeyPath, points: Vec<Point>) -> Result<CrackLine, KeyFault> {
-    let key = key.child("points");
-    require(
-        points.len() >= 2,
-        || key.clone(),
-        "two points or more",
-        &points,
-    )?;
-    for (index, pair) in points.windows(2).enumerate() {
-        let expected = "another point than the one before it";
-        require(
-            pair[0] != pair[1],
-            || key.child(index + 1),
-            expected,
-            pair[1],
-        )?;
-    }
-    Ok(CrackLine::Polyline { points })
-}
-
-fn checked_straight(
-    key: &KeyPath,
-    (centre, length, angle): (Option<Point>, Option<f64>, Option<f64>),
-) -> Result<CrackLine, KeyFault> {
-    let missing = |name: &str| {
-        let key = key.child(name);
-        let fault = Fault::MissingKey {
-            key: name.to_owned(),
-            table: key.parent().table_title(),
-            unit: None,
-        };
-        KeyFault::new(key, fault)
-    };
-    let centre = centre.ok_or_else(|| missing("centre"))?;
-    let length = length.ok_or_else(|| missing("length"))?;
-    let angle = angle.ok_or_else(|| missing("angle"))?;
-    let [start, end] = straight(centre, length, angle);
-    require(
-        start != end,
-        || key.child("length"),
-        "so large that the ends differ in the digits of their coordinates",
-        length,
-    )?;
-    Ok(CrackLine::Straight {
-        centre,
-        length,
-        angle,
-    })
 }
 
 #[cfg(test)]

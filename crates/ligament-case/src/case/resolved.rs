@@ -3,7 +3,7 @@
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-use super::checked::Case;
+use super::sections::Case;
 
 /// The case as TOML: a header for each section, what is nested in it on one line.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {

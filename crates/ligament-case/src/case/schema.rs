@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::{Value, json};
 
-use super::sections::RawCase;
+use super::sections::Case;
 
 /// The JSON schema of a case file.
 ///
@@ -16,7 +16,7 @@ pub fn schema() -> Value {
     let mut schema = settings
         .with_transform(ForToml)
         .into_generator()
-        .into_root_schema_for::<RawCase>();
+        .into_root_schema_for::<Case>();
     schema.insert("title".to_owned(), "Case file of Ligament".into());
     schema.to_value()
 }
@@ -38,7 +38,8 @@ impl Transform for ForToml {
 
 fn without_null(schema: &mut Schema) {
     let is_null = |value: &Value| value == &json!({ "type": "null" });
-    if schema.get("default").is_some_and(Value::is_null) {
+    // The default of a table is that of its keys.
+    if (schema.get("default")).is_some_and(|it| it.is_null() || it.is_object()) {
         schema.remove("default");
     }
     if let Some(Value::Array(types)) = schema.get_mut("type") {

@@ -1,195 +1,245 @@
 //! The sections of a case file, read and checked together.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use ligament::body::{Body, LatticeBody, MeshBody};
+use ligament::setup::{self, Section, Setup};
+use ligament_mesh::Mesh;
+use ligament_model::Plane;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::analysis::{self, Analysis};
-use super::body_section::BodySection;
-use super::checked::Case;
+use super::analysis::{Analysis, Modal};
+use super::conditions::Support;
+use super::correction::Correction;
 use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
+use super::fracture::{Control, Fracture};
 use super::key_path::KeyPath;
-use super::temperature::{self, Temperature, TemperatureChange};
-use super::values::{exactly_one, require_unique};
-use super::{
-    conditions, correction, fracture, lattice_section, load, material, mbb_pd, mesh_section, model,
-    precrack, probe, region, solver,
-};
+use super::lattice_section::LatticeSection;
+use super::load::Load;
+use super::material::{self, Material};
+use super::mesh_section::{MeshSection, complete_path};
+use super::model::ModelSection;
+use super::output::{Output, StressField};
+use super::precrack::Precrack;
+use super::probe::Probe;
+use super::region::Region;
+use super::solver::{self, Solver};
+use super::temperature::Temperature;
+use super::values::exactly_one;
 
-/// The sections as they are read; `material` is read apart because it has two forms.
-#[derive(Deserialize, JsonSchema)]
+/// A case: the sections of its file, with every default filled in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["mesh", "lattice"])))]
-pub(super) struct RawCase {
+pub struct Case {
     /// One line on what the case is.
     #[serde(default)]
-    title: String,
+    pub title: String,
     /// What is computed; without it `fracture` where there is a `[fracture]` section, else `static`.
-    analysis: Option<Analysis>,
+    pub analysis: Option<Analysis>,
     /// The body, meshed by Gmsh; or a `[lattice]`.
-    mesh: Option<mesh_section::RawMesh>,
+    pub mesh: Option<MeshSection>,
     /// The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`.
-    lattice: Option<lattice_section::RawLattice>,
+    pub lattice: Option<LatticeSection>,
     /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
-    #[serde(rename = "material")]
+    #[serde(
+        rename = "material",
+        deserialize_with = "material::later",
+        serialize_with = "material::serialize"
+    )]
     #[schemars(schema_with = "material::schema")]
-    _material: serde::de::IgnoredAny,
+    pub materials: Vec<Material>,
     /// The bond model.
-    model: model::RawModel,
+    pub model: ModelSection,
     /// The corrections of the bonds; without it as in the paper of the law.
     #[serde(default)]
-    correction: correction::RawCorrection,
+    pub correction: Correction,
     /// Cracks and slots that are there from the start.
-    #[serde(default)]
-    precrack: Vec<precrack::RawPrecrack>,
+    #[serde(rename = "precrack", default, skip_serializing_if = "Vec::is_empty")]
+    pub precracks: Vec<Precrack>,
     /// What holds the body; nothing need.
-    #[serde(default)]
-    support: Vec<conditions::RawSupport>,
+    #[serde(rename = "support", default, skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<Support>,
     /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
-    #[serde(default)]
-    load: Vec<load::RawLoad>,
+    #[serde(rename = "load", default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<Load>,
     /// Changes of temperature at load factor 1; where several reach, the last holds.
-    #[serde(default)]
-    temperature: Vec<temperature::RawTemperature>,
+    #[serde(rename = "temperature", default, skip_serializing_if = "Vec::is_empty")]
+    pub temperatures: Vec<Temperature>,
     /// Parts of the body where bonds never break.
-    #[serde(default)]
-    no_fail: Vec<region::RawRegion>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub no_fail: Vec<Region>,
     /// Extra columns of `history.csv`.
-    #[serde(default)]
-    probe: Vec<probe::RawProbe>,
+    #[serde(rename = "probe", default, skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<Probe>,
     /// How bonds break; without it the case is one linear elastic solution.
-    fracture: Option<fracture::RawFracture>,
+    pub fracture: Option<Fracture>,
     /// Natural modes that are wanted, with `analysis = "modal"`.
-    modal: Option<analysis::RawModal>,
+    pub modal: Option<Modal>,
     /// How the equations are solved; nothing need be said.
-    #[serde(default)]
-    solver: solver::RawSolver,
+    #[serde(default, deserialize_with = "solver::read")]
+    #[schemars(schema_with = "solver::schema")]
+    pub solver: Solver,
     /// What a run writes.
-    output: Option<fracture::RawOutput>,
+    #[serde(default)]
+    pub output: Output,
 }
 
-impl RawCase {
-    /// Reads and checks a parsed document; `folder` is that of the case file.
-    pub(super) fn checked(document: &Node, folder: &Path) -> Result<Case, KeyFault> {
-        let raw: Self = decode(document, &KeyPath::default()).map_err(name_missing_section)?;
-        let given = raw.given();
-        let section = |name: &str| KeyPath::default().child(name);
-        let body = BodySection::from_sections(raw.mesh, raw.lattice, folder)?;
-        let materials = match document.get("material") {
-            Some(node) => material::read(node)?,
-            None => return Err(missing_section("material")),
-        };
-        let analysis = Analysis::named_or_meant(raw.analysis, &given)?;
-        if !given.loads && !given.temperature && analysis != Analysis::Modal {
+impl Case {
+    /// Reads a parsed document and fills in what it leaves open; `folder` is that of the case file.
+    pub(super) fn read(document: &Node, folder: &Path) -> Result<Self, KeyFault> {
+        let mut case: Self = decode(document, &root()).map_err(name_missing_section)?;
+        let material = document.get("material");
+        case.materials = material::read(material.ok_or_else(|| missing_section("material"))?)?;
+        case.require_one_body()?;
+        if let Some(mesh) = &mut case.mesh {
+            complete_path(&root().child("mesh").child("file"), &mut mesh.file, folder)?;
+        }
+        case.complete_analysis(document.get("output").is_some())?;
+        let is_idle = case.loads.is_empty() && case.temperatures.is_empty();
+        if is_idle && case.analysis != Some(Analysis::Modal) {
             return Err(missing_section("load"));
         }
-        let modal = match analysis {
-            Analysis::Modal => Some(raw.modal.unwrap_or_default().complete()),
-            Analysis::Static | Analysis::Fracture => None,
-        };
-        let mut number = 0;
-        let loads = each("load", raw.load, |load, key| {
-            number += 1;
-            load.check(key, number)
-        })?;
-        let law = raw.model.law();
-        let fracture = raw
-            .fracture
-            .map(|it| it.check(&section("fracture"), law))
-            .transpose()?;
-        let model = raw.model.check(&section("model"))?;
-        let case = Case {
-            title: raw.title,
-            analysis,
-            body,
-            materials,
-            correction: raw.correction.check(&section("correction"), &model)?,
-            model,
-            precracks: each("precrack", raw.precrack, precrack::RawPrecrack::check)?,
-            supports: each("support", raw.support, conditions::RawSupport::check)?,
-            loads,
-            temperatures: each("temperature", raw.temperature, |it, key| {
-                it.check(key, folder)
-            })?,
-            no_fail: each("no_fail", raw.no_fail, region::RawRegion::check)?,
-            probes: each("probe", raw.probe, probe::RawProbe::check)?,
-            solver: raw.solver.complete(),
-            output: raw
-                .output
-                .unwrap_or_default()
-                .complete(&section("output"), fracture.as_ref())?,
-            fracture,
-            modal,
-        };
-        check_across_sections(&case)?;
+        let (loads, temperatures) = (root().child("load"), root().child("temperature"));
+        for (index, load) in case.loads.iter_mut().enumerate() {
+            load.complete(&loads.child(index), index + 1)?;
+        }
+        for (index, temperature) in case.temperatures.iter_mut().enumerate() {
+            temperature.complete(&temperatures.child(index), folder)?;
+        }
+        case.model.complete(&root().child("model"))?;
+        let law = case.model.law.0;
+        case.correction
+            .complete(&root().child("correction"), &law)?;
+        if let Some(fracture) = &mut case.fracture {
+            fracture.complete(&root().child("fracture"), &law)?;
+        }
+        let on_exact_path = (case.fracture.as_ref()).is_some_and(|it| it.control == Control::Event);
+        (case.output).complete(&root().child("output"), on_exact_path)?;
         Ok(case)
     }
 
-    /// Presence of the sections that not every analysis has.
-    fn given(&self) -> analysis::Given {
-        analysis::Given {
-            fracture: self.fracture.is_some(),
-            modal: self.modal.is_some(),
-            loads: !self.load.is_empty(),
-            temperature: !self.temperature.is_empty(),
-            probes: !self.probe.is_empty(),
-            output: self.output.is_some(),
+    fn require_one_body(&self) -> Result<(), KeyFault> {
+        match (&self.mesh, &self.lattice) {
+            (Some(_), None) | (None, Some(_)) => Ok(()),
+            (None, None) => Err(KeyFault::new(
+                root().child("mesh"),
+                F::MissingSection {
+                    section: "[mesh] or [lattice]".to_owned(),
+                    purpose: "one of them: [mesh] with `file`, the Gmsh file, or [lattice] with `cells` and `spacing`",
+                },
+            )),
+            (Some(_), Some(_)) => Err(KeyFault::new(
+                root().child("lattice"),
+                "the case has a [mesh] as well, but its body is one of the two: remove [mesh] or [lattice]",
+            )),
         }
     }
-}
 
-/// Checks what sections ask of each other.
-fn check_across_sections(case: &Case) -> Result<(), KeyFault> {
-    material::require_suitable(&case.materials, case.model.law, case.body.plane())?;
-    mbb_pd::check(case)?;
-    if let Some(fracture) = &case.fracture {
-        material::require_strengths(&case.materials, &fracture.criteria)?;
+    /// State of the plane.
+    pub fn plane(&self) -> Plane {
+        let of_mesh = self.mesh.as_ref().map(|it| it.plane.0);
+        let of_lattice = self.lattice.as_ref().map(|it| it.plane.0);
+        of_mesh.or(of_lattice).unwrap_or_default()
     }
-    if case.modal.is_some() {
-        material::require_densities(&case.materials)?;
+
+    /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
+    pub(crate) fn setup(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
+        let law = self.model.law.0;
+        let of_mesh = self.mesh.as_ref().map(|it| it.thickness);
+        let of_lattice = self.lattice.as_ref().map(|it| it.thickness);
+        let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
+        self.check_across_sections()?;
+        Ok(Setup {
+            body,
+            section: Section::Plane {
+                state: self.plane(),
+                thickness: of_mesh.or(of_lattice).unwrap_or_default(),
+            },
+            materials: (self.materials.iter())
+                .map(Material::setup)
+                .collect::<Result<_, _>>()?,
+            law,
+            horizon: self.model.horizon(&root().child("model"))?,
+            correction: self.correction.setup(&law),
+            precracks: each("precrack", &self.precracks, Precrack::setup)?,
+            no_fail: each("no_fail", &self.no_fail, Region::place)?,
+            supports: each("support", &self.supports, Support::setup)?,
+            loads: each("load", &self.loads, Load::setup)?,
+            temperatures: each("temperature", &self.temperatures, Temperature::setup)?,
+            criteria: each(
+                "fracture.criterion",
+                criteria.flatten(),
+                super::criterion::Criterion::setup,
+            )?,
+            probes: each("probe", &self.probes, Probe::setup)?,
+            analysis: match (&self.modal, &self.fracture) {
+                (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
+                (None, Some(fracture)) => fracture.setup(),
+                (None, None) => setup::Analysis::default(),
+            },
+            solver: self.solver.setup(),
+            threads: self.solver.threads.map(|threads| threads as usize),
+        })
     }
-    let path = |list: &str, index: usize| KeyPath::default().child(list).child(index);
-    let is_field = |it: &Temperature| matches!(it.change, TemperatureChange::Field { .. });
-    let field = case.temperatures.iter().position(is_field);
-    if let (Some(index), BodySection::Lattice(_)) = (field, &case.body) {
-        let fault = F::NotWith {
-            key: "mesh_field",
-            setting: "[lattice]".to_owned(),
-            reason: "it is in the file of a mesh; a lattice takes a `file` of its own",
+
+    /// A stand-in for the body before it is made: of its kind, with a point at most.
+    pub(super) fn stand_in(&self) -> Result<Arc<dyn Body>, KeyFault> {
+        let Some(lattice) = &self.lattice else {
+            return Ok(Arc::new(MeshBody::from(Mesh::default())));
         };
-        return Err(KeyFault::new(
-            path("temperature", index).child("mesh_field"),
-            fault,
-        ));
+        let key = root().child("lattice");
+        lattice.parts(&key)?;
+        let (spacing, corner) = (lattice.spacing.0, lattice.corner);
+        let cell = LatticeBody::new([1, 1], spacing, corner, &[], &Default::default());
+        Ok(Arc::new(
+            cell.map_err(|error| KeyFault::new(key, error.to_string()))?,
+        ))
     }
-    let loads = case.loads.iter().enumerate();
-    let advice =
-        ": give one of the loads another `name` (the name of a load without one is its group)";
-    require_unique(
-        loads.map(|(index, load)| (path("load", index), load.name.as_str())),
-        advice,
-    )?;
-    let probes = case.probes.iter().enumerate();
-    require_unique(
-        probes.map(|(index, probe)| (path("probe", index).child("name"), probe.name.as_str())),
-        "",
-    )
+
+    /// Checks what sections ask of each other that the setup does not know.
+    fn check_across_sections(&self) -> Result<(), KeyFault> {
+        let takes_strains = matches!(self.model.law.0, setup::Law::MbbPd { .. });
+        let has_traction = self.output.stress.contains(&StressField::Traction);
+        if takes_strains && has_traction && self.modal.is_none() {
+            let reason = "the elements of \"mbb-pd\" couple up to six points, so that their forces go through no line: take \"virial\"";
+            return Err(KeyFault::new(
+                root().child("output").child("stress"),
+                reason,
+            ));
+        }
+        let field = (self.temperatures.iter()).position(|it| it.mesh_field.is_some());
+        if let (Some(index), Some(_)) = (field, &self.lattice) {
+            let fault = F::NotWith {
+                key: "mesh_field",
+                setting: "[lattice]".to_owned(),
+                reason: "it is in the file of a mesh; a lattice takes a `file` of its own",
+            };
+            let key = root().child("temperature").child(index);
+            return Err(KeyFault::new(key.child("mesh_field"), fault));
+        }
+        Ok(())
+    }
 }
 
-/// Checks every element of a list of sections under its own key path.
-fn each<Raw, Checked>(
+fn root() -> KeyPath {
+    KeyPath::default()
+}
+
+/// Takes every element of a list of sections under its own key path.
+fn each<'a, Keys: 'a, Made>(
     list: &str,
-    sections: Vec<Raw>,
-    mut check: impl FnMut(Raw, &KeyPath) -> Result<Checked, KeyFault>,
-) -> Result<Vec<Checked>, KeyFault> {
-    let list = KeyPath::default().child(list);
+    sections: impl IntoIterator<Item = &'a Keys>,
+    make: impl Fn(&Keys, &KeyPath) -> Result<Made, KeyFault>,
+) -> Result<Vec<Made>, KeyFault> {
+    let list = list.split('.').fold(root(), |list, part| list.child(part));
+    let sections = sections.into_iter().enumerate();
     sections
-        .into_iter()
-        .enumerate()
-        .map(|(index, raw)| check(raw, &list.child(index)))
+        .map(|(index, keys)| make(keys, &list.child(index)))
         .collect()
 }
 
@@ -210,8 +260,5 @@ fn missing_section(name: &str) -> KeyFault {
             "one or more, or a [[temperature]], or nothing would happen (natural modes need none: analysis = \"modal\")",
         ),
     };
-    KeyFault::new(
-        KeyPath::default().child(name),
-        F::MissingSection { section, purpose },
-    )
+    KeyFault::new(root().child(name), F::MissingSection { section, purpose })
 }

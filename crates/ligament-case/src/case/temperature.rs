@@ -7,111 +7,94 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::mesh_section::absolute;
-use super::region::{RawRegion, Region};
-use super::values::exactly_one;
-use super::values::{Point, not_exactly_one, require};
+use super::mesh_section::complete_path;
+use super::region::{Rectangle, Region};
+use super::values::{exactly_one, first_given, one_of};
+use ligament::setup::{self, Place, TemperatureChange};
 
 /// A change of temperature at load factor 1. Where several reach, the last of them holds.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Temperature {
-    /// Where; the whole body without it.
-    #[serde(flatten)]
-    pub region: Option<Region>,
-    /// How much.
-    #[serde(flatten)]
-    pub change: TemperatureChange,
-}
-
-/// How much the temperature changes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum TemperatureChange {
-    /// By the same everywhere.
-    Uniform {
-        /// The change, K.
-        change: f64,
-    },
-    /// By a table of points.
-    Table {
-        /// The file, as an absolute path: columns `x`, `y` (m) and `change` (K).
-        file: PathBuf,
-    },
-    /// By a field of the mesh file.
-    Field {
-        /// Name of the field.
-        mesh_field: String,
-        /// Time step of the field, where the file has several.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        time_step: Option<i32>,
-        /// What is subtracted from its values, in their unit.
-        reference: f64,
-    },
-}
-
-#[derive(Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["change", "file", "mesh_field"])))]
-pub(super) struct RawTemperature {
+pub struct Temperature {
     /// The part of the body; the whole body without it or a `box`.
-    group: Option<String>,
+    pub group: Option<String>,
     /// The part of the body in this rectangle, by two opposite corners, m.
-    r#box: Option<[Point; 2]>,
+    pub r#box: Option<Rectangle>,
     /// Change of the temperature at load factor 1, the same everywhere there, K.
-    change: Option<f64>,
+    pub change: Option<f64>,
     /// A CSV file with the columns `x`, `y` (m) and `change` (K), from the folder of the case file.
     #[schemars(length(min = 1))]
-    file: Option<String>,
+    pub file: Option<PathBuf>,
     /// A scalar field at the nodes in the mesh file, K; `ligament inspect` lists them.
-    mesh_field: Option<String>,
+    pub mesh_field: Option<String>,
     /// Time step of the `mesh_field`, where the file has several.
-    time_step: Option<i32>,
+    pub time_step: Option<i32>,
     /// Subtracted from the values of the `mesh_field`, K.
     #[schemars(extend("default" = 0.0))]
-    reference: Option<f64>,
+    pub reference: Option<f64>,
 }
 
-impl RawTemperature {
-    /// Checks the section; `folder` is that of the case file.
-    pub(super) fn check(self, key: &KeyPath, folder: &Path) -> Result<Temperature, KeyFault> {
-        for (name, is_given) in [
+impl Temperature {
+    /// Fills in what is not given; `folder` is that of the case file.
+    pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+        if let Some(file) = &mut self.file {
+            complete_path(&key.child("file"), file, folder)?;
+        }
+        if self.mesh_field.is_some() {
+            self.reference.get_or_insert(0.0);
+            return Ok(());
+        }
+        let given = [
             ("time_step", self.time_step.is_some()),
             ("reference", self.reference.is_some()),
-        ] {
-            if is_given && self.mesh_field.is_none() {
+        ];
+        match first_given(given) {
+            None => Ok(()),
+            Some(name) => {
                 let fault = Fault::NotWith {
                     key: name,
                     setting: "`change` or `file`".to_owned(),
                     reason: "it belongs to a `mesh_field`",
                 };
-                return Err(KeyFault::new(key.child(name), fault));
+                Err(KeyFault::new(key.child(name), fault))
             }
         }
-        let change = match (self.change, self.file, self.mesh_field) {
-            (Some(change), None, None) => TemperatureChange::Uniform { change },
-            (None, Some(file), None) => {
-                require(!file.is_empty(), || key.child("file"), "a path", &file)?;
-                TemperatureChange::Table {
-                    file: absolute(&folder.join(file)),
-                }
-            }
-            (None, None, Some(mesh_field)) => TemperatureChange::Field {
-                mesh_field,
-                time_step: self.time_step,
-                reference: self.reference.unwrap_or(0.0),
-            },
-            (change, file, field) => {
-                let given = [
-                    ("change", change.is_some()),
-                    ("file", file.is_some()),
-                    ("mesh_field", field.is_some()),
-                ];
-                return Err(not_exactly_one(key, &given));
-            }
+    }
+
+    /// The change; of a file without its rows, which are there once it is read.
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Temperature, KeyFault> {
+        let table = self.file.as_ref();
+        let field = (self.mesh_field.clone()).map(|name| TemperatureChange::Field {
+            name,
+            time_step: self.time_step,
+            reference: self.reference.unwrap_or_default(),
+        });
+        let changes = [
+            ("change", self.change.map(TemperatureChange::Uniform)),
+            ("file", table.map(|_| TemperatureChange::Table(Vec::new()))),
+            ("mesh_field", field),
+        ];
+        let region = Region {
+            group: self.group.clone(),
+            r#box: self.r#box,
         };
-        Ok(Temperature {
-            region: RawRegion::optional(key, self.group, self.r#box)?,
-            change,
+        let is_part = self.group.is_some() || self.r#box.is_some();
+        Ok(setup::Temperature {
+            change: one_of(key, changes)?,
+            place: match is_part {
+                true => region.place(key)?,
+                false => Place::Everywhere,
+            },
         })
+    }
+
+    /// Key of the change.
+    pub(crate) fn change_key(&self) -> &'static str {
+        let keys = [
+            ("change", self.change.is_some()),
+            ("file", self.file.is_some()),
+        ];
+        first_given(keys).unwrap_or("mesh_field")
     }
 }

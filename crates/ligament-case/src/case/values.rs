@@ -36,14 +36,22 @@ pub fn require(
     ))
 }
 
-/// Fails at `table.key` unless the value is greater than zero.
-pub fn require_positive(table: &KeyPath, key: &str, value: f64) -> Result<(), KeyFault> {
-    require(value > 0.0, || table.child(key), "greater than 0", value)
+/// The one value that is given of keys of which a table has exactly one.
+pub(super) fn one_of<T, const N: usize>(
+    table: &KeyPath,
+    given: [(&'static str, Option<T>); N],
+) -> Result<T, KeyFault> {
+    let keys = given.each_ref().map(|(key, value)| (*key, value.is_some()));
+    let mut values = given.into_iter().filter_map(|(_, value)| value);
+    match (values.next(), values.next()) {
+        (Some(only), None) => Ok(only),
+        _ => Err(not_exactly_one(table, &keys)),
+    }
 }
 
-/// Fails at `table.key` unless the count is at least one.
-pub fn require_at_least_one(table: &KeyPath, key: &str, value: u32) -> Result<(), KeyFault> {
-    require(value >= 1, || table.child(key), "at least 1", value)
+/// The first of the keys that are given.
+pub(super) fn first_given<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
+    keys.into_iter().find(|(_, given)| *given).map(|it| it.0)
 }
 
 /// The fault of giving none or several of keys that exclude each other.
@@ -59,6 +67,21 @@ pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
         found: names(&|given| given),
     };
     KeyFault::new(table.clone(), fault)
+}
+
+/// The fault of a key that a table must have.
+pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
+    let fault = Fault::MissingKey {
+        key: key.to_owned(),
+        table: table.table_title(),
+        unit: None,
+    };
+    KeyFault::new(table.child(key), fault)
+}
+
+/// The thickness of a body that says none, m.
+pub(super) fn metre() -> f64 {
+    1.0
 }
 
 /// Names head the columns of a table of comma-separated values.

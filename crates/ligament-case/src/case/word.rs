@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-use ligament::setup::{Alpha, Axis, Calibration, CorrectionDomain, Form, Strains};
+use ligament::setup::{
+    self, Alpha, Axis, Calibration, CorrectionDomain, Form, Iteration, Strains, Surface,
+};
 use ligament_analysis::Component;
 use ligament_analysis::breaking::BreakingOrder;
 use ligament_analysis::modal::Rotations;
@@ -12,6 +14,7 @@ use ligament_analysis::probe::{PointField, StressComponent};
 use ligament_analysis::solver::{FactorKind, Ordering, Update};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
+use ligament_model::correction::StopRule;
 use ligament_model::failure::softening::{LAWS, Law};
 use ligament_model::failure::{self, KINDS, Kind, Weakened};
 use ligament_model::law::rotational::RotationalStiffness;
@@ -31,46 +34,43 @@ pub trait Worded: Copy + 'static {
     fn word(&self) -> [&'static str; 2];
 }
 
-/// The field `word` of each element of an array.
-macro_rules! words_of {
-    ($all:expr) => {{
-        let mut words = [""; $all.len()];
-        let mut place = 0;
-        while place < words.len() {
-            words[place] = $all[place].word;
-            place += 1;
+/// The words of a type that has a table of its values.
+macro_rules! worded_by_table {
+    ($value:ty: $all:expr, $values:expr, $it:ident => $words:expr) => {
+        impl Worded for $value {
+            const WORDS: &'static [&'static str] = &{
+                let mut words = [""; $all.len()];
+                let mut place = 0;
+                while place < words.len() {
+                    let $it = &$all[place];
+                    words[place] = $words[0];
+                    place += 1;
+                }
+                words
+            };
+
+            fn all() -> impl Iterator<Item = Self> {
+                $values
+            }
+
+            fn word(&self) -> [&'static str; 2] {
+                let $it = self;
+                $words
+            }
         }
-        words
-    }};
+    };
 }
 
-impl Worded for Kind {
-    const WORDS: &'static [&'static str] = &words_of!(KINDS);
+worded_by_table! { Kind: KINDS, KINDS.into_iter().copied(), it => [it.word, it.words] }
+worded_by_table! { Law: LAWS, LAWS.into_iter().copied(), it => [it.word, it.words] }
+worded_by_table! { setup::Law: setup::Law::ALL, setup::Law::ALL.into_iter(), it => it.words() }
 
-    fn all() -> impl Iterator<Item = Self> {
-        KINDS.into_iter().copied()
-    }
-
-    fn word(&self) -> [&'static str; 2] {
-        [self.word, self.words]
-    }
-}
-
-impl Worded for Law {
-    const WORDS: &'static [&'static str] = &words_of!(LAWS);
-
-    fn all() -> impl Iterator<Item = Self> {
-        LAWS.into_iter().copied()
-    }
-
-    fn word(&self) -> [&'static str; 2] {
-        [self.word, self.words]
-    }
-}
-
-/// Values of a type with their words and what these mean.
+/// Values of a type with their words and what these mean; where a word stands for many values, one of them with the pattern of
+/// all.
 macro_rules! worded {
-    ($value:ty: $([$($variant:tt)+] $word:literal $meaning:literal;)+) => {
+    (@pattern [$($value:tt)+]) => { $($value)+ };
+    (@pattern [$($value:tt)+] [$($pattern:tt)+]) => { $($pattern)+ };
+    ($value:ty: $([$($variant:tt)+] $(in [$($pattern:tt)+])? $word:literal $meaning:literal;)+) => {
         impl Worded for $value {
             const WORDS: &'static [&'static str] = &[$($word),+];
 
@@ -80,7 +80,7 @@ macro_rules! worded {
 
             fn word(&self) -> [&'static str; 2] {
                 match self {
-                    $($($variant)+ => [$word, $meaning],)+
+                    $(worded!(@pattern [$($variant)+] $([$($pattern)+])?) => [$word, $meaning],)+
                 }
             }
         }
@@ -124,6 +124,18 @@ worded! { Alpha:
     [Self::None] "none" "1.";
     [Self::PartialVolume] "partial-volume" "The share of the cell inside the horizon.";
     [Self::Length] "length" "NHPD's factor by length.";
+}
+
+worded! { Surface:
+    [Self::None] "none" "None.";
+    [Self::Volume] "volume" "By the volumes of the families.";
+    [Self::Domain(Iteration::default())] in [Self::Domain(_)] "domain" "NHPD's iterative domain correction.";
+}
+
+worded! { Option<StopRule>:
+    [None] "auto" "`sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.";
+    [Some(Iteration::SUM)] in [Some(StopRule::Sum(_))] "sum" "Summed over all bonds (the paper's): grows with the size of the model.";
+    [Some(Iteration::MEAN)] in [Some(StopRule::Mean(_))] "mean" "Mean per bond: independent of the size of the model.";
 }
 
 worded! { CorrectionDomain:

@@ -7,9 +7,9 @@ use std::path::{Component, Path, PathBuf};
 
 use ligament_mesh::Mesh;
 
-use crate::case::Law;
 use crate::mesh_file::{MeshFileError, bounding_box, read_mesh};
 use groups::{Ends, Spot};
+use ligament::setup::Law;
 use text::{Body, Section};
 
 /// A body larger than this, m, was drawn in millimetres in all likelihood.
@@ -47,7 +47,7 @@ pub enum StarterError {
     #[error(transparent)]
     Mesh(#[from] MeshFileError),
     /// The law is for lattices alone.
-    #[error("\"{}\" is a law for square lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.word())]
+    #[error("\"{}\" is a law for square lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
     NeedsLattice(Law),
 }
 
@@ -65,7 +65,7 @@ pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterE
     if extension == "geo" || extension == "geo_unrolled" {
         return Err(StarterError::Geometry(path.to_owned()));
     }
-    if law == Law::MbbPd {
+    if matches!(law, Law::MbbPd { .. }) {
         return Err(StarterError::NeedsLattice(law));
     }
     let mesh = read_mesh(path).map_err(|source| match source {

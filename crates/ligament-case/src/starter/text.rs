@@ -6,7 +6,7 @@ use ligament_mesh::Group;
 use toml_edit::{Key, Value};
 
 use super::groups::{Ends, Spot};
-use crate::case::Law;
+use ligament::setup::Law;
 
 /// What the case is about.
 pub(super) struct Body {
@@ -74,7 +74,7 @@ fn head(body: &Body, law: Law, warnings: &[String]) -> String {
     for warning in warnings {
         let _ = writeln!(text, "# WARNING: {warning}");
     }
-    let title = Value::from(format!("{} by {}", body.name, law.word()));
+    let title = Value::from(format!("{} by {}", body.name, law.name()));
     let _ = write!(text, "\ntitle = {} # EXAMPLE\n", title.to_string().trim());
     text
 }
@@ -173,7 +173,7 @@ fn constants(body: &Body, law: Law) -> String {
         )
     };
     match law {
-        Law::Orthotropic => format!(
+        Law::Orthotropic { .. } => format!(
             "\
 young_1 = {} # Pa along the axis 1, EXAMPLE
 young_2 = {} # Pa along the axis 2, EXAMPLE
@@ -185,7 +185,7 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
             exact(0.5 * YOUNG),
             exact(0.25 * YOUNG)
         ),
-        Law::MbbPd => {
+        Law::MbbPd { .. } => {
             // What bonds of three spacings at the stretch of the example store.
             let energy =
                 STRETCH.powi(2) * 2.0 * YOUNG / std::f64::consts::PI / 0.8 * 2.25 * body.spacing;
@@ -205,9 +205,11 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
 
 fn model(body: &Body, law: Law) -> String {
     let fits = |other: &Law| {
-        *other != law && (*other != Law::MbbPd || matches!(body.section, Section::Lattice { .. }))
+        *other != law
+            && (!matches!(other, Law::MbbPd { .. })
+                || matches!(body.section, Section::Lattice { .. }))
     };
-    let others = Law::ALL.into_iter().filter(fits).map(Law::word);
+    let others = Law::ALL.into_iter().filter(fits).map(|it| it.name());
     format!(
         "\
 # Other laws: {}; `orthotropic` and `mbb-pd` take other constants of the material.
@@ -217,7 +219,7 @@ law = \"{}\"
 horizon_factor = 3.0
 ",
         others.collect::<Vec<_>>().join(", "),
-        law.word()
+        law.name()
     )
 }
 
@@ -290,7 +292,7 @@ fn conditions(body: &Body, ends: &Ends) -> String {
 
 fn fracture(body: &Body, law: Law) -> String {
     let criterion = match law {
-        Law::Orthotropic => format!(
+        Law::Orthotropic { .. } => format!(
             "\
 # When a bond fails.
 [[fracture.criterion]]
@@ -299,7 +301,7 @@ limit = {} # stretch, EXAMPLE
 ",
             exact(STRETCH)
         ),
-        Law::MbbPd => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
+        Law::MbbPd { .. } => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
         _ => "\
 # When a bond fails: without one, by the tensile strength (\"strength\"). Others: tension, sliding, frictional, critical-stretch, ...
 #[[fracture.criterion]]

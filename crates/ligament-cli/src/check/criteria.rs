@@ -5,16 +5,15 @@ use std::io::{self, Write};
 use ligament::formulation::constants;
 use ligament_model::failure::{Criterion, Measure};
 
-use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
 
 /// Writes the criteria with their limits over the bonds.
-pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
-    let Some(fracture) = &case.case.fracture else {
+pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    if model.setup.criteria.is_empty() {
         return Ok(());
-    };
+    }
     writeln!(out, "failure criteria")?;
-    let given = fracture.criteria.iter();
+    let given = model.setup.criteria.iter();
     let given = given.flat_map(|it| std::iter::repeat_n(it, it.kind.measures.len()));
     for (given, criterion) in given.zip(&model.criteria.list) {
         write_limits(out, criterion)?;

@@ -9,7 +9,7 @@ use ligament_analysis::solver::{
 };
 use ligament_analysis::stiffness::Stiffness;
 
-use ligament_case::case::CaseFile;
+use ligament::Setup;
 use ligament_run::memory;
 use ligament_run::model::Model;
 
@@ -24,7 +24,6 @@ struct Analysis {
 /// Writes the size of the equations and the choice of the solver.
 pub(super) fn write(
     out: &mut dyn Write,
-    case: &CaseFile,
     model: &Model,
     stiffness: &Stiffness,
 ) -> anyhow::Result<()> {
@@ -43,27 +42,23 @@ pub(super) fn write(
         "  entries               {matrix} in the matrix, {factor} in the factor"
     )?;
     writeln!(out, "  estimated memory      {:.1} MB", bytes as f64 / 1e6)?;
-    write_choice(out, case, stiffness.choice())?;
+    write_choice(out, &model.setup, stiffness.choice())?;
     let chosen = stiffness.choice().ordering;
-    writeln!(
-        out,
-        "  ordering              {}",
-        ordering_reason(case, model)
-    )?;
+    writeln!(out, "  ordering              {}", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
         write_ordering(out, &analyse(stiffness, ordering)?, ordering == chosen)?;
     }
     Ok(())
 }
 
-fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> io::Result<()> {
+fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &SolverChoice) -> io::Result<()> {
     if choice.unsymmetric {
         return writeln!(
             out,
             "  factorisation         L U: the printed forces are not those of an energy; entries and order are those of its energy form"
         );
     }
-    let is_named = case.case.solver.factorisation.0.is_some();
+    let is_named = setup.solver.factorisation.is_some();
     let why = match (is_named, choice.factorisation) {
         (true, _) => "as the case says",
         (false, FactorKind::Llt) => {
@@ -78,12 +73,12 @@ fn write_choice(out: &mut dyn Write, case: &CaseFile, choice: &SolverChoice) -> 
         FactorKind::Ldlt => "L D L^T",
     };
     writeln!(out, "  factorisation         {name}: {why}")?;
-    match (&case.case.fracture, choice.update) {
-        (None, _) => writeln!(out, "  when bonds break      none breaks")?,
-        (Some(_), Update::Refactor) => {
+    match (setup.analysis.is_fracture(), choice.update) {
+        (false, _) => writeln!(out, "  when bonds break      none breaks")?,
+        (true, Update::Refactor) => {
             writeln!(out, "  when bonds break      the factor is made anew")?;
         }
-        (Some(_), Update::Incremental) => writeln!(
+        (true, Update::Incremental) => writeln!(
             out,
             "  when bonds break      the factor is changed in place, up to {} bonds at once (more cost less anew); made \
              anew every {} bonds",
@@ -108,8 +103,8 @@ fn analyse(stiffness: &Stiffness, ordering: Ordering) -> Result<Analysis, SetupE
     })
 }
 
-fn ordering_reason(case: &CaseFile, model: &Model) -> String {
-    if case.case.solver.ordering.0.is_some() {
+fn ordering_reason(model: &Model) -> String {
+    if model.setup.solver.ordering.is_some() {
         return "as the case says".to_owned();
     }
     let side = if model.system.cloud.len() < POINTS_FOR_DISSECTION {

@@ -3,12 +3,11 @@
 use std::io::{self, Write};
 
 use ligament::Loading;
-use ligament::body::Body;
-use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE};
 use ligament_analysis::gauges;
 use ligament_analysis::probe::Reading;
 use ligament_analysis::{ControlKind, Equilibrium};
-use ligament_case::case::{CaseFile, Control, Steps};
+use ligament_case::case::CaseFile;
 use ligament_run::gauges::words;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
@@ -35,23 +34,19 @@ pub(super) fn check(
     };
 
     model::write(out, case, model)?;
-    write_boundary(out, case, model.body(), &loading)?;
+    write_boundary(out, model, &loading)?;
     for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, model.body()))?;
     }
-    write_loading(out, case)?;
+    write_loading(out, &model.setup.analysis)?;
     if let Some(equilibrium) = &equilibrium {
-        equations::write(out, case, model, equilibrium.stiffness())?;
+        equations::write(out, model, equilibrium.stiffness())?;
     }
     Ok(())
 }
 
-fn write_boundary(
-    out: &mut dyn Write,
-    case: &CaseFile,
-    body: &dyn Body,
-    loading: &Loading,
-) -> io::Result<()> {
+fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::Result<()> {
+    let body = model.body();
     writeln!(out, "supports and loads")?;
     for group in &loading.boundary.groups {
         write_group(out, body, &group.name, &group.points)?;
@@ -63,7 +58,7 @@ fn write_boundary(
         )?;
     }
     let control = &loading.boundary.control;
-    let (count, size, units) = (control.points.len(), control.magnitude, case.case.units());
+    let (count, size, units) = (control.points.len(), control.magnitude, model.setup.units());
     match control.kind {
         ControlKind::Temperature => writeln!(
             out,
@@ -94,15 +89,14 @@ fn write_boundary(
     Ok(())
 }
 
-fn write_loading(out: &mut dyn Write, case: &CaseFile) -> io::Result<()> {
-    let loading = match case.case.fracture.as_ref().map(|it| &it.control) {
-        None => "one elastic solution at load factor 1".to_owned(),
-        Some(Control::Stepped(stepping)) => match &stepping.steps {
-            Steps::Uniform(count) => format!("{count} load steps"),
-            Steps::Factors(factors) => format!("{} load steps", factors.len()),
-        },
-        Some(Control::Event) => {
+fn write_loading(out: &mut dyn Write, analysis: &Analysis) -> io::Result<()> {
+    let loading = match analysis {
+        Analysis::Stepped(settings) => format!("{} load steps", settings.load_factors.len()),
+        Analysis::Event(_) => {
             "exact path from breakage to breakage, up to load factor 1".to_owned()
+        }
+        Analysis::Elastic { .. } | Analysis::Modal(_) => {
+            "one elastic solution at load factor 1".to_owned()
         }
     };
     writeln!(out, "  followed in           {loading}")

@@ -50,7 +50,7 @@ pub(super) fn check(
             Rotations::Massless => "without inertia",
         };
         writeln!(out, "  rotations             {what}, {why}")?;
-        equations::write(out, case, model, analysis.stiffness())?;
+        equations::write(out, model, analysis.stiffness())?;
     }
     Ok(())
 }

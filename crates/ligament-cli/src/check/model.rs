@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 
 use ligament_case::case::CaseFile;
-use ligament_case::setup::materials;
 use ligament_model::Elasticity;
 use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
@@ -15,16 +14,16 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyh
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.cloud.volumes.iter().sum();
     body::write(out, model.body(), volume)?;
-    write_materials(out, case, model)?;
-    write_bonds(out, case, model)?;
-    criteria::write(out, case, model)?;
+    write_materials(out, model)?;
+    write_bonds(out, model)?;
+    criteria::write(out, model)?;
     Ok(write_energy_ratios(out, model)?)
 }
 
-fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
-    for (index, material) in materials(case).iter().enumerate() {
+    for (index, material) in model.setup.materials().iter().enumerate() {
         let volume: f64 = (0..cloud.len())
             .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
             .sum();
@@ -76,7 +75,7 @@ fn write_materials(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::R
     Ok(())
 }
 
-fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let spread = |out: &mut dyn Write, name: &str, values: Spread, unit: &str| {
         writeln!(
             out,
@@ -108,15 +107,11 @@ fn write_bonds(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Resul
         " m",
     )?;
     spread(out, "bonds of a point", family(model), "")?;
+    writeln!(out, "  {}", formulation_line(model.setup.law))?;
     writeln!(
         out,
         "  {}",
-        formulation_line(case, model.setup.law.element())
-    )?;
-    writeln!(
-        out,
-        "  {}",
-        correction_line(case, model.correction.as_ref())
+        correction_line(&model.setup.correction, model.correction.as_ref())
     )?;
     spread(
         out,

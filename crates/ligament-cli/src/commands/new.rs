@@ -8,7 +8,8 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament_output::replace_file;
 
-use ligament_case::case::{Law, MOST_CELLS};
+use ligament::setup::Law;
+use ligament_case::case::MOST_CELLS;
 use ligament_case::starter::{of_lattice, of_mesh};
 
 pub(super) const EXAMPLES: &str = "\
@@ -74,8 +75,8 @@ impl NewArgs {
 }
 
 fn laws() -> impl TypedValueParser<Value = Law> {
-    PossibleValuesParser::new(Law::ALL.map(Law::word)).try_map(|word| {
-        let law = Law::ALL.into_iter().find(|law| law.word() == word);
+    PossibleValuesParser::new(Law::ALL.map(|it| it.name())).try_map(|word| {
+        let law = Law::ALL.into_iter().find(|law| law.name() == word);
         law.ok_or("no such law")
     })
 }

@@ -11,7 +11,7 @@ use ligament_output::results::stored::{
 };
 
 use super::strains::Strains;
-use ligament_case::case::Units;
+use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
 
 /// The lives of some bonds, over the same moments.

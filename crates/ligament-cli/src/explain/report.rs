@@ -8,7 +8,7 @@ use ligament_output::results::stored::{StoredRun, StoredStep};
 use super::life::{Life, Lives};
 use super::table::Columns;
 use super::words::{self, label, number, place};
-use ligament_case::case::Units;
+use ligament::units::Units;
 
 /// An explanation.
 pub(super) struct Text {

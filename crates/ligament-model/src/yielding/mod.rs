@@ -40,7 +40,7 @@ pub struct PrincipalStretches {
 
 impl PrincipalStretches {
     /// The strains s_1 and s_2.
-    pub fn new(first: f64, second: f64) -> Self {
+    pub const fn new(first: f64, second: f64) -> Self {
         Self { first, second }
     }
 

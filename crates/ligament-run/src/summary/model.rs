@@ -5,8 +5,8 @@ use ligament_model::correction::CorrectionReport;
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Form};
-use ligament_case::case::{CaseFile, Surface, Word};
+use ligament::setup::{Alpha, Calibration, Correction, Form, Law, Open, Surface};
+use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::RotationalStiffness;
 
 /// The numbers of a model.
@@ -53,7 +53,7 @@ pub struct CorrectionSummary {
     /// The factor alpha.
     pub alpha: Word<Alpha>,
     /// The correction of surfaces.
-    pub surface: Surface,
+    pub surface: Word<Surface>,
     /// Sweeps.
     pub sweeps: Option<usize>,
     /// Whether it converged.
@@ -85,7 +85,7 @@ impl ModelSummary {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
-            formulation: formulation_words(case, model),
+            formulation: formulation_words(model),
             points: model.system.cloud.len(),
             bonds: model.system.bonds.len(),
             cut_bonds: model.cut_bonds,
@@ -93,7 +93,7 @@ impl ModelSummary {
             volume: model.system.cloud.volumes.iter().sum(),
             horizon: Spread::over(model.fixed.horizon.iter().copied()),
             family: family(model),
-            correction: CorrectionSummary::new(case, model),
+            correction: CorrectionSummary::new(model),
         }
     }
 }
@@ -111,12 +111,9 @@ impl Spread {
 }
 
 /// Law and corrections of the bonds, in words.
-fn formulation_words(case: &CaseFile, model: &Model) -> String {
-    let correction = correction_line(case, model.correction.as_ref());
-    format!(
-        "{}; {correction}",
-        formulation_line(case, model.setup.law.element())
-    )
+fn formulation_words(model: &Model) -> String {
+    let correction = correction_line(&model.setup.correction, model.correction.as_ref());
+    format!("{}; {correction}", formulation_line(model.setup.law))
 }
 
 /// Numbers of bonds of the points.
@@ -127,12 +124,12 @@ pub fn family(model: &Model) -> Spread {
 
 impl CorrectionSummary {
     /// The correction of a model.
-    pub fn new(case: &CaseFile, model: &Model) -> Self {
+    pub fn new(model: &Model) -> Self {
         let report = model.correction.as_ref();
         let (factor_min, factor_max) = model.correction_range;
         Self {
-            alpha: case.case.correction.alpha,
-            surface: case.case.correction.surface,
+            alpha: Word(model.setup.correction.alpha),
+            surface: Word(model.setup.correction.surface),
             sweeps: report.map(|it| it.sweeps),
             converged: report.map(|it| it.converged),
             last_change: report.map(|it| it.last_change),
@@ -149,8 +146,14 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
-    let model = &case.case.model;
+pub fn formulation_line(mut law: Law) -> String {
+    let (name, element) = (law.name(), law.element());
+    let Open {
+        calibration,
+        rotational_stiffness,
+        form,
+        ..
+    } = law.open();
     let unknowns = match element {
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
@@ -164,11 +167,11 @@ pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
             "two displacements a point, the strains of a rectangle around each bond, the printed forces on its ends"
         }
     };
-    let constants = match model.calibration.map(|it| it.0) {
+    let constants = match calibration {
         Some(Calibration::Discrete) => ", constants from sums over the families",
         Some(Calibration::Integral) | None => "",
     };
-    let rotational = match model.rotational_stiffness.map(|it| it.0) {
+    let rotational = match rotational_stiffness {
         Some(RotationalStiffness::Decaying) => ", k_theta = k_t l (1 - l/H)/2",
         Some(RotationalStiffness::Quarter) => ", k_theta = k_t l/4",
         Some(RotationalStiffness::Beam) => ", k_theta = k_t l/12",
@@ -177,18 +180,17 @@ pub fn formulation_line(case: &CaseFile, element: ElementKind) -> String {
     };
     format!(
         "law {}: {unknowns}{constants}{rotational}",
-        match model.form.map(|it| it.0) {
+        match form {
             Some(Form::Rows) => "mbb-pd (rows)",
             Some(Form::Pairwise) => "mbb-pd (pairwise)",
-            Some(Form::Full) | None => model.law.word(),
+            Some(Form::Full) | None => name,
         }
     )
 }
 
 /// Line on the corrections of the bonds, and on how the iterated one went.
-pub fn correction_line(case: &CaseFile, report: Option<&CorrectionReport>) -> String {
-    let correction = &case.case.correction;
-    let alpha = match correction.alpha.0 {
+pub fn correction_line(correction: &Correction, report: Option<&CorrectionReport>) -> String {
+    let alpha = match correction.alpha {
         Alpha::None => "no factor alpha",
         Alpha::PartialVolume => "alpha by partial volume",
         Alpha::Length => "alpha by length",
@@ -196,7 +198,7 @@ pub fn correction_line(case: &CaseFile, report: Option<&CorrectionReport>) -> St
     let surface = match correction.surface {
         Surface::None => "no surface correction".to_owned(),
         Surface::Volume => "surface correction by volume".to_owned(),
-        Surface::Domain => report.map(domain_correction).unwrap_or_default(),
+        Surface::Domain(_) => report.map(domain_correction).unwrap_or_default(),
     };
     format!("{alpha}, {surface}")
 }

@@ -6,8 +6,8 @@
 
 pub mod line;
 mod record;
-pub mod request;
-pub mod search;
+mod request;
+mod search;
 
 use std::io::Write;
 
@@ -71,26 +71,28 @@ pub fn calibrate(
 }
 
 fn search_of(request: &Request) -> anyhow::Result<Search> {
-    let Request { target, limits, .. } = *request;
+    let Request {
+        target, from, to, ..
+    } = *request;
     if !target.is_finite() || target == 0.0 {
         return Err(CalibrationError::NoTarget(target).into());
     }
-    if let [Some(low), Some(high)] = limits
+    if let (Some(low), Some(high)) = (from, to)
         && low >= high
     {
         return Err(CalibrationError::EmptyRange(low, high).into());
     }
     let case = CaseFile::load(&request.case, &request.overrides)?;
-    let start = match (case.number(&request.key)?, limits) {
-        (Some(start), _) if start != 0.0 => start,
-        (_, [Some(low), Some(high)]) => 0.5 * (low + high),
+    let start = match (case.number(&request.key)?, from, to) {
+        (Some(start), ..) if start != 0.0 => start,
+        (_, Some(low), Some(high)) => 0.5 * (low + high),
         _ => return Err(no_start(request)),
     };
     Ok(Search {
         start,
         limits: [
-            limits[0].unwrap_or(f64::NEG_INFINITY),
-            limits[1].unwrap_or(f64::INFINITY),
+            from.unwrap_or(f64::NEG_INFINITY),
+            to.unwrap_or(f64::INFINITY),
         ],
         target,
         tolerance: request.within * target.abs(),

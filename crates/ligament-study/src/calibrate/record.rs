@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
@@ -56,15 +56,8 @@ pub(super) struct Run {
 #[derive(Serialize)]
 struct Whole<'a> {
     version: &'static str,
-    case: &'a Path,
-    overrides: &'a [String],
-    key: &'a str,
-    of: &'a str,
-    target: f64,
-    within: f64,
-    from: Option<f64>,
-    to: Option<f64>,
-    most_runs: usize,
+    #[serde(flatten)]
+    request: &'a Request,
     /// `running` until the end, then `met`, `jump`, `out-of-reach` or `out-of-runs`.
     outcome: &'static str,
     /// The value that meets the target.
@@ -188,18 +181,9 @@ impl Record {
     }
 
     fn save(&self, outcome: &'static str, value: Option<f64>) -> anyhow::Result<()> {
-        let request = &self.request;
         let whole = Whole {
             version: env!("CARGO_PKG_VERSION"),
-            case: &request.case,
-            overrides: &request.overrides,
-            key: &request.key,
-            of: &request.of,
-            target: request.target,
-            within: request.within,
-            from: request.limits[0],
-            to: request.limits[1],
-            most_runs: request.most_runs,
+            request: &self.request,
             outcome,
             value,
             inputs: &self.inputs,
@@ -289,16 +273,10 @@ impl Record {
         }
     }
 
-    fn words(&self, Trial { key, result }: &Trial) -> String {
-        let off = 100.0
-            * self.off(&Trial {
-                key: *key,
-                result: *result,
-            });
-        format!(
-            "{key:?} with {} = {result:.6e}, {off:+.2} % off",
-            self.request.of
-        )
+    fn words(&self, trial: &Trial) -> String {
+        let (Trial { key, result }, of) = (trial, &self.request.of);
+        let off = 100.0 * self.off(trial);
+        format!("{key:?} with {of} = {result:.6e}, {off:+.2} % off")
     }
 }
 

@@ -3,16 +3,19 @@
 use std::io;
 use std::path::PathBuf;
 
+use serde::Serialize;
+
 use crate::quantities::QuantityError;
 
-/// What is to be calibrated.
-#[derive(Debug, Clone, PartialEq)]
+/// What is to be calibrated; a record keeps what decides about the result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Request {
     /// The case file.
     pub case: PathBuf,
     /// Changes to it that all runs have, `key=value` each.
     pub overrides: Vec<String>,
     /// Threads to compute with, before those of the case.
+    #[serde(skip)]
     pub threads: Option<u32>,
     /// The key whose value is sought.
     pub key: String,
@@ -22,13 +25,17 @@ pub struct Request {
     pub target: f64,
     /// Largest difference from the target, relative to it.
     pub within: f64,
-    /// Smallest and largest value of the key.
-    pub limits: [Option<f64>; 2],
+    /// Smallest value of the key.
+    pub from: Option<f64>,
+    /// Largest value of the key.
+    pub to: Option<f64>,
     /// Largest number of runs.
     pub most_runs: usize,
     /// Folder for the record and the runs.
+    #[serde(skip)]
     pub out: PathBuf,
     /// Whether an earlier calibration in the folder is replaced; it is continued otherwise.
+    #[serde(skip)]
     pub force: bool,
 }
 

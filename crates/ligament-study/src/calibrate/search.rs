@@ -10,33 +10,33 @@ use serde::{Deserialize, Serialize};
 
 /// What is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Search {
+pub(super) struct Search {
     /// Value of the key to begin with.
-    pub start: f64,
+    pub(super) start: f64,
     /// Smallest and largest value of the key that may be tried.
-    pub limits: [f64; 2],
+    pub(super) limits: [f64; 2],
     /// What the result is to be.
-    pub target: f64,
+    pub(super) target: f64,
     /// Largest difference from the target that counts as met, in units of the result.
-    pub tolerance: f64,
+    pub(super) tolerance: f64,
     /// Width of a bracket, relative to its larger end, that is not divided any more.
-    pub resolution: f64,
+    pub(super) resolution: f64,
     /// Largest number of trials.
-    pub most_trials: usize,
+    pub(super) most_trials: usize,
 }
 
 /// A value of the key and the result that it led to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
+pub(super) struct Trial {
     /// Value of the key.
-    pub key: f64,
+    pub(super) key: f64,
     /// The result.
-    pub result: f64,
+    pub(super) result: f64,
 }
 
 /// What to do after some trials.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Next {
+pub(super) enum Next {
     /// Try this value of the key.
     Try(f64),
     /// Stop.
@@ -45,7 +45,7 @@ pub enum Next {
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict {
+pub(super) enum Verdict {
     /// The target is met by this trial.
     Met(Trial),
     /// The result jumps over the target between two values of the key that are as good as the same.
@@ -70,7 +70,7 @@ const DIGITS: usize = 7;
 
 impl Search {
     /// The next thing to do after these trials, given in their order.
-    pub fn next(&self, trials: &[Trial]) -> Next {
+    pub(super) fn next(&self, trials: &[Trial]) -> Next {
         let Some(best) = self.best(trials) else {
             return Next::Try(self.allowed(self.start));
         };
@@ -93,7 +93,7 @@ impl Search {
     }
 
     /// The trial nearest to the target.
-    pub fn best(&self, trials: &[Trial]) -> Option<Trial> {
+    pub(super) fn best(&self, trials: &[Trial]) -> Option<Trial> {
         let nearest = |a: &&Trial, b: &&Trial| self.miss(a).abs().total_cmp(&self.miss(b).abs());
         trials.iter().min_by(nearest).copied()
     }

@@ -1,15 +1,14 @@
 //! Meshes of geometries by the external program gmsh.
 
 use std::collections::BTreeSet;
-use std::io;
-use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
 use ligament_mesh::Mesh;
-use ligament_mesh::gmsh::{self, GmshError};
+use ligament_mesh::gmsh;
 
-use super::{Unfinished, indented, is_same_file};
-use ligament::suggestion::hint;
+use super::error::{MeshingError, Refusal};
+use super::{Unfinished, is_same_file, last_lines, output_of};
 
 /// A mesh to be made.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,83 +23,9 @@ pub struct MeshRequest {
     pub numbers: Vec<(String, f64)>,
 }
 
-/// Why no mesh was made. An existing mesh is then as it was.
-#[derive(Debug, thiserror::Error)]
-pub enum MeshingError {
-    /// The file is no geometry, by its ending.
-    #[error(
-        "{} is no .geo file: `ligament mesh` meshes geometries of Gmsh; a mesh of another program is \
-         converted by `ligament mesh --via-meshio {}`",
-        .0.display(), .0.display()
-    )]
-    NoGeo(PathBuf),
-    /// There is no such geometry.
-    #[error("there is no geometry {}", .0.display())]
-    NoGeometry(PathBuf),
-    /// The geometry could not be read.
-    #[error("cannot read the geometry {}", geometry.display())]
-    Read {
-        /// The geometry.
-        geometry: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// A number is to be set that the geometry does not use.
-    #[error(
-        "--set {name}=...: {} does not mention `{name}`{}",
-        geometry.display(), hint(name, declared, "it declares", '`')
-    )]
-    UnusedNumber {
-        /// The geometry.
-        geometry: PathBuf,
-        /// The name that was to be set.
-        name: String,
-        /// The names that the geometry declares by `DefineConstant`.
-        declared: Vec<String>,
-    },
-    /// The mesh would replace its own geometry.
-    #[error("--out {} is the geometry itself", .0.display())]
-    WouldReplaceGeometry(PathBuf),
-    /// The program could not be found.
-    #[error(
-        "cannot find the program `{}`; install it (`pip install gmsh`, `apt install gmsh`, or from \
-         https://gmsh.info), or say where it is by --gmsh PATH",
-        .0.display()
-    )]
-    NoGmsh(PathBuf),
-    /// The program could not be started.
-    #[error("cannot start `{}`", gmsh.display())]
-    Start {
-        /// The program.
-        gmsh: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// The program reported errors or made no mesh.
-    #[error("gmsh could not mesh {}{}", geometry.display(), indented(lines))]
-    Gmsh {
-        /// The geometry.
-        geometry: PathBuf,
-        /// What gmsh said.
-        lines: Vec<String>,
-    },
-    /// The program's mesh cannot be read.
-    #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]
-    Unusable {
-        /// The geometry.
-        geometry: PathBuf,
-        /// The reader's reason.
-        source: GmshError,
-    },
-    /// The mesh could not be put in its place.
-    #[error("cannot write {}", path.display())]
-    Write {
-        /// The mesh file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-}
+/// What to do where there is no gmsh.
+const REMEDY: &str = "install it (`pip install gmsh`, `apt install gmsh`, or from https://gmsh.info), or say where it is by \
+                      --gmsh PATH";
 
 /// Calls gmsh and returns the mesh it wrote to `request.out`.
 ///
@@ -113,17 +38,20 @@ pub enum MeshingError {
 pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
     let MeshRequest { geometry, out, .. } = request;
     if !geometry.is_file() {
-        return Err(MeshingError::NoGeometry(geometry.clone()));
+        let (what, path) = ("geometry", geometry.clone());
+        return Err(MeshingError::NoSource { what, path });
     }
     let is_geo = |end: &std::ffi::OsStr| end.eq_ignore_ascii_case("geo");
     if !geometry.extension().is_some_and(is_geo) {
         return Err(MeshingError::NoGeo(geometry.clone()));
     }
     if is_same_file(geometry, out) {
-        return Err(MeshingError::WouldReplaceGeometry(out.clone()));
+        let (what, path) = ("geometry itself", out.clone());
+        return Err(MeshingError::WouldReplaceSource { what, path });
     }
     check_numbers(request)?;
-    let write_error = |source| MeshingError::Write {
+    let write_error = |source| MeshingError::File {
+        action: "write",
         path: out.clone(),
         source,
     };
@@ -131,14 +59,13 @@ pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
     let output = call_gmsh(request, unfinished.path())?;
     let complaints = complaints(&output);
     if !output.status.success() || !complaints.is_empty() || !unfinished.path().is_file() {
-        let lines = if complaints.is_empty() {
-            last_words(&output)
-        } else {
-            complaints
-        };
-        return Err(MeshingError::Gmsh {
-            geometry: geometry.clone(),
-            lines,
+        return Err(MeshingError::Refused {
+            refusal: Refusal::NotMeshed,
+            path: geometry.clone(),
+            lines: match complaints.is_empty() {
+                true => last_lines(lines(&output), "gmsh", &output),
+                false => complaints,
+            },
         });
     }
     let bytes = std::fs::read(unfinished.path()).map_err(write_error)?;
@@ -155,8 +82,9 @@ fn check_numbers(request: &MeshRequest) -> Result<(), MeshingError> {
     let MeshRequest {
         geometry, numbers, ..
     } = request;
-    let bytes = std::fs::read(geometry).map_err(|source| MeshingError::Read {
-        geometry: geometry.clone(),
+    let bytes = std::fs::read(geometry).map_err(|source| MeshingError::File {
+        action: "read the geometry",
+        path: geometry.clone(),
         source,
     })?;
     let text = String::from_utf8_lossy(&bytes);
@@ -196,33 +124,14 @@ fn declared_constants(geometry: &str) -> Vec<String> {
         .collect()
 }
 
-fn call_gmsh(request: &MeshRequest, out: &std::path::Path) -> Result<Output, MeshingError> {
-    let MeshRequest {
-        geometry,
-        gmsh,
-        numbers,
-        ..
-    } = request;
-    let mut command = Command::new(gmsh);
-    command
-        .arg("-2")
-        .arg(geometry)
-        .arg("-o")
-        .arg(out)
-        .args(["-format", "msh41"]);
-    for (name, value) in numbers {
-        command.arg("-setnumber").arg(name).arg(value.to_string());
+fn call_gmsh(request: &MeshRequest, out: &Path) -> Result<Output, MeshingError> {
+    let mut command = Command::new(&request.gmsh);
+    command.arg("-2").arg(&request.geometry).arg("-o").arg(out);
+    command.args(["-format", "msh41"]);
+    for (name, value) in &request.numbers {
+        command.args(["-setnumber", name, &value.to_string()]);
     }
-    command
-        .stdin(Stdio::null())
-        .output()
-        .map_err(|source| match source.kind() {
-            io::ErrorKind::NotFound => MeshingError::NoGmsh(gmsh.clone()),
-            _ => MeshingError::Start {
-                gmsh: gmsh.clone(),
-                source,
-            },
-        })
+    output_of(&mut command, REMEDY)
 }
 
 fn lines(output: &Output) -> Vec<String> {
@@ -241,17 +150,6 @@ fn complaints(output: &Output) -> Vec<String> {
         .into_iter()
         .filter(|line| line.trim_start().starts_with("Error"))
         .collect()
-}
-
-/// The end of what gmsh said, where it failed without an error line.
-fn last_words(output: &Output) -> Vec<String> {
-    let mut lines = lines(output);
-    let last = lines.split_off(lines.len().saturating_sub(5));
-    if last.is_empty() {
-        vec![format!("gmsh said nothing ({})", output.status)]
-    } else {
-        last
-    }
 }
 
 #[cfg(test)]

@@ -8,20 +8,44 @@
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
 
+mod error;
 pub mod gmsh_program;
 pub mod via_meshio;
 
-/// Lines of another program's own below an error, each on its line.
-fn indented(lines: &[String]) -> String {
-    lines.iter().map(|line| format!("\n  {line}")).collect()
-}
+pub use error::{MeshingError, Refusal};
+
+/// Last lines of a program that an error repeats.
+const LAST_LINES: usize = 5;
 
 /// Whether two paths lead to one file; a path that leads nowhere is none.
 fn is_same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b,
         _ => false,
+    }
+}
+
+/// What a program puts out; `remedy` says what to do where it cannot be found.
+fn output_of(command: &mut Command, remedy: &'static str) -> Result<Output, MeshingError> {
+    let output = command.stdin(Stdio::null()).output();
+    output.map_err(|source| {
+        let program = PathBuf::from(command.get_program());
+        match source.kind() {
+            io::ErrorKind::NotFound => MeshingError::NoProgram { program, remedy },
+            _ => MeshingError::Start { program, source },
+        }
+    })
+}
+
+/// The end of what a program, in a word `who`, has put out in lines.
+fn last_lines(mut lines: Vec<String>, who: &str, output: &Output) -> Vec<String> {
+    let last = lines.split_off(lines.len().saturating_sub(LAST_LINES));
+    if last.is_empty() {
+        vec![format!("{who} said nothing ({})", output.status)]
+    } else {
+        last
     }
 }
 

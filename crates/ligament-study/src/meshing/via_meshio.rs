@@ -3,14 +3,14 @@
 //! A script in the executable (`via_meshio.py`) reads the file by meshio, gathers its groups and hands nodes, cells and groups over
 //! as text; here they become a Gmsh file, which is read back like any other.
 
-use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
-use ligament_mesh::gmsh::{self, GmshError};
+use ligament_mesh::gmsh;
 use ligament_mesh::{Cell, Group, Mesh};
 
-use super::{Unfinished, indented, is_same_file};
+use super::error::{MeshingError, Refusal};
+use super::{Unfinished, is_same_file, last_lines, output_of};
 
 /// The script, which needs no file of its own.
 const SCRIPT: &str = include_str!("via_meshio.py");
@@ -37,138 +37,19 @@ pub struct Conversion {
     pub remarks: Vec<String>,
 }
 
-/// Why no mesh was written. An existing one is then as it was.
-#[derive(Debug, thiserror::Error)]
-pub enum ConversionError {
-    /// There is no such mesh.
-    #[error("there is no mesh {}", .0.display())]
-    NoSource(PathBuf),
-    /// The mesh would replace its own source.
-    #[error("--out {} is the mesh that is to be converted", .0.display())]
-    WouldReplaceSource(PathBuf),
-    /// Python could not be found.
-    #[error(
-        "cannot find the program `{}`; install Python from https://python.org, or say where it is by --python PATH",
-        .0.display()
-    )]
-    NoPython(PathBuf),
-    /// Python could not be started.
-    #[error("cannot start `{}`", python.display())]
-    Start {
-        /// The program.
-        python: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// Python lacks a package.
-    #[error(
-        "`{}` has no package `{package}`; install it: {} -m pip install {}",
-        python.display(), python.display(), with_company(package)
-    )]
-    NoPackage {
-        /// The program.
-        python: PathBuf,
-        /// The package.
-        package: String,
-    },
-    /// The format is not known.
-    #[error(
-        "meshio does not know the format of {}: give it by --format NAME, as meshio calls it (abaqus, nastran, exodus, \
-         ...){}", mesh.display(), indented(lines)
-    )]
-    UnknownFormat {
-        /// The source.
-        mesh: PathBuf,
-        /// What meshio said, or the names of all formats.
-        lines: Vec<String>,
-    },
-    /// meshio could not read the file.
-    #[error("meshio could not read {}{}", mesh.display(), indented(lines))]
-    Unreadable {
-        /// The source.
-        mesh: PathBuf,
-        /// Why.
-        lines: Vec<String>,
-    },
-    /// The source is a Gmsh mesh.
-    #[error("{} is a Gmsh mesh: Ligament reads it as it is", .0.display())]
-    IsGmsh(PathBuf),
-    /// The source has volumes.
-    #[error(
-        "{} is a mesh of a volume ({}): Ligament needs a planar mesh of triangles and quadrangles",
-        mesh.display(), lines.join(" ")
-    )]
-    Volumes {
-        /// The source.
-        mesh: PathBuf,
-        /// Shapes and numbers of its cells.
-        lines: Vec<String>,
-    },
-    /// The source has cells of shapes that are not read.
-    #[error(
-        "{} has cells that are neither triangles nor quadrangles: {}",
-        mesh.display(), lines.join(" ")
-    )]
-    Shapes {
-        /// The source.
-        mesh: PathBuf,
-        /// Shapes and numbers of these cells.
-        lines: Vec<String>,
-    },
-    /// The source has no planar cells.
-    #[error(
-        "there are no triangles or quadrangles in {}, only: {}",
-        mesh.display(), lines.join(" ")
-    )]
-    NothingPlanar {
-        /// The source.
-        mesh: PathBuf,
-        /// Shapes and numbers of the cells that the source has.
-        lines: Vec<String>,
-    },
-    /// The source is not in the plane of x and y.
-    #[error("{} is not planar: {}", mesh.display(), lines.join(" "))]
-    NotPlanar {
-        /// The source.
-        mesh: PathBuf,
-        /// Extents of the mesh along the axes, in words.
-        lines: Vec<String>,
-    },
-    /// Python ended without a mesh.
-    #[error("`{}` failed on {}{}", python.display(), mesh.display(), indented(lines))]
-    Failed {
-        /// The program.
-        python: PathBuf,
-        /// The source.
-        mesh: PathBuf,
-        /// The last lines that it said.
-        lines: Vec<String>,
-    },
-    /// The mesh cannot be used.
-    #[error("the mesh of {} cannot be used", mesh.display())]
-    Unusable {
-        /// The source.
-        mesh: PathBuf,
-        /// The reader's reason; its lines are those of the Gmsh file that would have been written.
-        source: GmshError,
-    },
-    /// The mesh could not be put in its place.
-    #[error("cannot write {}", path.display())]
-    Write {
-        /// The mesh file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-}
+/// What to do where there is no Python.
+const REMEDY: &str = "install Python from https://python.org, or say where it is by --python PATH";
 
-/// A package, with what it does not bring along itself: meshio needs others for formats on HDF5 and netCDF.
-fn with_company(package: &str) -> String {
-    match package {
-        "meshio" | "numpy" => "meshio".to_owned(),
-        other => format!("meshio {other}"),
-    }
-}
+/// The faults that the script finds in a source, by its words for them.
+const FAULTS: [(&str, Refusal); 7] = [
+    ("unknown-format", Refusal::UnknownFormat),
+    ("unreadable", Refusal::Unreadable),
+    ("is-gmsh", Refusal::IsGmsh),
+    ("three-dimensional", Refusal::Volumes),
+    ("foreign-cells", Refusal::Shapes),
+    ("nothing-planar", Refusal::NothingPlanar),
+    ("not-planar", Refusal::NotPlanar),
+];
 
 /// Calls Python and meshio and returns the mesh that it wrote to `request.out`, in Gmsh's format 4.1.
 ///
@@ -178,32 +59,38 @@ fn with_company(package: &str) -> String {
 /// # Errors
 ///
 /// If Python or meshio are missing, the file cannot be read or is no planar mesh, or the result cannot be put in place.
-pub fn convert(request: &ConversionRequest) -> Result<Conversion, ConversionError> {
+pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> {
     let ConversionRequest { source, out, .. } = request;
     if !source.is_file() {
-        return Err(ConversionError::NoSource(source.clone()));
+        let (what, path) = ("mesh", source.clone());
+        return Err(MeshingError::NoSource { what, path });
     }
     if is_same_file(source, out) {
-        return Err(ConversionError::WouldReplaceSource(out.clone()));
+        let (what, path) = ("mesh that is to be converted", out.clone());
+        return Err(MeshingError::WouldReplaceSource { what, path });
     }
     let output = call_python(request)?;
     let text = String::from_utf8_lossy(&output.stdout);
-    let failed = || ConversionError::Failed {
+    let failed = || MeshingError::Failed {
         python: request.python.clone(),
         mesh: source.clone(),
-        lines: last_lines(&output),
+        lines: {
+            let said = String::from_utf8_lossy(&output.stderr);
+            last_lines(said.lines().map(str::to_owned).collect(), "it", &output)
+        },
     };
     if let Some(fault) = text.strip_prefix("error\n") {
-        return Err(of_fault(request, fault).unwrap_or_else(failed));
+        return Err(refused(request, fault).unwrap_or_else(failed));
     }
     let handed = output.status.success().then(|| Handed::parse(&text));
     let Handed { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
     let text = gmsh::write(&mesh);
-    let mesh = gmsh::parse(text.as_bytes()).map_err(|error| ConversionError::Unusable {
+    let mesh = gmsh::parse(text.as_bytes()).map_err(|error| MeshingError::UnusableSource {
         mesh: source.clone(),
         source: error,
     })?;
-    let write_error = |source| ConversionError::Write {
+    let write_error = |source| MeshingError::File {
+        action: "write",
         path: out.clone(),
         source,
     };
@@ -213,57 +100,31 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, ConversionErro
     Ok(Conversion { mesh, remarks })
 }
 
-fn call_python(request: &ConversionRequest) -> Result<Output, ConversionError> {
-    let ConversionRequest {
-        source,
-        format,
-        python,
-        ..
-    } = request;
+fn call_python(request: &ConversionRequest) -> Result<Output, MeshingError> {
     // A name that begins with a hyphen, or is `-`, would be something else to Python.
-    let path = std::path::absolute(source).unwrap_or_else(|_| source.clone());
-    let mut command = Command::new(python);
-    command.args(["-c", SCRIPT]).arg(path).args(format);
-    let output = command.stdin(Stdio::null()).output();
-    output.map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => ConversionError::NoPython(python.clone()),
-        _ => ConversionError::Start {
-            python: python.clone(),
-            source: error,
-        },
-    })
+    let path = std::path::absolute(&request.source).unwrap_or_else(|_| request.source.clone());
+    let mut command = Command::new(&request.python);
+    command.args(["-c", SCRIPT]).arg(path).args(&request.format);
+    output_of(&mut command, REMEDY)
 }
 
 /// The error for a fault that the script found: its kind, and the reason in lines.
-fn of_fault(request: &ConversionRequest, fault: &str) -> Option<ConversionError> {
-    let mut lines = fault.lines().map(str::to_owned);
-    let kind = lines.next()?;
-    let (mesh, lines): (PathBuf, Vec<String>) = (request.source.clone(), lines.collect());
-    Some(match kind.as_str() {
-        "no-package" => ConversionError::NoPackage {
+fn refused(request: &ConversionRequest, fault: &str) -> Option<MeshingError> {
+    let (kind, reason) = fault.split_once('\n').unwrap_or((fault, ""));
+    let lines: Vec<String> = reason.lines().map(str::to_owned).collect();
+    if kind == "no-package" {
+        return Some(MeshingError::NoPackage {
             python: request.python.clone(),
             package: lines.concat(),
-        },
-        "unknown-format" => ConversionError::UnknownFormat { mesh, lines },
-        "unreadable" => ConversionError::Unreadable { mesh, lines },
-        "is-gmsh" => ConversionError::IsGmsh(mesh),
-        "three-dimensional" => ConversionError::Volumes { mesh, lines },
-        "foreign-cells" => ConversionError::Shapes { mesh, lines },
-        "nothing-planar" => ConversionError::NothingPlanar { mesh, lines },
-        "not-planar" => ConversionError::NotPlanar { mesh, lines },
-        _ => return None,
-    })
-}
-
-fn last_lines(output: &Output) -> Vec<String> {
-    let text = String::from_utf8_lossy(&output.stderr);
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let last = lines.split_off(lines.len().saturating_sub(5));
-    if last.is_empty() {
-        vec![format!("it said nothing ({})", output.status)]
-    } else {
-        last
+        });
     }
+    let (_, refusal) = *FAULTS.iter().find(|(word, _)| *word == kind)?;
+    let path = request.source.clone();
+    Some(MeshingError::Refused {
+        refusal,
+        path,
+        lines,
+    })
 }
 
 /// What the script hands over.

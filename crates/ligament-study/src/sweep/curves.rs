@@ -6,7 +6,7 @@ use super::table::{NoColumn, StudyTable};
 use crate::line_fit::{FitError, LineFit};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
-use ligament_plot::plots::{Colour, Mark, Plot, Series};
+use ligament_plot::plots::{Colour, Plot, Series};
 
 /// Colours of curves, which begin anew where there are more; black is for what is known.
 const COLOURS: [Colour; 6] = [
@@ -18,38 +18,31 @@ const COLOURS: [Colour; 6] = [
     Colour::Sky,
 ];
 
-/// Points between which a fitted or known line is drawn.
-const LINE_POINTS: usize = 2;
-
 /// The curves of a plot of a study.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curves<'a> {
+pub(super) struct Curves<'a> {
     /// The section of the study that asks for the plot.
-    pub plot: &'a StudyPlot,
+    pub(super) plot: &'a StudyPlot,
     /// Name of the plot's file, without the ending.
-    pub name: String,
+    pub(super) name: String,
     /// The curves in the order of the axis.
-    pub curves: Vec<Curve>,
+    pub(super) curves: Vec<Curve>,
 }
 
 /// Runs that have one value of the axis `by`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub(super) struct Curve {
     /// The label of that value; empty where there is one curve for all.
-    pub label: String,
+    pub(super) label: String,
     /// Points in the order of x, shape (n, 2); runs without numbers have none.
-    pub points: Vec<[f64; 2]>,
+    pub(super) points: Vec<[f64; 2]>,
     /// The line through those in the range of the plot's fit, if it has one.
-    pub fit: Option<Result<LineFit, FitError>>,
+    pub(super) fit: Option<Result<LineFit, FitError>>,
 }
 
 impl<'a> Curves<'a> {
     /// The curves of a plot over the runs of a table.
-    ///
-    /// # Errors
-    ///
-    /// If x or y is no column of numbers.
-    pub fn over_runs(
+    pub(super) fn over_runs(
         study: &Study,
         plot: &'a StudyPlot,
         runs: &[Run],
@@ -92,7 +85,7 @@ impl<'a> Curves<'a> {
     }
 
     /// Places on x where some curve has a point, ascending.
-    pub fn places(&self) -> Vec<f64> {
+    pub(super) fn places(&self) -> Vec<f64> {
         let mut places: Vec<f64> = self.points().map(|[x, _]| *x).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
@@ -104,53 +97,33 @@ impl<'a> Curves<'a> {
     }
 
     /// The plot: the runs, the known line dashed, fitted lines in the colours of their curves.
-    pub fn drawn(&self, title: &str) -> Plot {
+    pub(super) fn drawn(&self, title: &str) -> Plot {
         let plot = self.plot;
         let places = self.places();
         let ends = places.first().zip(places.last());
         let mut series = Vec::new();
         if let (Some(line), Some((&from, &to))) = (&plot.line, ends) {
-            let label = if line.label.is_empty() {
-                "known"
-            } else {
-                &line.label
-            };
-            let points = straight(from, to, |x| line.slope * x + line.intercept);
-            series.push(Series::new(label, Mark::Dashes, Colour::Black, points));
+            let points = straight([from, to], |x| line.at(x));
+            series.push(Series::dashes(line.name(), Colour::Black, points));
         }
         for (curve, &colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
             let (means, repeated) = curve.means();
-            let label = if curve.label.is_empty() {
-                "runs"
-            } else {
-                &curve.label
-            };
+            let label = curve.name("runs");
+            let circles = || Series::circles(label, colour, curve.points.clone());
             match &curve.fit {
                 Some(Ok(fit)) => {
-                    series.push(Series::new(
-                        label,
-                        Mark::Circles,
-                        colour,
-                        curve.points.clone(),
-                    ));
-                    let inside = curve.points.iter().map(|[x, _]| *x);
-                    let inside =
-                        inside.filter(|x| plot.fit.is_some_and(|range| range.contains(*x)));
-                    let (from, to) =
-                        inside.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-                    let points = straight(from, to, |x| fit.at(x));
-                    series.push(Series::new(equation(fit), Mark::Curve, colour, points));
+                    let mut inside = curve.points.iter().map(|[x, _]| *x);
+                    let is_inside = |x: &f64| plot.fit.is_some_and(|range| range.contains(*x));
+                    let ends = [inside.clone().find(is_inside), inside.rfind(is_inside)];
+                    let points = straight(ends.map(Option::unwrap_or_default), |x| fit.at(x));
+                    series.push(circles());
+                    series.push(Series::curve(equation(fit), colour, points));
                 }
                 _ if repeated => {
-                    series.push(Series::new(
-                        label,
-                        Mark::Circles,
-                        colour,
-                        curve.points.clone(),
-                    ));
-                    series.push(Series::new("mean", Mark::Curve, colour, means));
+                    series.push(circles());
+                    series.push(Series::curve("mean", colour, means));
                 }
-                _ => series.push(Series::new(label, Mark::Line, colour, means)),
+                _ => series.push(Series::line(label, colour, means)),
             }
         }
         Plot {
@@ -164,8 +137,16 @@ impl<'a> Curves<'a> {
 }
 
 impl Curve {
+    /// The label, or other words where there is none.
+    pub(super) fn name<'a>(&'a self, other: &'a str) -> &'a str {
+        match self.label.as_str() {
+            "" => other,
+            label => label,
+        }
+    }
+
     /// The mean of y at each x, and whether some x has several points.
-    pub fn means(&self) -> (Vec<[f64; 2]>, bool) {
+    pub(super) fn means(&self) -> (Vec<[f64; 2]>, bool) {
         let groups = self.points.chunk_by(|a, b| a[0] == b[0]);
         let mean = |group: &[[f64; 2]]| {
             let sum: f64 = group.iter().map(|[_, y]| y).sum();
@@ -177,10 +158,8 @@ impl Curve {
     }
 }
 
-fn straight(from: f64, to: f64, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-    let share = |k: usize| k as f64 / (LINE_POINTS - 1) as f64;
-    let place = |k: usize| from + (to - from) * share(k);
-    (0..LINE_POINTS).map(|k| [place(k), y(place(k))]).collect()
+fn straight(ends: [f64; 2], y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    ends.map(|x| [x, y(x)]).to_vec()
 }
 
 /// A fitted line as the legend has it.

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use ligament::run::on_threads;
-use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE};
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Surface};
 use ligament::{Loading, Vibration};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::modal::ModalAnalysis;
 
-use ligament_case::case::{BodySection, CaseFile, Surface};
+use ligament_case::case::{CaseFile, Word};
 use ligament_run::memory;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
@@ -31,7 +31,8 @@ impl Estimates {
     pub(super) fn bytes(&mut self, case: &CaseFile) -> Option<u64> {
         let given = &case.case;
         let key = serde_json::to_string(&(
-            &given.body,
+            &given.mesh,
+            &given.lattice,
             &given.model,
             &given.precracks,
             &given.supports,
@@ -49,9 +50,11 @@ impl Estimates {
 fn estimate(case: &CaseFile) -> anyhow::Result<u64> {
     let mut plain = case.clone();
     plain.case.solver.threads = Some(1);
-    if plain.case.correction.surface == Surface::Domain {
-        plain.case.correction.surface = Surface::None;
-    }
+    let surface = &mut plain.case.correction.surface;
+    *surface = surface.map(|it| match it.0 {
+        Surface::Domain(_) => Word(Surface::None),
+        _ => it,
+    });
     let bytes = on_threads(plain.threads(), || equations(&plain))??;
     Ok((MARGIN * (bytes as u64 + PROGRAM) as f64) as u64)
 }
@@ -77,10 +80,8 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
 
 /// Whether the mesh of a case is there to estimate with.
 pub(super) fn has_mesh(case: &CaseFile) -> bool {
-    match &case.case.body {
-        BodySection::Mesh(section) => section.file.is_file(),
-        BodySection::Lattice(_) => true,
-    }
+    let mesh = case.case.mesh.as_ref();
+    mesh.is_none_or(|section| section.file.is_file())
 }
 
 /// Memory that programs can take without others being moved out, bytes: what the system has left and, under a limit for this

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use super::estimate::{self, Estimates};
 use super::folder::StudyFolder;
 use super::plan::Run;
+use super::progress::StudyProgress;
 use super::record::{self, Status};
 
 /// Lines of a failed run's last words that its reason has.
@@ -50,14 +51,6 @@ impl Room {
     }
 }
 
-/// What becomes of runs.
-pub(super) trait Audience {
-    /// A run begins, on so many threads.
-    fn begins(&mut self, run: &Run, threads: usize);
-    /// A run has ended.
-    fn ends(&mut self, run: &Run, status: &Status, time: Duration);
-}
-
 /// A run that has ended: which, how, and when it had begun.
 struct Ended {
     index: usize,
@@ -83,7 +76,7 @@ pub(super) fn all(
     folder: &StudyFolder,
     lock: &Path,
     room: Room,
-    audience: &mut dyn Audience,
+    progress: &mut StudyProgress<'_>,
 ) -> anyhow::Result<Duration> {
     let program = std::env::current_exe()?;
     let (sender, receiver) = channel();
@@ -100,18 +93,18 @@ pub(super) fn all(
         time: Duration::ZERO,
     };
     for (next, run) in runs.iter().enumerate() {
-        let bytes = launcher.wait_for_room(next, audience)?;
-        match launcher.start(next, bytes, audience) {
+        let bytes = launcher.wait_for_room(next, progress)?;
+        match launcher.start(next, bytes, progress) {
             Ok(()) => {}
             Err(Refusal::Run(reason)) => {
                 record::fail(run, folder, &reason)?;
-                audience.ends(run, &Status::Failed(reason), Duration::ZERO);
+                progress.ends(run, &Status::Failed(reason), Duration::ZERO);
             }
             Err(Refusal::Folder(error)) => return Err(error),
         }
     }
     while !launcher.running.is_empty() {
-        launcher.wait(audience)?;
+        launcher.wait(progress)?;
     }
     Ok(launcher.time)
 }
@@ -139,13 +132,17 @@ struct Launcher<'a> {
 
 impl Launcher<'_> {
     /// Waits until the next run fits beside those that go on, or none goes on; gives the memory it will take.
-    fn wait_for_room(&mut self, next: usize, audience: &mut dyn Audience) -> anyhow::Result<u64> {
+    fn wait_for_room(
+        &mut self,
+        next: usize,
+        progress: &mut StudyProgress<'_>,
+    ) -> anyhow::Result<u64> {
         // A case without a model will fail by itself, with its reason.
         let bytes = self.estimates.bytes(&self.runs[next].case).unwrap_or(0);
         while self.running.len() >= self.room.jobs
             || (!self.running.is_empty() && !self.fits(bytes))
         {
-            self.wait(audience)?;
+            self.wait(progress)?;
         }
         Ok(bytes)
     }
@@ -167,7 +164,7 @@ impl Launcher<'_> {
         &mut self,
         next: usize,
         bytes: u64,
-        audience: &mut dyn Audience,
+        progress: &mut StudyProgress<'_>,
     ) -> Result<(), Refusal> {
         let run = self.runs[next];
         if !self.fits(bytes) {
@@ -180,7 +177,7 @@ impl Launcher<'_> {
         let mut child = self
             .spawn(run, threads)
             .map_err(|error| Refusal::Folder(error.into()))?;
-        audience.begins(run, threads);
+        progress.begins(run, threads);
         self.running.push(Running {
             index: next,
             bytes,
@@ -218,7 +215,7 @@ impl Launcher<'_> {
     }
 
     /// Waits for a run to end.
-    fn wait(&mut self, audience: &mut dyn Audience) -> anyhow::Result<()> {
+    fn wait(&mut self, progress: &mut StudyProgress<'_>) -> anyhow::Result<()> {
         // The launcher has a sender of its own, so the channel is never closed.
         let Ok(Ended {
             index,
@@ -241,7 +238,7 @@ impl Launcher<'_> {
             }
             status => status,
         };
-        audience.ends(run, &status, time);
+        progress.ends(run, &status, time);
         Ok(())
     }
 

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::meshing::gmsh_program::{MeshRequest, MeshingError, make_mesh};
+use crate::meshing::MeshingError;
+use crate::meshing::gmsh_program::{MeshRequest, make_mesh};
 
 /// A mesh to be made.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +89,7 @@ fn make_one(
             tell(&format!("meshed {name}: {} nodes", mesh.positions.len()));
             Ok(None)
         }
-        Err(error @ (MeshingError::Gmsh { .. } | MeshingError::Unusable { .. })) => {
+        Err(error @ (MeshingError::Refused { .. } | MeshingError::Unusable { .. })) => {
             let lines: Vec<String> = error
                 .to_string()
                 .lines()

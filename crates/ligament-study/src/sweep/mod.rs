@@ -5,19 +5,19 @@
 //! ([`record`]), so that the same command goes on where it was stopped. At the end there is a [`table`] of all runs, with
 //! [`curves`] and fitted lines ([`crate::line_fit`]).
 
-pub mod axis;
-pub mod curves;
+mod axis;
+mod curves;
 mod error;
 mod estimate;
 pub mod folder;
 mod launch;
-pub mod meshes;
+mod meshes;
 pub mod plan;
 mod progress;
-pub mod record;
+mod record;
 mod report;
 pub mod study;
-pub mod table;
+mod table;
 mod written;
 
 use std::collections::BTreeMap;
@@ -197,12 +197,7 @@ fn made_meshes(
     for (name, reason) in &unmeshed {
         if let Some(run) = todo.iter().find(|run| run.name == *name) {
             record::fail(run, folder, reason)?;
-            launch::Audience::ends(
-                progress,
-                run,
-                &Status::Failed(reason.clone()),
-                Duration::ZERO,
-            );
+            progress.ends(run, &Status::Failed(reason.clone()), Duration::ZERO);
         }
     }
     Ok(unmeshed)
@@ -238,27 +233,22 @@ fn make_report(
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
     let row = |(index, run)| {
-        let mut found = Status::Missing;
-        let mut path = String::new();
-        for (folder, there) in folders {
-            let status = Status::in_folder(&there[index], folder);
-            let is_better = match status {
-                Status::Done(_) => true,
-                Status::Failed(_) => !matches!(found, Status::Failed(_)),
-                Status::Missing | Status::Changed(_) => false,
-            };
-            if is_better {
-                path = folder.run(&there[index]).to_string_lossy().into_owned();
-                found = status;
+        let found = folders.iter().map(|(folder, there): &(_, &[Run])| {
+            let run = &there[index];
+            (Status::in_folder(run, folder), folder.run(run))
+        });
+        let better = |best: (Status, PathBuf), it: (Status, PathBuf)| {
+            if it.0.rank() > best.0.rank() {
+                it
+            } else {
+                best
             }
-            if matches!(found, Status::Done(_)) {
-                break;
-            }
-        }
+        };
+        let (status, folder) = found.reduce(better).unwrap_or_default();
         Row {
             run,
-            status: found,
-            folder: path,
+            status,
+            folder: folder.to_string_lossy().into_owned(),
         }
     };
     let rows: Vec<Row<'_>> = runs.iter().enumerate().map(row).collect();

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::launch::Audience;
 use super::plan::Run;
 use super::record::Status;
 use super::report::unknown_names;
@@ -78,16 +77,8 @@ impl<'a> StudyProgress<'a> {
         (self.begun.elapsed(), self.failed)
     }
 
-    fn show_running(&self) {
-        if let Some(bar) = &self.bar {
-            let words: Vec<&str> = self.running.values().map(String::as_str).collect();
-            bar.set_message(format!("running: {}", words.join("; ")));
-        }
-    }
-}
-
-impl Audience for StudyProgress<'_> {
-    fn begins(&mut self, run: &Run, threads: usize) {
+    /// Shows that a run begins, on so many threads.
+    pub(super) fn begins(&mut self, run: &Run, threads: usize) {
         let mut words = run.words(self.study);
         if threads > 1 {
             words += &format!(" ({threads} threads)");
@@ -96,7 +87,15 @@ impl Audience for StudyProgress<'_> {
         self.show_running();
     }
 
-    fn ends(&mut self, run: &Run, status: &Status, time: Duration) {
+    fn show_running(&self) {
+        if let Some(bar) = &self.bar {
+            let words: Vec<&str> = self.running.values().map(String::as_str).collect();
+            bar.set_message(format!("running: {}", words.join("; ")));
+        }
+    }
+
+    /// Tells that a run has ended.
+    pub(super) fn ends(&mut self, run: &Run, status: &Status, time: Duration) {
         self.ended += 1;
         self.running.remove(&run.name);
         let what = match status {

@@ -32,13 +32,14 @@ pub(super) struct Record {
 }
 
 /// How far a run is.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Status {
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) enum Status {
     /// The run is done, with these results.
     Done(Quantities),
     /// The run failed when it was last tried.
     Failed(String),
     /// The run has no results.
+    #[default]
     Missing,
     /// The run has results of other inputs, which differ as the text says.
     Changed(String),
@@ -46,7 +47,7 @@ pub enum Status {
 
 impl Status {
     /// The status of a run in a folder.
-    pub fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
+    pub(super) fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
         let text = fs::read_to_string(folder.record(run)).unwrap_or_default();
         let Ok(record) = serde_json::from_str::<Record>(&text) else {
             return Self::Missing;
@@ -65,8 +66,17 @@ impl Status {
         }
     }
 
+    /// A number that is larger the more there is of a run.
+    pub(super) fn rank(&self) -> u8 {
+        match self {
+            Self::Done(_) => 2,
+            Self::Failed(_) => 1,
+            Self::Missing | Self::Changed(_) => 0,
+        }
+    }
+
     /// The word for it in tables.
-    pub fn word(&self) -> &'static str {
+    pub(super) fn word(&self) -> &'static str {
         match self {
             Self::Done(_) => "done",
             Self::Failed(_) => "failed",

@@ -219,25 +219,16 @@ fn write_pivot(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::R
     let all: Vec<(Vec<[f64; 2]>, bool)> = curves.curves.iter().map(Curve::means).collect();
     let mut lines = vec![vec![shown(&plot.x)]];
     for curve in &curves.curves {
-        let label = if curve.label.is_empty() {
-            &plot.y
-        } else {
-            &curve.label
-        };
-        lines[0].push(label.clone());
+        lines[0].push(curve.name(&plot.y).to_owned());
     }
-    if plot.line.is_some() {
-        lines[0].push(known_label(curves));
-    }
+    lines[0].extend(plot.line.iter().map(|known| known.name().to_owned()));
     for x in curves.places() {
         let mut line = vec![x.to_string()];
         for (means, _) in &all {
             let at = means.iter().find(|point| point[0] == x);
             line.push(at.map_or_else(|| "-".to_owned(), |[_, y]| rounded(*y)));
         }
-        if let Some(known) = &plot.line {
-            line.push(rounded(known.slope * x + known.intercept));
-        }
+        line.extend(plot.line.iter().map(|known| rounded(known.at(x))));
         lines.push(line);
     }
     write_aligned(&lines, out)?;
@@ -245,13 +236,6 @@ fn write_pivot(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::R
         writeln!(out, "  (means of the runs that share a place)")?;
     }
     Ok(())
-}
-
-fn known_label(curves: &Curves<'_>) -> String {
-    let label = curves.plot.line.as_ref().map(|line| line.label.clone());
-    label
-        .filter(|label| !label.is_empty())
-        .unwrap_or_else(|| "known".to_owned())
 }
 
 fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
@@ -268,16 +252,12 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     let heads = ["", "slope", "+-", "intercept", "+-", "R^2", "points"];
     let mut lines = vec![heads.map(str::to_owned).to_vec()];
     for curve in &curves.curves {
-        let name = if curve.label.is_empty() {
-            "runs"
-        } else {
-            &curve.label
-        };
+        let name = curve.name("runs").to_owned();
         match &curve.fit {
             Some(Ok(fit)) => {
                 let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), rounded);
                 lines.push(vec![
-                    name.to_owned(),
+                    name,
                     rounded(fit.slope),
                     error(fit.slope_error),
                     rounded(fit.intercept),
@@ -286,17 +266,18 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
                     fit.points.to_string(),
                 ]);
             }
-            Some(Err(error)) => lines.push(vec![name.to_owned(), error.to_string()]),
+            Some(Err(error)) => lines.push(vec![name, error.to_string()]),
             None => {}
         }
     }
     if let Some(known) = &curves.plot.line {
-        let numbers = [
-            rounded(known.slope),
+        let (slope, intercept) = (rounded(known.slope), rounded(known.intercept));
+        lines.push(vec![
+            known.name().to_owned(),
+            slope,
             String::new(),
-            rounded(known.intercept),
-        ];
-        lines.push([vec![known_label(curves)], numbers.to_vec()].concat());
+            intercept,
+        ]);
     }
     write_aligned(&lines, out)
 }
@@ -334,55 +315,48 @@ fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
 /// All fitted lines, and the known ones beside them.
 fn fits(all: &[Curves<'_>]) -> String {
     let mut text = csv::line(&FIT_COLUMNS.map(Value::Text));
+    let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
     for curves in all.iter().filter(|curves| curves.plot.fit.is_some()) {
         let plot = curves.plot;
-        let head = |curve| {
-            let by = plot.by.as_deref().map_or(Value::Missing, Value::Text);
-            [
-                Value::Text(&curves.name),
-                Value::Text(&plot.x),
-                Value::Text(&plot.y),
-                by,
-                curve,
-            ]
+        let by = plot.by.as_deref().map_or(Value::Missing, Value::Text);
+        let head = [curves.name.as_str(), &plot.x, &plot.y].map(Value::Text);
+        let mut push = |curve: Value<'_>, cells: &[Value<'_>]| {
+            text += &csv::line(&[&head[..], &[by, curve], cells].concat());
         };
-        let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
         for curve in &curves.curves {
             let label = match curve.label.as_str() {
                 "" => Value::Missing,
                 label => Value::Text(label),
             };
-            let reason;
-            let cells = match &curve.fit {
-                Some(Ok(fit)) => [
-                    fit.slope.into(),
-                    number(fit.slope_error),
-                    fit.intercept.into(),
-                    number(fit.intercept_error),
-                    fit.r_squared.into(),
-                    fit.points.into(),
-                    "fitted".into(),
-                ],
-                other => {
-                    reason = match other {
-                        Some(Err(error)) => error.to_string(),
-                        _ => "not fitted".to_owned(),
-                    };
-                    let mut cells = [Value::Missing; 7];
-                    cells[6] = Value::Text(&reason);
-                    cells
-                }
-            };
-            text += &csv::line(&[&head(label)[..], &cells].concat());
+            match &curve.fit {
+                Some(Ok(fit)) => push(
+                    label,
+                    &[
+                        fit.slope.into(),
+                        number(fit.slope_error),
+                        fit.intercept.into(),
+                        number(fit.intercept_error),
+                        fit.r_squared.into(),
+                        fit.points.into(),
+                        "fitted".into(),
+                    ],
+                ),
+                Some(Err(error)) => push(label, &only(Value::Text(&error.to_string()))),
+                None => {}
+            }
         }
         if let Some(known) = &plot.line {
-            let label = known_label(curves);
-            let mut cells = [Value::Missing; 7];
-            cells[0] = known.slope.into();
-            cells[2] = known.intercept.into();
-            cells[6] = "known".into();
-            text += &csv::line(&[&head(Value::Text(&label))[..], &cells].concat());
+            let mut cells = only("known".into());
+            (cells[0], cells[2]) = (known.slope.into(), known.intercept.into());
+            push(known.name().into(), &cells);
         }
     }
     text
+}
+
+/// The cells of a row of `fits.csv` behind its curve, all empty but the remark.
+fn only(remark: Value<'_>) -> [Value<'_>; 7] {
+    let mut cells = [Value::Missing; 7];
+    cells[6] = remark;
+    cells
 }

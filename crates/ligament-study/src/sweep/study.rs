@@ -41,14 +41,20 @@ pub struct Study {
 }
 
 /// A column that is made from a result.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Derived {
     /// Name of the column.
     pub name: String,
     /// The result by its name (see [`crate::quantities`]).
     pub of: String,
     /// Divisor of the result.
+    #[serde(default = "one")]
     pub over: f64,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// A plot over the runs of a study.
@@ -86,6 +92,21 @@ pub struct KnownLine {
     pub label: String,
 }
 
+impl KnownLine {
+    /// Name of the line: the label, or a word in place of one.
+    pub fn name(&self) -> &str {
+        match self.label.as_str() {
+            "" => "known",
+            label => label,
+        }
+    }
+
+    /// The line's y at x.
+    pub fn at(&self, x: f64) -> f64 {
+        self.slope * x + self.intercept
+    }
+}
+
 /// The range of x of a fit; open where nothing is given.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -115,17 +136,9 @@ struct RawStudy {
     #[serde(default)]
     axis: Vec<RawAxis>,
     #[serde(default)]
-    result: Vec<RawDerived>,
+    result: Vec<Derived>,
     #[serde(default)]
     plot: Vec<StudyPlot>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawDerived {
-    name: String,
-    of: String,
-    over: Option<f64>,
 }
 
 impl Study {
@@ -147,20 +160,21 @@ impl Study {
             overrides: &[],
             document: &document,
         };
-        let raw: RawStudy = decode(&document, &KeyPath::default())
-            .map_err(|fault| source.error(in_study(fault)))?;
+        let read = || {
+            let raw: RawStudy = decode(&document, &KeyPath::default()).map_err(in_study)?;
+            raw.checked(&document)
+        };
+        let (raw, axes, settings) = read().map_err(|fault| source.error(fault))?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let checked =
-            Checked::from_document(&document, raw).map_err(|fault| source.error(fault))?;
         Ok(Self {
             path: path.to_owned(),
-            title: checked.title,
-            case: folder.join(checked.case),
-            geometry: checked.geometry.map(|geometry| folder.join(geometry)),
-            settings: checked.settings,
-            axes: checked.axes,
-            derived: checked.derived,
-            plots: checked.plots,
+            title: raw.title,
+            case: folder.join(raw.case),
+            geometry: raw.geometry.map(|geometry| folder.join(geometry)),
+            settings,
+            axes,
+            derived: raw.result,
+            plots: raw.plot,
             text,
             document,
         })
@@ -198,28 +212,18 @@ impl Study {
     }
 }
 
-/// A study whose parts were checked, before its text is kept with it.
-struct Checked {
-    title: String,
-    case: String,
-    geometry: Option<String>,
-    settings: Vec<Setting>,
-    axes: Vec<Axis>,
-    derived: Vec<Derived>,
-    plots: Vec<StudyPlot>,
-}
-
-impl Checked {
-    fn from_document(document: &Node, raw: RawStudy) -> Result<Self, KeyFault> {
+impl RawStudy {
+    /// The study once its parts were checked, beside its axes and the settings of all runs.
+    fn checked(mut self, document: &Node) -> Result<(Self, Vec<Axis>, Vec<Setting>), KeyFault> {
         let root = KeyPath::default();
         require(
-            !raw.case.is_empty(),
+            !self.case.is_empty(),
             || root.child("case"),
             "a path",
-            &raw.case,
+            &self.case,
         )?;
         let mut axes = Vec::new();
-        for (index, axis) in raw.axis.into_iter().enumerate() {
+        for (index, axis) in std::mem::take(&mut self.axis).into_iter().enumerate() {
             axes.push(axis.check(document, &root.child("axis").child(index))?);
         }
         if axes.is_empty() {
@@ -229,7 +233,7 @@ impl Checked {
             };
             return Err(KeyFault::new(root.child("axis"), fault));
         }
-        check_geometry(&axes, raw.geometry.is_some())?;
+        check_geometry(&axes, self.geometry.is_some())?;
         require_unique(
             axes.iter().enumerate().flat_map(|(index, axis)| {
                 let place = root.child("axis").child(index);
@@ -239,19 +243,12 @@ impl Checked {
             }),
             ": a key belongs to one axis; keys that vary together are `keys` of one",
         )?;
-        let derived = each_derived(raw.result, &root)?;
-        for (index, plot) in raw.plot.iter().enumerate() {
+        check_derived(&self.result, &root)?;
+        for (index, plot) in self.plot.iter().enumerate() {
             check_plot(plot, &axes, &root.child("plot").child(index))?;
         }
-        Ok(Self {
-            title: raw.title,
-            case: raw.case,
-            geometry: raw.geometry,
-            settings: settings(document)?,
-            axes,
-            derived,
-            plots: raw.plot,
-        })
+        let settings = settings(document)?;
+        Ok((self, axes, settings))
     }
 }
 
@@ -268,8 +265,11 @@ fn in_study(mut fault: KeyFault) -> KeyFault {
 fn check_geometry(axes: &[Axis], has_geometry: bool) -> Result<(), KeyFault> {
     let place = |index: usize| KeyPath::default().child("axis").child(index);
     let number = axes.iter().position(|axis| axis.of_geometry);
-    match (number, has_geometry) {
-        (Some(index), false) => {
+    let mesh = axes
+        .iter()
+        .position(|axis| !axis.of_geometry && axis.keys.iter().any(|key| key == "mesh.file"));
+    match (number, mesh, has_geometry) {
+        (Some(index), _, false) => {
             let fault = Fault::Required {
                 key: "geometry",
                 reason: "by an axis with a `number`: the Gmsh file of which it is one, relative to the folder of the study"
@@ -277,48 +277,35 @@ fn check_geometry(axes: &[Axis], has_geometry: bool) -> Result<(), KeyFault> {
             };
             Err(KeyFault::new(place(index), fault))
         }
-        (None, true) => {
+        (None, _, true) => {
             let fault = "no axis has a `number` of the geometry, so nothing would be meshed: add one, or name meshes by \
                          the key mesh.file";
             Err(KeyFault::new(KeyPath::default().child("geometry"), fault))
         }
-        (Some(_), true) => {
-            let meshes = |axis: &Axis| axis.keys.iter().any(|key| key == "mesh.file");
-            match axes
-                .iter()
-                .position(|axis| !axis.of_geometry && meshes(axis))
-            {
-                None => Ok(()),
-                Some(index) => {
-                    let fault = "the meshes are made from `geometry`: an axis cannot name others";
-                    Err(KeyFault::new(place(index), fault))
-                }
-            }
+        (Some(_), Some(index), true) => {
+            let fault = "the meshes are made from `geometry`: an axis cannot name others";
+            Err(KeyFault::new(place(index), fault))
         }
-        (None, false) => Ok(()),
+        _ => Ok(()),
     }
 }
 
-fn each_derived(raw: Vec<RawDerived>, root: &KeyPath) -> Result<Vec<Derived>, KeyFault> {
+fn check_derived(derived: &[Derived], root: &KeyPath) -> Result<(), KeyFault> {
     let place = |index: usize| root.child("result").child(index);
-    let mut derived = Vec::new();
-    for (index, RawDerived { name, of, over }) in raw.into_iter().enumerate() {
-        require_column_name(|| place(index).child("name"), &name)?;
-        let over = over.unwrap_or(1.0);
+    for (index, Derived { name, over, .. }) in derived.iter().enumerate() {
+        require_column_name(|| place(index).child("name"), name)?;
         require(
-            over != 0.0,
+            *over != 0.0,
             || place(index).child("over"),
             "other than 0",
-            over,
+            *over,
         )?;
-        derived.push(Derived { name, of, over });
     }
     let names = derived.iter().enumerate();
     require_unique(
         names.map(|(index, it)| (place(index).child("name"), it.name.as_str())),
         "",
-    )?;
-    Ok(derived)
+    )
 }
 
 fn check_plot(plot: &StudyPlot, axes: &[Axis], place: &KeyPath) -> Result<(), KeyFault> {

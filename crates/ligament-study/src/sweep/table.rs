@@ -18,33 +18,16 @@ pub(super) const INPUT: &str = "case.";
 
 /// A row a run, in the order of the study.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct StudyTable {
+pub(super) struct StudyTable {
     columns: Vec<Column>,
-    rows: usize,
 }
 
-/// A column: its cells have one type, or are null.
+/// A column, whose cells have one type or are null.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    /// Name of the column.
-    pub name: String,
-    /// Type of the cells.
-    pub kind: Kind,
+struct Column {
+    name: String,
     /// A cell a run.
-    pub cells: Vec<Cell>,
-}
-
-/// What the cells of a column are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Whole numbers of 64 bits.
-    Integer,
-    /// Numbers.
-    Number,
-    /// True or false.
-    Truth,
-    /// Texts.
-    Text,
+    cells: Vec<Cell>,
 }
 
 /// There is no such column of numbers.
@@ -53,11 +36,11 @@ pub enum Kind {
     "no column of numbers is called `{name}`{}",
     hint(name, known, "there are", '`')
 )]
-pub struct NoColumn {
+pub(super) struct NoColumn {
     /// The name.
-    pub name: String,
+    pub(super) name: String,
     /// The columns of numbers.
-    pub known: Vec<String>,
+    pub(super) known: Vec<String>,
 }
 
 /// A run as a row.
@@ -73,10 +56,7 @@ pub(super) struct Row<'a> {
 impl StudyTable {
     /// The table of some runs.
     pub(super) fn from_rows(study: &Study, rows: &[Row<'_>]) -> Self {
-        let mut table = Self {
-            columns: Vec::new(),
-            rows: rows.len(),
-        };
+        let mut table = Self::default();
         table.add("run", rows, |row| Cell::from(row.run.name.as_str()));
         table.add("status", rows, |row| Cell::from(row.status.word()));
         table.add_axes(study, rows);
@@ -147,33 +127,14 @@ impl StudyTable {
         self.push(name, rows.iter().map(cell).collect());
     }
 
-    fn push(&mut self, name: String, mut cells: Vec<Cell>) {
-        let kind = Kind::from_cells(&cells);
-        for cell in &mut cells {
-            if kind == Kind::Text && !cell.is_null() {
-                *cell = Cell::from(words(cell));
-            }
-        }
-        self.columns.push(Column { name, kind, cells });
-    }
-
-    /// Columns of the table: run, status, axes, derived results, results, error, folder, inputs (`case.` before their keys).
-    pub fn columns(&self) -> &[Column] {
-        &self.columns
-    }
-
-    /// Number of runs.
-    pub fn rows(&self) -> usize {
-        self.rows
+    fn push(&mut self, name: String, cells: Vec<Cell>) {
+        let cells = of_one_type(cells);
+        self.columns.push(Column { name, cells });
     }
 
     /// The numbers of a column, shape (n_runs); `None` where a run has none. An input may be called by its key alone.
-    ///
-    /// # Errors
-    ///
-    /// If no run has numbers under this name.
-    pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, NoColumn> {
-        let is_number = |column: &&Column| matches!(column.kind, Kind::Integer | Kind::Number);
+    pub(super) fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, NoColumn> {
+        let is_number = |column: &&Column| column.cells.iter().any(Cell::is_number);
         let by_name = |name: &str| self.columns.iter().find(|column| column.name == name);
         let found = by_name(name).or_else(|| by_name(&format!("{INPUT}{name}")));
         match found.filter(is_number) {
@@ -188,50 +149,49 @@ impl StudyTable {
     }
 
     /// Writes it as CSV; what a run does not have is an empty field.
-    ///
-    /// # Errors
-    ///
-    /// If the file cannot be written.
-    pub fn write_csv(&self, path: &Path) -> Result<(), ligament_output::Error> {
+    pub(super) fn write_csv(&self, path: &Path) -> Result<(), ligament_output::Error> {
         let names = self.columns.iter().map(|column| Value::Text(&column.name));
         let mut text = csv::line(&names.collect::<Vec<_>>());
-        for row in 0..self.rows {
-            let cells: Vec<Value<'_>> = self.columns.iter().map(|it| value(it, row)).collect();
+        let n_rows = self.columns.first().map_or(0, |column| column.cells.len());
+        for row in 0..n_rows {
+            let cells: Vec<Value<'_>> = self
+                .columns
+                .iter()
+                .map(|it| value(&it.cells[row]))
+                .collect();
             text += &csv::line(&cells);
         }
         ligament_output::replace_file(path, text.as_bytes())
     }
 }
 
-fn value(column: &Column, row: usize) -> Value<'_> {
-    match &column.cells[row] {
+fn value(cell: &Cell) -> Value<'_> {
+    match cell {
         Cell::Null => Value::Missing,
         Cell::Bool(true) => Value::Text("true"),
         Cell::Bool(false) => Value::Text("false"),
         Cell::String(text) => Value::Text(text),
-        number => match (column.kind, number.as_i64()) {
-            (Kind::Integer, Some(integer)) => Value::Integer(integer),
-            _ => Value::Float(number.as_f64().unwrap_or(f64::NAN)),
+        number => match number.as_i64() {
+            Some(integer) => Value::Integer(integer),
+            None => Value::Float(number.as_f64().unwrap_or(f64::NAN)),
         },
     }
 }
 
-impl Kind {
-    /// The narrowest that all cells have, of which null is any.
-    fn from_cells(cells: &[Cell]) -> Self {
-        let all = |is: fn(&Cell) -> bool| cells.iter().all(|cell| cell.is_null() || is(cell));
-        if cells.iter().all(Cell::is_null) {
-            Self::Text
-        } else if all(Cell::is_i64) {
-            Self::Integer
-        } else if all(Cell::is_number) {
-            Self::Number
-        } else if all(Cell::is_boolean) {
-            Self::Truth
-        } else {
-            Self::Text
-        }
+/// The cells of a column in the narrowest type that all have: whole numbers of 64 bits, numbers, truth values or texts; null
+/// is any.
+fn of_one_type(cells: Vec<Cell>) -> Vec<Cell> {
+    let all = |is: fn(&Cell) -> bool| cells.iter().all(|cell| cell.is_null() || is(cell));
+    if all(Cell::is_i64) || all(Cell::is_boolean) {
+        return cells;
     }
+    let are_numbers = all(Cell::is_number);
+    let cell = |cell: &Cell| match cell {
+        Cell::Null => Cell::Null,
+        number if are_numbers => Cell::from(number.as_f64()),
+        other => Cell::from(words(other)),
+    };
+    cells.iter().map(cell).collect()
 }
 
 fn results<'a>(row: &'a Row<'_>) -> Option<&'a Quantities> {
@@ -277,12 +237,17 @@ mod tests {
 
     #[test]
     fn columns_have_the_narrowest_type() {
-        assert_eq!(Kind::from_cells(&[json!(1), json!(null)]), Kind::Integer);
-        assert_eq!(Kind::from_cells(&[json!(1), json!(2.5)]), Kind::Number);
-        assert_eq!(Kind::from_cells(&[json!(u64::MAX)]), Kind::Number);
-        assert_eq!(Kind::from_cells(&[json!(true), json!(false)]), Kind::Truth);
-        assert_eq!(Kind::from_cells(&[json!(1), json!("a")]), Kind::Text);
-        assert_eq!(Kind::from_cells(&[json!(null)]), Kind::Text);
+        for (cells, typed) in [
+            (json!([1, null]), json!([1, null])),
+            (json!([1, 2.5]), json!([1.0, 2.5])),
+            (json!([u64::MAX]), json!([u64::MAX as f64])),
+            (json!([true, false]), json!([true, false])),
+            (json!([1, true, "a"]), json!(["1", "true", "a"])),
+            (json!([null]), json!([null])),
+        ] {
+            let cells = cells.as_array().unwrap().clone();
+            assert_eq!(Cell::from(of_one_type(cells)), typed);
+        }
     }
 
     #[test]

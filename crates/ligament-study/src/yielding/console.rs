@@ -9,11 +9,7 @@ use super::subject::Subject;
 
 /// Errors of all paths, a column a family, as MPPD Tables 7 to 9 have them; with the measure of those tables below
 /// each other.
-///
-/// # Errors
-///
-/// If the terminal cannot be written to.
-pub fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
+pub(super) fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
     let Comparison {
         criterion,
         subjects,
@@ -26,10 +22,7 @@ pub fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> 
         Ok(subject.family().worst(path).map(|it| it.error))
     })?;
     let has_table = |subject: &Subject| {
-        let paths = PATHS
-            .iter()
-            .map(|&[first, second]| PrincipalStretches::new(first, second));
-        let mut printed = paths.map(|path| subject.printed_measure(path));
+        let mut printed = PATHS.into_iter().map(|path| subject.printed_measure(path));
         printed.any(|it| matches!(it, Ok(Some(_))))
     };
     if subjects.iter().all(has_table) {
@@ -55,8 +48,7 @@ fn write_table(
     write_row(out, width, ["s1", "s2"].map(str::to_owned), names)?;
     let bonds = subjects.iter().map(|it| format!("{} bonds", it.size));
     write_row(out, width, ["at yield".to_owned(), String::new()], bonds)?;
-    for [first, second] in PATHS {
-        let path = PrincipalStretches::new(first, second);
+    for path in PATHS {
         let theory = subjects[0].family().theoretical_utilisation(path);
         let errors = subjects.iter().map(|subject| error(subject, path));
         let errors: Vec<Option<f64>> = errors.collect::<Result<_, _>>()?;

@@ -28,6 +28,15 @@ const WORDS: [(&str, &[Part]); 5] = [
     ("frictional", &[Part::Frictional]),
 ];
 
+/// The criteria of the paper's figures: single ones, and both slidings with the limits of stretch.
+const FIGURES: [&str; 5] = [
+    "stretch",
+    "sliding",
+    "frictional",
+    "sliding+stretch",
+    "frictional+stretch",
+];
+
 /// Criteria of which the first that is met decides: `sliding+stretch`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
@@ -71,20 +80,9 @@ impl FromStr for Combination {
 }
 
 impl Combination {
-    /// Combinations in the paper's figures: single criteria, and both slidings with the limits of stretch.
+    /// Combinations in the paper's figures.
     pub fn of_the_figures() -> Vec<Self> {
-        use Part::{Compression, Frictional, Sliding, Tension};
-        let named = |name: &str, parts: &[Part]| Self {
-            name: name.to_owned(),
-            parts: parts.to_vec(),
-        };
-        vec![
-            named("stretch", &[Tension, Compression]),
-            named("sliding", &[Sliding]),
-            named("frictional", &[Frictional]),
-            named("sliding+stretch", &[Sliding, Tension, Compression]),
-            named("frictional+stretch", &[Frictional, Tension, Compression]),
-        ]
+        FIGURES.iter().flat_map(|words| words.parse()).collect()
     }
 
     /// Name of the combination.
@@ -158,6 +156,13 @@ impl Combination {
 }
 
 impl Strengths {
+    /// The strengths of the MPPD paper's tables: nu = 0, and a compressive strength of three times the tensile one.
+    pub const OF_THE_TABLES: Self = Self {
+        poisson: 0.0,
+        ratio: 3.0,
+        calibration: Calibration::Printed,
+    };
+
     /// A bar with E = 1, so that stresses are strains.
     fn bar(&self) -> Isotropic {
         Isotropic {

@@ -15,27 +15,27 @@ use ligament_plot::plots::{Colour, Plot, Series};
 
 /// Families of bonds under one criterion, or several of which the first that is met decides.
 #[derive(Debug, Clone)]
-pub struct Comparison {
+pub(super) struct Comparison {
     /// The criterion.
-    pub criterion: String,
+    pub(super) criterion: String,
     /// The families.
-    pub subjects: Vec<Subject>,
+    pub(super) subjects: Vec<Subject>,
 }
 
 /// Paths of loading in the tables, s_1 to s_2: those of the paper's at F_c = 3 F_t.
-pub const PATHS: [[f64; 2]; 12] = [
-    [1.0, 1.0],
-    [0.5, 1.0],
-    [0.0, 1.0],
-    [-1.0, 2.0],
-    [-1.0, 1.0],
-    [-3.0, 2.0],
-    [-2.0, 1.0],
-    [-3.0, 1.0],
-    [-6.0, 1.0],
-    [-1.0, 0.0],
-    [-1.0, -0.5],
-    [-1.0, -1.0],
+pub(super) const PATHS: [PrincipalStretches; 12] = [
+    PrincipalStretches::new(1.0, 1.0),
+    PrincipalStretches::new(0.5, 1.0),
+    PrincipalStretches::new(0.0, 1.0),
+    PrincipalStretches::new(-1.0, 2.0),
+    PrincipalStretches::new(-1.0, 1.0),
+    PrincipalStretches::new(-3.0, 2.0),
+    PrincipalStretches::new(-2.0, 1.0),
+    PrincipalStretches::new(-3.0, 1.0),
+    PrincipalStretches::new(-6.0, 1.0),
+    PrincipalStretches::new(-1.0, 0.0),
+    PrincipalStretches::new(-1.0, -0.5),
+    PrincipalStretches::new(-1.0, -1.0),
 ];
 
 /// Paths of a locus: one a degree.
@@ -48,11 +48,7 @@ const ORIENTATION_STEP: f64 = 0.9;
 const WINDOW: f64 = 4.0;
 
 /// Writes the tables `yield.csv`, `orientation.csv`, `locus.csv` and the diagrams of them.
-///
-/// # Errors
-///
-/// If a file cannot be written.
-pub fn write(
+pub(super) fn write(
     folder: &ResultFolder,
     comparisons: &[Comparison],
     strains: &[Strain],
@@ -107,8 +103,7 @@ fn write_summary(folder: &ResultFolder, comparisons: &[Comparison]) -> anyhow::R
     for comparison in comparisons {
         for subject in &comparison.subjects {
             let family = subject.family();
-            for [first, second] in PATHS {
-                let path = PrincipalStretches::new(first, second);
+            for path in PATHS {
                 let Some(worst) = family.worst(path) else {
                     continue;
                 };

@@ -42,14 +42,14 @@ struct Layer {
 fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyhow::Result<()> {
     let model = model(case)?;
     let system = &model.system;
-    let poisson = poisson(request, case, &model)?;
+    let poisson = poisson(request, &model)?;
     let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
     let sizes: Vec<i64> = (0..system.cloud.len() as u32)
         .map(|point| system.bonds.incidence.at(point).len() as i64)
         .collect();
     let size = mean_size(&sizes, &is_interior);
     let ratio = lattice::ratio_of_size(size);
-    let criteria = criteria(request, case, &model)?;
+    let criteria = criteria(request, &model)?;
     let layers = layers(request, &model, criteria, &poisson, ratio)?;
     if layers
         .iter()

@@ -10,14 +10,14 @@
 
 use std::io::Write;
 
-pub mod console;
+mod console;
 pub mod criteria;
-pub mod diagrams;
-pub mod error;
+mod diagrams;
+mod error;
 mod field;
 mod of_case;
 mod point;
-pub mod request;
+mod request;
 pub mod subject;
 
 use criteria::Combination;

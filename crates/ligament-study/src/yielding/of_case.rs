@@ -1,20 +1,19 @@
 //! A case whose families are looked at: its model, its criteria and Poisson's ratio in the plane.
 
-use ligament_model::Isotropic;
 use ligament_model::failure::Criteria;
-use ligament_model::law::bbpd;
 
 use super::error::YieldError;
 use super::request::Request;
-use ligament_case::case::{CaseFile, Law};
-use ligament_case::setup;
+use ligament::formulation::constants;
+use ligament::setup::Law;
+use ligament_case::case::CaseFile;
 use ligament_run::model::{Model, build_model};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
 /// The model of a case whose bonds have directions.
 pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
-    if case.case.model.law == Law::MbbPd {
+    if matches!(case.case.model.law.0, Law::MbbPd { .. }) {
         return Err(YieldError::NoDirections.into());
     }
     let progress = Progress::new(ProgressMode::Quiet);
@@ -24,12 +23,11 @@ pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
 /// The criteria with their names: those of the request, or each of the case's and, where there are several, all together.
 pub(super) fn criteria(
     request: &Request,
-    case: &CaseFile,
     model: &Model,
 ) -> anyhow::Result<Vec<(String, Criteria)>> {
     let n_bonds = model.system.bonds.len();
     if !request.combinations.is_empty() {
-        let values = poisson(request, case, model)?;
+        let values = poisson(request, model)?;
         let first = values[0];
         if values.iter().any(|it| *it != first) {
             let which = "several Poisson's ratios";
@@ -67,25 +65,16 @@ pub(super) fn criteria(
 }
 
 /// Poisson's ratio in the plane at each point (n_points): the mean over its materials.
-pub(super) fn poisson(
-    request: &Request,
-    case: &CaseFile,
-    model: &Model,
-) -> Result<Vec<f64>, YieldError> {
+pub(super) fn poisson(request: &Request, model: &Model) -> Result<Vec<f64>, YieldError> {
     let cloud = &model.system.cloud;
     if let Some(poisson) = request.poisson {
         return Ok(vec![poisson; cloud.len()]);
     }
-    let plane = setup::plane(case);
-    let of_materials: Option<Vec<f64>> = (setup::materials(case).iter())
-        .map(|material| {
-            let given: Isotropic = material.elasticity.isotropic()?;
-            let constants = if case.case.model.law.fixes_poisson() {
-                bbpd::central(&given, plane)
-            } else {
-                given
-            };
-            Some(constants.in_plane(plane).poisson)
+    let setup = &model.setup;
+    let of_materials: Option<Vec<f64>> = (setup.materials.iter())
+        .map(|region| {
+            let constants = constants(&region.material, &setup.law, setup.plane())?;
+            Some(constants.in_plane(setup.plane()).poisson)
         })
         .collect();
     let which = "an orthotropic material";

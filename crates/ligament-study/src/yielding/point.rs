@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use ligament_model::yielding::{PrincipalStretches, lattice};
+use ligament_model::yielding::lattice;
 
 use super::console;
 use super::diagrams::{self, Comparison};
@@ -25,10 +25,10 @@ pub(super) fn draw(
     on_threads(case.threads(), || {
         let model = model(case)?;
         let point = find(&model, place)?;
-        let poisson = poisson(request, case, &model)?[point as usize];
+        let poisson = poisson(request, &model)?[point as usize];
         let label = model.body().label(point);
         let mut comparisons = Vec::new();
-        for (criterion, criteria) in criteria(request, case, &model)? {
+        for (criterion, criteria) in criteria(request, &model)? {
             let subject = Subject::of_point(label.clone(), &model.system, &criteria, point);
             comparisons.push(Comparison {
                 criterion,
@@ -46,8 +46,7 @@ pub(super) fn draw(
         let strains = Strain::of_the_figures(poisson);
         let yields = |it: &Comparison| {
             let family = it.subjects[0].family();
-            let paths = diagrams::PATHS.iter();
-            let mut paths = paths.map(|&[first, second]| PrincipalStretches::new(first, second));
+            let mut paths = diagrams::PATHS.into_iter();
             paths.any(|path| family.theoretical_utilisation(path) > 0.0)
         };
         if !comparisons.iter().any(yields) {

@@ -10,7 +10,7 @@ use super::criteria::{Combination, Strengths};
 use super::error::{RATIOS, YieldError};
 
 /// The file by which a folder is known to hold yield domains.
-pub const SUMMARY: &str = "yield.csv";
+pub(super) const SUMMARY: &str = "yield.csv";
 
 /// A request to `ligament yield`: the subject, and where to write.
 #[derive(Debug)]

@@ -20,13 +20,13 @@ pub fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::Result<(
 }
 
 /// Says on the console what is run next.
-pub fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::Result<()> {
+pub(crate) fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::Result<()> {
     writeln!(console, "{}: {}", experiment.name, experiment.title)?;
     console.flush()
 }
 
 /// Shows the tables of an experiment on the console.
-pub fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
+pub(crate) fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
     for table in &findings.tables {
         let Printable { head, rows, notes } = Printable::from_table(table);
         writeln!(

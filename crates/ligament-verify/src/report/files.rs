@@ -9,29 +9,21 @@ use crate::table::Table;
 use crate::tally::Tally;
 
 /// The file by which a folder is known to hold a report: a row an experiment.
-pub const SUMMARY: &str = "verification.csv";
+pub(crate) const SUMMARY: &str = "verification.csv";
 
 /// The table of experiments, which grows while they are run.
-pub struct Summary(csv::Table);
+pub(crate) struct Summary(csv::Table);
 
 impl Summary {
     /// Creates the table in a folder.
-    ///
-    /// # Errors
-    ///
-    /// If it cannot be written.
-    pub fn create(folder: &ResultFolder) -> Result<Self, ligament_output::Error> {
+    pub(crate) fn create(folder: &ResultFolder) -> Result<Self, ligament_output::Error> {
         let columns = ["experiment", "source", "entries"].into_iter();
         let columns: Vec<&str> = columns.chain(Verdict::ALL.map(Verdict::words)).collect();
         csv::Table::create(folder.file(SUMMARY), &columns).map(Self)
     }
 
     /// Adds an experiment.
-    ///
-    /// # Errors
-    ///
-    /// If the table cannot be written.
-    pub fn append(
+    pub(crate) fn append(
         &mut self,
         experiment: &Experiment,
         tally: &Tally,
@@ -50,11 +42,7 @@ impl Summary {
 }
 
 /// Writes the tables of an experiment as CSV and its plots as SVG.
-///
-/// # Errors
-///
-/// If a file cannot be written, or a plot has no points.
-pub fn write(folder: &ResultFolder, findings: &Findings) -> anyhow::Result<()> {
+pub(crate) fn write(folder: &ResultFolder, findings: &Findings) -> anyhow::Result<()> {
     for table in &findings.tables {
         write_csv(folder, table)?;
     }

@@ -9,7 +9,7 @@ use crate::table::{Extent, Table};
 use crate::tally::Tally;
 
 /// The report as Markdown.
-pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
+pub(crate) fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
     let mut text = String::from(INTRODUCTION);
     if extent == Extent::Fast {
         text.push_str("\nThis is the fast subset (`--fast`).\n");
@@ -39,7 +39,7 @@ pub fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
             experiment
                 .cases
                 .iter()
-                .map(|path| format!("`{path}`"))
+                .map(|case| format!("`{}`", case.path))
                 .collect::<Vec<_>>()
                 .join(", ")
         );

@@ -6,8 +6,8 @@ use super::entry::Standing;
 use super::table::{Row, Table};
 
 pub mod console;
-pub mod files;
-pub mod markdown;
+pub(super) mod files;
+pub(super) mod markdown;
 
 /// A table as words.
 struct Printable {
@@ -83,6 +83,7 @@ mod tests {
     use crate::published::known_values;
     use crate::table::{Extent, Labels};
     use crate::tally::Tally;
+    use crate::trial::Template;
 
     const TABLE: &str = "\
 # title: First mode
@@ -96,12 +97,23 @@ nu,known,allowed,subset,standing,instead,reason
 0.25,1565.9,1 %,fast,,,
 ";
 
+    static CASES: [Template; 2] = [
+        Template {
+            path: "cases/a.toml",
+            text: "",
+        },
+        Template {
+            path: "cases/b.toml",
+            text: "",
+        },
+    ];
+
     const EXPERIMENT: Experiment = Experiment {
         name: "modes",
         title: "Modes",
         source: "Author 2019",
         setup: "A lamina.",
-        cases: &["cases/a.toml", "cases/b.toml"],
+        cases: &[&CASES[0], &CASES[1]],
         compute: |_| findings(),
     };
 

@@ -76,3 +76,12 @@ pub fn event() -> EventSettings {
         stop: StopRules::NONE,
     }
 }
+
+/// Settings of an analysis of the ten lowest modes, rigid ones included.
+pub fn modal() -> ModalSettings {
+    ModalSettings {
+        modes: 10,
+        rotations: None,
+        tolerance: 1e-10,
+    }
+}

@@ -1,10 +1,16 @@
 //! What a setup says must go together before anything is made of it.
 
-use ligament_model::{Elasticity, Isotropic, Material, Plane};
+use std::borrow::Cow;
+use std::fmt::Debug;
 
-use super::{Action, Analysis, Horizon, Law, MaterialRegion, Setup, Surface};
+use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
+
+use super::{Action, Alpha, Analysis, Calibration, Form, Horizon, Law, Load, Place};
+use super::{Reading, Setup, Strains, Surface};
+use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Alpha, Calibration, Form, Reading, Strains};
+
+type Checked = Result<(), SetupError>;
 
 impl Setup {
     /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
@@ -12,158 +18,129 @@ impl Setup {
     /// # Errors
     ///
     /// If a field is out of range, missing, or does not go with another.
-    pub fn check(&self) -> Result<(), SetupError> {
-        let thickness = self.thickness();
-        require(
-            thickness > 0.0,
+    pub fn check(&self) -> Checked {
+        positive(
             Field::whole("section").part("thickness"),
-            "greater than 0",
-            thickness,
+            Some(self.thickness()),
         )?;
         match self.horizon {
-            Horizon::Factor(factor) => {
-                require(factor >= 1.0, Field::whole("horizon"), "at least 1", factor)?;
-            }
-            Horizon::Length(length) => {
-                require(
-                    length > 0.0,
-                    Field::whole("horizon"),
-                    "greater than 0",
-                    length,
-                )?;
-            }
+            Horizon::Factor(factor) => require(
+                factor >= 1.0 && factor.is_finite(),
+                Field::whole("horizon"),
+                "at least 1",
+                factor,
+            )?,
+            Horizon::Length(length) => positive(Field::whole("horizon"), Some(length))?,
         }
         if self.materials.is_empty() {
-            let fault =
-                Fault::Contradiction("there is no material: give one, or one for each group");
-            return Err(Field::whole("materials").error(fault));
+            let reason = "there is no material: give one, or one for each group";
+            return contradiction(Field::whole("materials"), reason);
         }
         for (index, region) in self.materials.iter().enumerate() {
-            self.check_material(Field::element("materials", index), region)?;
+            self.check_material(Field::element("materials", index), &region.material)?;
         }
         self.check_criteria()?;
-        self.check_law()?;
-        let loads = self.loads.iter().map(|it| it.name.as_str());
-        require_unique("loads", loads)?;
+        self.check_strains_of_bonds()?;
+        self.check_correction()?;
+        self.check_load_factors()?;
+        self.check_precracks()?;
+        require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
-        self.check_loads()
-    }
-
-    fn check_loads(&self) -> Result<(), SetupError> {
+        for (index, support) in self.supports.iter().enumerate() {
+            if support.components().next().is_none() {
+                return contradiction(Field::element("supports", index), NO_COMPONENT);
+            }
+        }
         for (index, load) in self.loads.iter().enumerate() {
-            let field = Field::element("loads", index);
-            if let Some(profile) = load.profile {
-                let expected = "another coordinate than `zero`: the load is as given there";
-                require(
-                    profile.one != profile.zero,
-                    field.part("profile.one"),
-                    expected,
-                    profile.one,
-                )?;
-            }
-            let has_value = match load.action {
-                Action::Displacement(it) => it.components().next().is_some(),
-                Action::Force(it) | Action::ForcePerLength(it) | Action::BodyForce(it) => {
-                    it != [0.0; 2]
-                }
-                Action::Moment(it) | Action::BodyCouple(it) | Action::Pressure(it) => it != 0.0,
-            };
-            if !has_value {
-                let fault = Fault::Contradiction(
-                    "this load does nothing: give one of its components a value other than 0",
-                );
-                return Err(field.part("action").error(fault));
-            }
+            check_load(Field::element("loads", index), load)?;
         }
-        Ok(())
+        self.check_probes()
     }
 
-    fn check_material(&self, field: Field, region: &MaterialRegion) -> Result<(), SetupError> {
-        let material = &region.material;
-        if let Elasticity::Isotropic(Isotropic { young, poisson }) = material.elasticity {
-            require(
-                young > 0.0,
-                field.part("elasticity.young"),
-                "greater than 0",
-                young,
-            )?;
-            let expected = "greater than -1 and less than 0.5";
-            require(
-                poisson > -1.0 && poisson < 0.5,
-                field.part("elasticity.poisson"),
-                expected,
-                poisson,
-            )?;
-        }
+    fn check_material(&self, field: Field, material: &Material) -> Checked {
+        check_constants(field, &material.elasticity)?;
         for (part, value) in [
             ("tensile_strength", material.tensile_strength),
             ("compressive_strength", material.compressive_strength),
             ("fracture_energy", material.fracture_energy),
+            ("fracture_energy_sliding", material.fracture_energy_sliding),
+            ("mixed_mode_exponent", material.mixed_mode_exponent),
             ("density", material.density),
         ] {
-            if let Some(value) = value {
-                require(value > 0.0, field.part(part), "greater than 0", value)?;
-            }
+            positive(field.part(part), value)?;
         }
         if matches!(self.analysis, Analysis::Modal(_)) && material.density.is_none() {
-            let fault = Fault::Missing {
-                property: "density",
-                reason: "(in kg/m^3) because a modal analysis needs masses".to_owned(),
-            };
-            return Err(field.part("density").error(fault));
+            let reason = "(in kg/m^3) because a modal analysis needs masses";
+            return missing(field, "density", reason);
         }
-        self.check_elasticity(field, material)
-    }
-
-    fn check_elasticity(&self, field: Field, material: &Material) -> Result<(), SetupError> {
-        let field = field.part("elasticity");
-        let suits = match material.elasticity {
-            Elasticity::Isotropic(_) => true,
-            Elasticity::Orthotropic(_) => {
-                matches!(self.law, Law::Orthotropic { .. } | Law::MbbPd { .. })
-            }
-            Elasticity::Anisotropic(_) => matches!(self.law, Law::MbbPd { .. }),
+        let elasticity = field.part("elasticity");
+        let (what, laws, is_suited) = match material.elasticity {
+            Elasticity::Isotropic(_) => ("", "", true),
+            Elasticity::Orthotropic(_) => (
+                "an orthotropic",
+                "`Law::Orthotropic` or `Law::MbbPd`",
+                matches!(self.law, Law::Orthotropic { .. } | Law::MbbPd { .. }),
+            ),
+            Elasticity::Anisotropic(_) => (
+                "an anisotropic",
+                "`Law::MbbPd`",
+                matches!(self.law, Law::MbbPd { .. }),
+            ),
         };
-        if !suits {
-            let fault = Fault::Contradiction(
-                "the law is one for isotropic materials: an orthotropic material needs `Law::Orthotropic` or `Law::MbbPd`, an \
-                 anisotropic one `Law::MbbPd`",
-            );
-            return Err(field.error(fault));
+        if !is_suited {
+            let others = match self.law {
+                Law::Orthotropic { .. } => "orthotropic",
+                _ => "isotropic",
+            };
+            let law = self.law.name();
+            let reason =
+                format!("{what} material needs {laws}: \"{law}\" is a law for {others} ones");
+            return contradiction(elasticity, reason);
+        }
+        // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
+        if self.plane() == Plane::Stress
+            || matches!(material.elasticity, Elasticity::Anisotropic(_))
+        {
+            return Ok(());
+        }
+        if material.expansion.is_some_and(|it| it.across.is_none()) {
+            let reason = "(in 1/K) because of plane strain, where it widens the plane";
+            return missing(field, "expansion.across", reason);
         }
         match material.elasticity {
-            Elasticity::Orthotropic(it)
-                if it.out_of_plane.is_none() && self.plane() == Plane::Strain =>
-            {
-                let fault = Fault::Missing {
-                    property: "out_of_plane",
-                    reason: "because of plane strain".to_owned(),
-                };
-                Err(field.error(fault))
+            Elasticity::Orthotropic(it) if it.out_of_plane.is_none() => {
+                missing(field, "elasticity.out_of_plane", "because of plane strain")
             }
             _ => Ok(()),
         }
     }
 
-    fn check_criteria(&self) -> Result<(), SetupError> {
+    fn check_criteria(&self) -> Checked {
         let on_exact_path = matches!(self.analysis, Analysis::Event(_));
         let takes_strains = matches!(self.law, Law::MbbPd { .. });
         if self.analysis.is_fracture() && self.criteria.is_empty() {
-            let fault =
-                Fault::Contradiction("bonds break by a criterion, and there is none: give one");
-            return Err(Field::whole("criteria").error(fault));
+            let reason = "bonds break by a criterion, and there is none: give one";
+            return contradiction(Field::whole("criteria"), reason);
         }
         for (index, choice) in self.criteria.iter().enumerate() {
             let field = Field::element("criteria", index);
             choice
                 .check(on_exact_path)
                 .map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
+            let (kind, law) = (choice.kind.word, self.law.name());
             if choice.kind.takes_strains() != takes_strains {
-                let fault = Fault::Contradiction(
-                    "`mixed-mode` looks at strains of the bond's own, which only `Law::MbbPd` has, and the other criteria at stretch \
-                     and sliding, which it does not have",
-                );
-                return Err(field.part("kind").error(fault));
+                let reason = if takes_strains {
+                    format!(
+                        "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of `Law::MbbPd` have \
+                         strains of their own: take \"mixed-mode\""
+                    )
+                } else {
+                    format!(
+                        "\"{kind}\" looks at strains of the bond's own, which only `Law::MbbPd` has: for \"{law}\" take \
+                         \"critical-stretch\" or \"bond-energy\""
+                    )
+                };
+                return contradiction(field.part("kind"), reason);
             }
             for (place, region) in self.materials.iter().enumerate() {
                 let field = Field::element("materials", place);
@@ -174,71 +151,252 @@ impl Setup {
         Ok(())
     }
 
-    /// Laws leave not everything open.
-    fn check_law(&self) -> Result<(), SetupError> {
-        let contradiction = |field: Field, reason| Err(field.error(Fault::Contradiction(reason)));
-        let (law, correction) = (Field::whole("law"), Field::whole("correction"));
+    fn check_correction(&self) -> Checked {
+        let (alpha, surface) = (self.correction.alpha, self.correction.surface);
+        let field = Field::whole("correction");
         let is_discrete = self.law.calibration() == Some(Calibration::Discrete);
-        if is_discrete && self.correction.surface == Surface::Volume {
+        if is_discrete && surface == Surface::Volume {
             let reason = "the discrete calibration has the surfaces in its sums: take `Surface::None`, or `Calibration::Integral`";
-            return contradiction(correction.part("surface"), reason);
+            return contradiction(field.part("surface"), reason);
         }
+        if !matches!(self.law, Law::MbbPd { .. }) {
+            return Ok(());
+        }
+        if alpha != Alpha::None {
+            let reason =
+                "the factors psi of `Law::MbbPd` make all energies right: take `Alpha::None`";
+            return contradiction(field.part("alpha"), reason);
+        }
+        if surface != Surface::None {
+            let reason =
+                "the factors psi of `Law::MbbPd` make all energies right: take `Surface::None`";
+            return contradiction(field.part("surface"), reason);
+        }
+        Ok(())
+    }
+
+    /// Elements with strains of their own need rows and columns, and not all analyses take all of their variants.
+    fn check_strains_of_bonds(&self) -> Checked {
         let Law::MbbPd { form, strains } = self.law else {
             return Ok(());
         };
-        let lattice_cell = match self.body.origin() {
-            crate::body::Origin::Lattice(lattice) => Some(lattice.spacing),
-            _ => None,
-        };
-        if lattice_cell.is_none_or(|[dx, dy]| dx != dy) {
-            let reason = "the law classes bonds by the rows and columns of a lattice of square cells: give it one, or take another law";
+        let law = Field::whole("law");
+        let Origin::Lattice(lattice) = self.body.origin() else {
+            let reason = "`Law::MbbPd` classes bonds by the rows and columns of a lattice of square cells: give `LatticeBody`, or take \
+                          another law";
             return contradiction(law, reason);
-        }
-        if self.correction.alpha != Alpha::None || self.correction.surface != Surface::None {
-            let reason = "the factors psi of the law make all energies right: take `Alpha::None` and `Surface::None`";
-            return contradiction(correction, reason);
+        };
+        if lattice.spacing[0] != lattice.spacing[1] {
+            let reason = "the cells must be square for `Law::MbbPd`";
+            return contradiction(Field::whole("body").part("spacing"), reason);
         }
         let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
-        if form == Form::Pairwise
-            && !(is_elastic && self.precracks.is_empty() && strains == Strains::Small)
-        {
-            let reason = "the printed forces are not those of an energy: the form is for elastic analyses of whole bodies with small \
-                          strains; take `Form::Full`";
+        if form == Form::Pairwise {
+            let reason = if !is_elastic {
+                "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be \
+                 followed: it is for elastic analyses; take `Form::Full`"
+            } else if !self.precracks.is_empty() {
+                "the printed factors are those of whole families: it takes no pre-cracks; take `Form::Full`"
+            } else if strains == Strains::True {
+                "it takes `Strains::Small` alone"
+            } else {
+                return Ok(());
+            };
             return contradiction(law.part("form"), reason);
         }
         if strains == Strains::True && !is_elastic {
-            let reason = "true strains are not proportional to the load: they are for elastic analyses; take `Strains::Small`";
+            let reason = "true strains are not proportional to the load, as the paths of fracture and modes are: they are for elastic \
+                          analyses; take `Strains::Small`";
             return contradiction(law.part("strains"), reason);
         }
-        let is_section = |reading: &Reading| matches!(reading, Reading::Section { .. });
-        match self.probes.iter().position(|it| is_section(&it.reading)) {
-            Some(index) => {
-                let reason = "the elements of the law couple up to six points, so that their forces go through no line: the forces of \
-                              supports and loads are in the history";
-                contradiction(Field::element("probes", index).part("reading"), reason)
-            }
-            None => Ok(()),
+        Ok(())
+    }
+
+    fn check_load_factors(&self) -> Checked {
+        let Analysis::Stepped(settings) = &self.analysis else {
+            return Ok(());
+        };
+        let (list, factors) = ("analysis.load_factors", &settings.load_factors);
+        require(
+            !factors.is_empty(),
+            Field::whole(list),
+            "one load factor or more",
+            factors,
+        )?;
+        let before = [0.0].into_iter().chain(factors.iter().copied());
+        for (index, (before, &factor)) in before.zip(factors).enumerate() {
+            let expected = format!("a number other than the load factor before it, {before:?}");
+            let moves = factor.is_finite() && factor != before;
+            require(moves, Field::element(list, index), expected, factor)?;
         }
+        Ok(())
+    }
+
+    fn check_precracks(&self) -> Checked {
+        for (index, crack) in self.precracks.iter().enumerate() {
+            let field = Field::element("precracks", index).part("points");
+            let points = &crack.points;
+            require(points.len() >= 2, field, "two points or more", points)?;
+            for pair in points.windows(2) {
+                let expected = "another point than the one before it";
+                require(pair[0] != pair[1], field, expected, pair[1])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_probes(&self) -> Checked {
+        for (index, probe) in self.probes.iter().enumerate() {
+            let field = Field::element("probes", index).part("reading");
+            if matches!(probe.reading, Reading::Section { .. })
+                && matches!(self.law, Law::MbbPd { .. })
+            {
+                let reason = "the elements of `Law::MbbPd` couple up to six points, so that their forces go through no line: the \
+                              forces of supports and loads are in the history";
+                return contradiction(field, reason);
+            }
+            if let Reading::Between {
+                positions: ends, ..
+            }
+            | Reading::Section { line: ends, .. } = probe.reading
+            {
+                require(ends[0] != ends[1], field, "two different points", ends)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+const NO_COMPONENT: &str = "needs one of `x`, `y`, `rotation` or more";
+
+/// Moduli are positive, and every strain costs energy.
+fn check_constants(field: Field, elasticity: &Elasticity) -> Checked {
+    match elasticity {
+        Elasticity::Isotropic(Isotropic { young, poisson }) => {
+            positive(field.part("elasticity.young"), Some(*young))?;
+            require(
+                *poisson > -1.0 && *poisson < 0.5,
+                field.part("elasticity.poisson"),
+                "greater than -1 and less than 0.5",
+                poisson,
+            )
+        }
+        Elasticity::Orthotropic(constants) => check_orthotropic(field, constants),
+        Elasticity::Anisotropic(constants) => check_anisotropic(field, constants),
+    }
+}
+
+fn check_orthotropic(field: Field, constants: &Orthotropic) -> Checked {
+    for young in constants.young {
+        positive(field.part("elasticity.young"), Some(young))?;
+    }
+    let shear_modulus = Some(constants.shear_modulus);
+    positive(field.part("elasticity.shear_modulus"), shear_modulus)?;
+    require(
+        constants.is_stable(),
+        field.part("elasticity.poisson"),
+        "so small that every strain costs energy (nu_12^2 < E_1/E_2, and the like across the plane)",
+        constants.poisson,
+    )
+}
+
+fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {
+    let c = &constants.stiffness;
+    for (part, [row, column], words) in [
+        ("elasticity.c12", [0, 1], "c12^2 < c11 c22"),
+        ("elasticity.c16", [0, 2], "c16^2 < c11 c66"),
+        ("elasticity.c26", [1, 2], "c26^2 < c22 c66"),
+    ] {
+        let (coupling, both) = (c[(row, column)], c[(row, row)] * c[(column, column)]);
+        let expected = format!("so small that every strain costs energy ({words})");
+        let holds = coupling * coupling < both;
+        require(holds, field.part(part), expected, coupling)?;
+    }
+    if constants.is_stable() {
+        return Ok(());
+    }
+    let reason = "the stiffness c11 to c66 is not positive definite: some strain would cost no energy, or give some back; \
+                  c12, c16 and c26 are too large together";
+    contradiction(field.part("elasticity"), reason)
+}
+
+/// A load does something, along a curve where it is spread along one.
+fn check_load(field: Field, load: &Load) -> Checked {
+    if let Some(profile) = load.profile {
+        require(
+            profile.one != profile.zero,
+            field.part("profile.one"),
+            "another coordinate than `zero`: the load is as given there",
+            profile.one,
+        )?;
+    }
+    let action = field.part("action");
+    match load.action {
+        Action::Displacement(it) if it.components().next().is_none() => {
+            return contradiction(action, NO_COMPONENT);
+        }
+        Action::Force([0.0, 0.0])
+        | Action::ForcePerLength([0.0, 0.0])
+        | Action::BodyForce([0.0, 0.0]) => {
+            let reason = "this load does nothing: neither `x` nor `y` is given a value";
+            return contradiction(action, reason);
+        }
+        Action::Moment(value) | Action::BodyCouple(value) | Action::Pressure(value) => {
+            let expected = "other than 0, or the load does nothing";
+            require(value != 0.0, action, expected, value)?;
+        }
+        _ => {}
+    }
+    match (load.action, &load.place) {
+        (Action::BodyForce(_) | Action::BodyCouple(_), Place::At(_)) => contradiction(
+            field.part("place"),
+            "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
+        ),
+        (Action::ForcePerLength(_) | Action::Pressure(_), Place::Group(_)) => Ok(()),
+        (Action::ForcePerLength(_), _) => contradiction(
+            action,
+            "acts along the curve of a `group`, so the load needs one",
+        ),
+        (Action::Pressure(_), _) => contradiction(
+            action,
+            "acts on the outline of a `group`, so the load needs one",
+        ),
+        _ => Ok(()),
     }
 }
 
 fn require(
     holds: bool,
     field: Field,
-    expected: &'static str,
-    found: f64,
-) -> Result<(), SetupError> {
+    expected: impl Into<Cow<'static, str>>,
+    found: impl Debug,
+) -> Checked {
     if holds {
         return Ok(());
     }
-    let found = format!("{found:?}");
+    let (expected, found) = (expected.into(), format!("{found:?}"));
     Err(field.error(Fault::OutOfRange { expected, found }))
 }
 
-fn require_unique<'a>(
-    list: &'static str,
-    names: impl Iterator<Item = &'a str> + Clone,
-) -> Result<(), SetupError> {
+/// Fails where there is a value that is not greater than zero, or is none.
+fn positive(field: Field, value: Option<f64>) -> Checked {
+    let value = value.unwrap_or(1.0);
+    require(!value.is_infinite(), field, "a finite number", value)?;
+    require(value > 0.0, field, "greater than 0", value)
+}
+
+fn contradiction(field: Field, reason: impl Into<Cow<'static, str>>) -> Checked {
+    Err(field.error(Fault::Contradiction(reason.into())))
+}
+
+fn missing(field: Field, property: &'static str, reason: &str) -> Checked {
+    let reason = reason.to_owned();
+    Err(field
+        .part(property)
+        .error(Fault::Missing { property, reason }))
+}
+
+fn require_unique<'a>(list: &'static str, names: impl Iterator<Item = &'a str> + Clone) -> Checked {
     for (index, name) in names.clone().enumerate() {
         if let Some(first) = names.clone().take(index).position(|it| it == name) {
             let fault = Fault::NameTwice {

@@ -81,19 +81,118 @@ pub enum Strains {
     True,
 }
 
+/// What a law leaves open, to be chosen; none of what the law settles itself.
+#[derive(Debug, Default)]
+pub struct Open<'a> {
+    /// Origin of the constants.
+    pub calibration: Option<&'a mut Calibration>,
+    /// Stiffness against relative rotation.
+    pub rotational_stiffness: Option<&'a mut RotationalStiffness>,
+    /// Strains that the bonds resist.
+    pub form: Option<&'a mut Form>,
+    /// Distances that the strains are taken over.
+    pub strains: Option<&'a mut Strains>,
+}
+
 impl Law {
+    /// All laws, each with the usual choice of what it leaves open.
+    pub const ALL: [Self; 8] = [
+        Self::Nhpd,
+        Self::Bbpd {
+            calibration: Calibration::Integral,
+        },
+        Self::BbpdConical {
+            calibration: Calibration::Integral,
+        },
+        Self::Pds {
+            calibration: Calibration::Integral,
+        },
+        Self::Mppd {
+            calibration: Calibration::Integral,
+            rotational_stiffness: RotationalStiffness::Decaying,
+        },
+        Self::MppdBeam {
+            calibration: Calibration::Discrete,
+        },
+        Self::Orthotropic {
+            rotational_stiffness: RotationalStiffness::Decaying,
+        },
+        Self::MbbPd {
+            form: Form::Full,
+            strains: Strains::Small,
+        },
+    ];
+
     /// Name of the law as papers and case files abbreviate it.
-    pub fn name(&self) -> &'static str {
+    pub const fn name(&self) -> &'static str {
+        self.words()[0]
+    }
+
+    /// Name of the law and what it is, in a sentence.
+    pub const fn words(&self) -> [&'static str; 2] {
         match self {
-            Self::Nhpd => "nhpd",
-            Self::Bbpd { .. } => "bbpd",
-            Self::BbpdConical { .. } => "bbpd-conical",
-            Self::Pds { .. } => "pds",
-            Self::Mppd { .. } => "mppd",
-            Self::MppdBeam { .. } => "mppd-beam",
-            Self::Orthotropic { .. } => "orthotropic",
-            Self::MbbPd { .. } => "mbb-pd",
+            Self::Nhpd => [
+                "nhpd",
+                "Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.",
+            ],
+            Self::Bbpd { .. } => [
+                "bbpd",
+                "Central forces alone; Poisson's ratio 1/3, or 1/4 in plane strain.",
+            ],
+            Self::BbpdConical { .. } => [
+                "bbpd-conical",
+                "Central forces with a stiffness that falls with the length.",
+            ],
+            Self::Pds { .. } => [
+                "pds",
+                "Normal and constant shear stiffness, no rotations of the points.",
+            ],
+            Self::Mppd { .. } => ["mppd", "Normal and constant shear stiffness, rotations."],
+            Self::MppdBeam { .. } => [
+                "mppd-beam",
+                "Micropolar bonds in the form of a beam: shear stiffness falls with the length.",
+            ],
+            Self::Orthotropic { .. } => [
+                "orthotropic",
+                "Stiffness by the direction in the axes of an orthotropic material, rotations.",
+            ],
+            Self::MbbPd { .. } => [
+                "mbb-pd",
+                "All strains of a small rectangle around each bond of a square lattice.",
+            ],
         }
+    }
+
+    /// What the law leaves open.
+    pub fn open(&mut self) -> Open<'_> {
+        let mut open = Open::default();
+        match self {
+            Self::Nhpd => {}
+            Self::Bbpd { calibration }
+            | Self::BbpdConical { calibration }
+            | Self::Pds { calibration }
+            | Self::MppdBeam { calibration } => open.calibration = Some(calibration),
+            Self::Mppd {
+                calibration,
+                rotational_stiffness,
+            } => {
+                open.calibration = Some(calibration);
+                open.rotational_stiffness = Some(rotational_stiffness);
+            }
+            Self::Orthotropic {
+                rotational_stiffness,
+            } => open.rotational_stiffness = Some(rotational_stiffness),
+            Self::MbbPd { form, strains } => {
+                open.form = Some(form);
+                open.strains = Some(strains);
+            }
+        }
+        open
+    }
+
+    /// Origin of the constants; None where the paper's constants are the only ones.
+    pub fn calibration(mut self) -> Option<Calibration> {
+        self.open().calibration.copied()
     }
 
     /// Whether Poisson's ratio follows from the law, whatever the materials have.
@@ -113,18 +212,6 @@ impl Law {
                 (_, Strains::True) => ElementKind::TrueStrain,
                 _ => ElementKind::Imaginary,
             },
-        }
-    }
-
-    /// Origin of the constants; None where the paper's constants are the only ones.
-    pub fn calibration(&self) -> Option<Calibration> {
-        match *self {
-            Self::Bbpd { calibration }
-            | Self::BbpdConical { calibration }
-            | Self::Pds { calibration }
-            | Self::Mppd { calibration, .. }
-            | Self::MppdBeam { calibration } => Some(calibration),
-            Self::Nhpd | Self::Orthotropic { .. } | Self::MbbPd { .. } => None,
         }
     }
 }

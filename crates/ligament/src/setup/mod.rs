@@ -17,10 +17,10 @@ use ligament_model::{Horizons, Material, Plane, PointCloud};
 
 use crate::body::Body;
 
-pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, stepped};
+pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
 pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, Support};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
-pub use law::{Calibration, Form, Law, Strains};
+pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 

@@ -1,0 +1,62 @@
+//! `[output]`: what a run writes.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::require;
+
+/// What a run writes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Load steps (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone.
+    pub fields_every: Option<u32>,
+    /// Whether the bonds are written as lines with each field file.
+    pub bonds: bool,
+    /// Whether `model.vtu` is written, which `ligament explain` reads.
+    pub model: bool,
+    /// Stresses at the points in the field files.
+    #[schemars(extend("uniqueItems" = true))]
+    pub stress: Vec<StressField>,
+}
+
+/// A reading of the stress at the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StressField {
+    /// The mean of the force dyads of a point's bonds.
+    Virial,
+    /// The force through small planes at the point.
+    Traction,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            fields_every: None,
+            bonds: false,
+            model: true,
+            stress: Vec::new(),
+        }
+    }
+}
+
+impl Output {
+    /// Fills in what is not given.
+    pub(super) fn complete(
+        &mut self,
+        key: &KeyPath,
+        is_on_exact_path: bool,
+    ) -> Result<(), KeyFault> {
+        // An event breaks a bond or two, a load step at the peak hundreds.
+        let default = if is_on_exact_path { 100 } else { 10 };
+        self.fields_every.get_or_insert(default);
+        let is_repeated =
+            |(place, field): (usize, &StressField)| self.stress[..place].contains(field);
+        let once = !self.stress.iter().enumerate().any(is_repeated);
+        let key = || key.child("stress");
+        require(once, key, "each stress once", &self.stress)
+    }
+}

@@ -1,0 +1,180 @@
+//! Why no mesh was made or converted.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use ligament::suggestion::hint;
+use ligament_mesh::gmsh::GmshError;
+
+/// Why no mesh was made or converted. An existing mesh is then as it was.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshingError {
+    /// There is no such geometry or mesh.
+    #[error("there is no {what} {}", path.display())]
+    NoSource {
+        /// The noun for the source.
+        what: &'static str,
+        /// The path at which the source should be.
+        path: PathBuf,
+    },
+    /// The file is no geometry, by its ending.
+    #[error(
+        "{} is no .geo file: `ligament mesh` meshes geometries of Gmsh; a mesh of another program is \
+         converted by `ligament mesh --via-meshio {}`",
+        .0.display(), .0.display()
+    )]
+    NoGeo(PathBuf),
+    /// A number is to be set that the geometry does not use.
+    #[error(
+        "--set {name}=...: {} does not mention `{name}`{}",
+        geometry.display(), hint(name, declared, "it declares", '`')
+    )]
+    UnusedNumber {
+        /// The geometry.
+        geometry: PathBuf,
+        /// The name that was to be set.
+        name: String,
+        /// The names that the geometry declares by `DefineConstant`.
+        declared: Vec<String>,
+    },
+    /// The mesh would replace its own source.
+    #[error("--out {} is the {what}", path.display())]
+    WouldReplaceSource {
+        /// The source in words.
+        what: &'static str,
+        /// The source.
+        path: PathBuf,
+    },
+    /// A program could not be found.
+    #[error("cannot find the program `{}`; {remedy}", program.display())]
+    NoProgram {
+        /// The program.
+        program: PathBuf,
+        /// How to get the program, or to say where it is.
+        remedy: &'static str,
+    },
+    /// A program could not be started.
+    #[error("cannot start `{}`", program.display())]
+    Start {
+        /// The program.
+        program: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Python lacks a package.
+    #[error(
+        "`{}` has no package `{package}`; install it: {} -m pip install {}",
+        python.display(), python.display(), with_company(package)
+    )]
+    NoPackage {
+        /// The program.
+        python: PathBuf,
+        /// The package.
+        package: String,
+    },
+    /// A program made nothing of the source.
+    #[error("{}", refusal.words(path, lines))]
+    Refused {
+        /// What is the matter.
+        refusal: Refusal,
+        /// The geometry or mesh.
+        path: PathBuf,
+        /// The lines that the program said of it.
+        lines: Vec<String>,
+    },
+    /// Python ended without a mesh.
+    #[error("`{}` failed on {}{}", python.display(), mesh.display(), indented(lines))]
+    Failed {
+        /// The program.
+        python: PathBuf,
+        /// The mesh that was to be converted.
+        mesh: PathBuf,
+        /// The last lines that Python said.
+        lines: Vec<String>,
+    },
+    /// The mesh that gmsh made cannot be used.
+    #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]
+    Unusable {
+        /// The geometry.
+        geometry: PathBuf,
+        /// The reader's reason.
+        source: GmshError,
+    },
+    /// The converted mesh cannot be used.
+    #[error("the mesh of {} cannot be used", mesh.display())]
+    UnusableSource {
+        /// The mesh that was to be converted.
+        mesh: PathBuf,
+        /// The reader's reason; its lines are those of the Gmsh file that would have been written.
+        source: GmshError,
+    },
+    /// A file could not be read or written.
+    #[error("cannot {action} {}", path.display())]
+    File {
+        /// What was tried.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+}
+
+/// What a program has against a source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// Gmsh reported errors or made no mesh.
+    NotMeshed,
+    /// The format is not known to meshio.
+    UnknownFormat,
+    /// The file could not be read by meshio.
+    Unreadable,
+    /// The source is a Gmsh mesh already.
+    IsGmsh,
+    /// The source has volumes.
+    Volumes,
+    /// The source has cells of shapes that are not read.
+    Shapes,
+    /// The source has no planar cells.
+    NothingPlanar,
+    /// The source is not in the plane of x and y.
+    NotPlanar,
+}
+
+impl Refusal {
+    fn words(self, path: &Path, lines: &[String]) -> String {
+        let (path, below, beside) = (path.display(), indented(lines), lines.join(" "));
+        match self {
+            Self::NotMeshed => format!("gmsh could not mesh {path}{below}"),
+            Self::UnknownFormat => format!(
+                "meshio does not know the format of {path}: give it by --format NAME, as meshio calls it (abaqus, nastran, \
+                 exodus, ...){below}"
+            ),
+            Self::Unreadable => format!("meshio could not read {path}{below}"),
+            Self::IsGmsh => format!("{path} is a Gmsh mesh: Ligament reads it as it is"),
+            Self::Volumes => format!(
+                "{path} is a mesh of a volume ({beside}): Ligament needs a planar mesh of triangles and quadrangles"
+            ),
+            Self::Shapes => {
+                format!("{path} has cells that are neither triangles nor quadrangles: {beside}")
+            }
+            Self::NothingPlanar => {
+                format!("there are no triangles or quadrangles in {path}, only: {beside}")
+            }
+            Self::NotPlanar => format!("{path} is not planar: {beside}"),
+        }
+    }
+}
+
+/// Lines of another program's own below an error, each on its line.
+fn indented(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("\n  {line}")).collect()
+}
+
+/// A package, with what it does not bring along itself: meshio needs others for formats on HDF5 and netCDF.
+fn with_company(package: &str) -> String {
+    match package {
+        "meshio" | "numpy" => "meshio".to_owned(),
+        other => format!("meshio {other}"),
+    }
+}
