@@ -97,15 +97,6 @@ impl CaseFile {
         let SetupError { field, fault } = error;
         let mut key = self.key(field);
         let fault = match *fault {
-            SetupFault::UnknownName {
-                what,
-                found,
-                candidates,
-            } => Fault::unknown_name(what, found, candidates),
-            SetupFault::OutOfRange { expected, found } => Fault::OutOfRange {
-                expected: expected.into_owned(),
-                found,
-            },
             SetupFault::Missing { reason, .. } => Fault::Required {
                 key: missing_key(field),
                 reason,
@@ -137,7 +128,7 @@ impl CaseFile {
                 first,
                 second,
             } => self.row_twice(field, &place, [first, second]),
-            other => Fault::Other(other.to_string()),
+            other => other.into(),
         };
         self.error(&key, fault)
     }

@@ -184,11 +184,9 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::String(text) => visitor.visit_borrowed_str(text),
             Value::Integer(integer) => visitor.visit_i64(*integer),
             Value::Float(float) if float.is_finite() => visitor.visit_f64(*float),
-            Value::Float(float) => Err(Fault::OutOfRange {
-                expected: "a finite number".to_owned(),
-                found: float.to_string(),
+            Value::Float(float) => {
+                Err(Fault::out_of_range("a finite number", float.to_string()).into())
             }
-            .into()),
             Value::Boolean(value) => visitor.visit_bool(*value),
             Value::Date => Err(serde::de::Error::invalid_type(
                 Unexpected::Other("a date"),

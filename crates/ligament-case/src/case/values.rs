@@ -26,14 +26,8 @@ pub fn require(
     if holds {
         return Ok(());
     }
-    let found = format!("{found:?}");
-    Err(KeyFault::new(
-        key(),
-        Fault::OutOfRange {
-            expected: expected.to_owned(),
-            found,
-        },
-    ))
+    let fault = Fault::out_of_range(expected.to_owned(), format!("{found:?}"));
+    Err(KeyFault::new(key(), fault))
 }
 
 /// The one value that is given of keys of which a table has exactly one.
