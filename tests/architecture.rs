@@ -96,7 +96,6 @@ const RESERVED: [(&str, &[&str]); 11] = [
         &[
             "ligament-case",
             "ligament-cli",
-            "ligament-plot",
             "ligament-run",
             "ligament-study",
             "ligament-verify",

@@ -15,10 +15,16 @@ use crate::Error;
 ///
 /// If the file cannot be written or put in its place.
 pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
-    write_and_rename(path, contents).map_err(|source| Error::WriteFile {
-        path: path.to_path_buf(),
-        source,
-    })
+    write_and_rename(path, contents).map_err(Error::system("write", path))
+}
+
+/// The text of a file.
+///
+/// # Errors
+///
+/// If the file cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    fs::read_to_string(path).map_err(Error::system("read", path))
 }
 
 fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {
@@ -82,7 +88,7 @@ mod tests {
         let path = folder.path().join("taken");
         fs::create_dir(&path).unwrap();
         let error = replace_file(&path, b"text").unwrap_err();
-        assert!(matches!(error, Error::WriteFile { path: p, .. } if p == path));
+        assert!(matches!(error, Error::System { path: p, .. } if p == path));
         assert_eq!(names_in(folder.path()), ["taken"]);
     }
 

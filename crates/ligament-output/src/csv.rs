@@ -76,10 +76,7 @@ impl Table {
     /// Creates the file, replacing an existing one, and writes the header.
     pub fn create(path: impl Into<PathBuf>, columns: &[&str]) -> Result<Self, Error> {
         let path = path.into();
-        let file = File::create(&path).map_err(|source| Error::WriteFile {
-            path: path.clone(),
-            source,
-        })?;
+        let file = File::create(&path).map_err(Error::system("write", &path))?;
         let mut table = Self {
             path,
             file,
@@ -92,21 +89,17 @@ impl Table {
 
     /// Appends one row, one value per column of the header.
     pub fn append(&mut self, row: &[Value<'_>]) -> Result<(), Error> {
-        if row.len() != self.n_columns {
-            return Err(Error::RowLength {
-                path: self.path.clone(),
-                expected: self.n_columns,
-                found: row.len(),
-            });
+        let (found, expected) = (row.len(), self.n_columns);
+        if found != expected {
+            let path = self.path.clone();
+            let reason = format!(
+                "a row has {found} values, expected {expected}, one per column of the header"
+            );
+            return Err(Error::Refused { path, reason });
         }
-        let line = line(row);
         // The file has no buffer of its own: the row goes out in one write and needs no flush.
-        self.file
-            .write_all(line.as_bytes())
-            .map_err(|source| Error::WriteFile {
-                path: self.path.clone(),
-                source,
-            })
+        let written = self.file.write_all(line(row).as_bytes());
+        written.map_err(Error::system("write", &self.path))
     }
 }
 
@@ -225,14 +218,8 @@ mod tests {
         let path = folder.path().join("history.csv");
         let mut table = Table::create(&path, &["step", "displacement"]).unwrap();
         let error = table.append(&[1_u32.into()]).unwrap_err();
-        assert!(matches!(
-            error,
-            Error::RowLength {
-                expected: 2,
-                found: 1,
-                ..
-            }
-        ));
+        let message = error.to_string();
+        assert!(message.ends_with("a row has 1 values, expected 2, one per column of the header"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "step,displacement\n");
     }
 
@@ -241,6 +228,6 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("missing/history.csv");
         let error = Table::create(&path, &["step"]).unwrap_err();
-        assert!(matches!(error, Error::WriteFile { path: p, .. } if p == path));
+        assert!(matches!(error, Error::System { path: p, .. } if p == path));
     }
 }

@@ -36,10 +36,10 @@ impl ResultFolder {
         replace: bool,
     ) -> Result<Self, Error> {
         let path = path.into();
-        match Self::admit(&path, marker, replace)? {
+        match Occupant::admitted(&path, marker, replace)? {
             Occupant::Nothing => create_folder(&path)?,
+            Occupant::EmptyFolder => {}
             Occupant::Results => replace_folder(&path)?,
-            _ => {}
         }
         Ok(Self { path })
     }
@@ -51,21 +51,7 @@ impl ResultFolder {
 
     /// Fails as [`ResultFolder::create`] would, and touches nothing: for a run to ask before its work begins.
     pub fn check(path: &Path, replace: bool) -> Result<(), Error> {
-        Self::admit(path, RESOLVED_CASE, replace).map(|_| ())
-    }
-
-    /// The occupant of the folder's place, if a run may put its results there.
-    fn admit(path: &Path, marker: &'static str, replace: bool) -> Result<Occupant, Error> {
-        let path_buf = || path.to_path_buf();
-        match Occupant::at_path(path, marker)? {
-            Occupant::Results if !replace => Err(Error::ResultsExist { path: path_buf() }),
-            Occupant::OtherFiles => Err(Error::NotAResultFolder {
-                path: path_buf(),
-                marker,
-            }),
-            Occupant::NotAFolder => Err(Error::NotAFolder { path: path_buf() }),
-            occupant => Ok(occupant),
-        }
+        Occupant::admitted(path, RESOLVED_CASE, replace).map(|_| ())
     }
 
     /// The folder itself.
@@ -84,35 +70,37 @@ impl ResultFolder {
     }
 }
 
-/// The occupant of the place of a result folder.
+/// The occupant of the place of a result folder, where a run may put its results.
 enum Occupant {
     Nothing,
     EmptyFolder,
+    /// Results, to be replaced.
     Results,
-    OtherFiles,
-    NotAFolder,
 }
 
 impl Occupant {
-    fn at_path(path: &Path, marker: &str) -> Result<Self, Error> {
+    fn admitted(path: &Path, marker: &'static str, replace: bool) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Nothing),
-            Err(error) => return Err(folder_error("look at", path, error)),
+            Err(error) => return Err(Error::system("look at", path)(error)),
         };
+        let path_buf = path.to_path_buf();
         if !metadata.is_dir() {
-            return Ok(Self::NotAFolder);
+            return Err(Error::NotAFolder(path_buf));
         }
-        let mut entries = fs::read_dir(path).map_err(|error| folder_error("list", path, error))?;
+        let mut entries = fs::read_dir(path).map_err(Error::system("list", path))?;
         if entries.next().is_none() {
             return Ok(Self::EmptyFolder);
         }
-        let is_marked = path.join(marker).is_file();
-        Ok(if is_marked {
-            Self::Results
-        } else {
-            Self::OtherFiles
-        })
+        match path.join(marker).is_file() {
+            true if replace => Ok(Self::Results),
+            true => Err(Error::ResultsExist(path_buf)),
+            false => Err(Error::NotAResultFolder {
+                path: path_buf,
+                marker,
+            }),
+        }
     }
 }
 
@@ -121,37 +109,28 @@ fn replace_folder(path: &Path) -> Result<(), Error> {
     let aside = replaced_path(path)?;
     // `exists` would follow a dangling link.
     if fs::symlink_metadata(&aside).is_ok() {
-        return Err(Error::ReplacedExists { path: aside });
+        return Err(Error::ReplacedExists(aside));
     }
-    fs::rename(path, &aside).map_err(|error| folder_error("move aside", path, error))?;
+    fs::rename(path, &aside).map_err(Error::system("move aside", path))?;
     if let Err(error) = create_folder(path) {
         // Back to where it was, if that still works; the failure to report is the first one.
         let _ = fs::rename(&aside, path);
         return Err(error);
     }
-    fs::remove_dir_all(&aside).map_err(|error| folder_error("remove", &aside, error))
+    fs::remove_dir_all(&aside).map_err(Error::system("remove", &aside))
 }
 
 /// The sibling `NAME.replaced` of a folder `NAME`.
 fn replaced_path(path: &Path) -> Result<PathBuf, Error> {
-    let name = path.file_name().ok_or_else(|| Error::UnnamedFolder {
-        path: path.to_path_buf(),
-    })?;
+    let name = path.file_name();
+    let name = name.ok_or_else(|| Error::UnnamedFolder(path.to_path_buf()))?;
     let mut replaced = OsString::from(name);
     replaced.push(".replaced");
     Ok(path.with_file_name(replaced))
 }
 
 fn create_folder(path: &Path) -> Result<(), Error> {
-    fs::create_dir_all(path).map_err(|error| folder_error("create", path, error))
-}
-
-fn folder_error(action: &'static str, path: &Path, source: io::Error) -> Error {
-    Error::Folder {
-        action,
-        path: path.to_path_buf(),
-        source,
-    }
+    fs::create_dir_all(path).map_err(Error::system("create", path))
 }
 
 #[cfg(test)]
@@ -200,7 +179,7 @@ mod tests {
     fn refuses_results_without_replace() {
         let (_parent, path) = results_with(&[RESOLVED_CASE]);
         let error = ResultFolder::create(&path, false).unwrap_err();
-        assert!(matches!(&error, Error::ResultsExist { path: p } if *p == path));
+        assert!(matches!(&error, Error::ResultsExist(p) if *p == path));
         let message = error.to_string();
         assert!(
             message.contains("--out") && message.contains("--force"),
@@ -252,7 +231,7 @@ mod tests {
             let path = parent.path().join("results");
             fs::write(&path, "a file").unwrap();
             let error = ResultFolder::create(&path, replace).unwrap_err();
-            assert!(matches!(error, Error::NotAFolder { .. }));
+            assert!(matches!(error, Error::NotAFolder(_)));
             assert_eq!(fs::read_to_string(&path).unwrap(), "a file");
         }
     }
@@ -263,7 +242,7 @@ mod tests {
         let aside = parent.path().join("results.replaced");
         fs::create_dir(&aside).unwrap();
         let error = ResultFolder::create(&path, true).unwrap_err();
-        assert!(matches!(error, Error::ReplacedExists { path: p } if p == aside));
+        assert!(matches!(error, Error::ReplacedExists(p) if p == aside));
         assert_eq!(n_entries(&path), 1);
     }
 
@@ -272,7 +251,7 @@ mod tests {
         let (_parent, path) = results_with(&[RESOLVED_CASE]);
         fs::create_dir(path.join("sub")).unwrap();
         let error = ResultFolder::create(path.join("sub/.."), true).unwrap_err();
-        assert!(matches!(error, Error::UnnamedFolder { .. }));
+        assert!(matches!(error, Error::UnnamedFolder(_)));
         assert_eq!(n_entries(&path), 2);
     }
 

@@ -21,5 +21,5 @@ pub mod results;
 pub mod vtu;
 mod xml;
 
-pub use atomic::replace_file;
+pub use atomic::{read_text, replace_file};
 pub use error::{Error, FieldLocation};

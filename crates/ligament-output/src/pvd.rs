@@ -34,11 +34,9 @@ impl Collection {
     pub fn append(&mut self, time: f64, file: impl Into<String>) -> Result<(), Error> {
         let file = file.into();
         if !time.is_finite() {
-            return Err(Error::TimeNotFinite {
-                path: self.path.clone(),
-                file,
-                time,
-            });
+            let path = self.path.clone();
+            let reason = format!("the time of {file} is {time}; a collection needs finite times");
+            return Err(Error::Refused { path, reason });
         }
         self.outputs.push((time, file));
         replace_file(&self.path, self.to_xml().as_bytes())
@@ -118,7 +116,11 @@ mod tests {
         let path = folder.path().join("fields.pvd");
         let mut collection = Collection::new(&path);
         let error = collection.append(f64::NAN, "a.vtu").unwrap_err();
-        assert!(matches!(error, Error::TimeNotFinite { .. }));
+        assert!(
+            error
+                .to_string()
+                .ends_with("the time of a.vtu is NaN; a collection needs finite times")
+        );
         collection.append(1.0, "b.vtu").unwrap();
         assert!(!fs::read_to_string(&path).unwrap().contains("a.vtu"));
     }

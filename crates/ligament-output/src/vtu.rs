@@ -3,7 +3,7 @@
 //! The files are binary, compressed by zlib and little-endian. Integers are `Int64`, which VTK, PyVista and meshio read
 //! exactly. The format is that of VTK XML files, version 1.0 (<https://vtk.org/Wiki/VTK_XML_Formats>).
 
-mod data_array;
+mod field;
 pub mod read;
 
 use std::collections::HashSet;
@@ -12,10 +12,11 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use self::data_array::data_array;
 use crate::atomic::replace_file;
 use crate::xml::escape_attribute;
 use crate::{Error, FieldLocation};
+
+pub use field::Field;
 
 /// A cell given by its points, indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,93 +64,6 @@ impl Cell {
     }
 }
 
-/// The values of a field, one per point or cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FieldValues<'a> {
-    /// Numbers.
-    Scalar(&'a [f64]),
-    /// Numbers of seven digits, in half of the space.
-    Single(&'a [f32]),
-    /// Vectors; planar ones have a third component of 0, which VTK requires.
-    Vector(&'a [[f64; 3]]),
-    /// Integers, such as numbers of bonds or flags.
-    Integer(&'a [i64]),
-    /// Named components, such as those of a stress, one point or cell after the other.
-    Components {
-        /// Names of the components, which readers show.
-        names: &'a [&'a str],
-        /// The values, shape (n, number of names).
-        values: &'a [f64],
-    },
-}
-
-impl FieldValues<'_> {
-    fn len(&self) -> usize {
-        match self {
-            Self::Scalar(values) => values.len(),
-            Self::Single(values) => values.len(),
-            Self::Vector(values) => values.len(),
-            Self::Integer(values) => values.len(),
-            Self::Components { names, values } => values.len() / names.len().max(1),
-        }
-    }
-}
-
-/// A named field.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Field<'a> {
-    /// The name readers show, unique among the point fields and among the cell fields.
-    pub name: &'a str,
-    /// The values.
-    pub values: FieldValues<'a>,
-}
-
-impl<'a> Field<'a> {
-    /// A field of numbers.
-    pub fn scalar(name: &'a str, values: &'a [f64]) -> Self {
-        let values = FieldValues::Scalar(values);
-        Self { name, values }
-    }
-
-    /// A field of numbers of seven digits.
-    pub fn single(name: &'a str, values: &'a [f32]) -> Self {
-        let values = FieldValues::Single(values);
-        Self { name, values }
-    }
-
-    /// A field of vectors.
-    pub fn vector(name: &'a str, values: &'a [[f64; 3]]) -> Self {
-        let values = FieldValues::Vector(values);
-        Self { name, values }
-    }
-
-    /// A field of integers.
-    pub fn integer(name: &'a str, values: &'a [i64]) -> Self {
-        let values = FieldValues::Integer(values);
-        Self { name, values }
-    }
-
-    /// A field of named components, shape (n, number of names).
-    pub fn components(name: &'a str, names: &'a [&'a str], values: &'a [f64]) -> Self {
-        let values = FieldValues::Components { names, values };
-        Self { name, values }
-    }
-
-    fn to_xml(self) -> String {
-        match self.values {
-            FieldValues::Scalar(values) => float_array(self.name, 1, &[], values),
-            FieldValues::Single(values) => {
-                data_array(self.name, "Float32", 1, &[], values, f32::to_le_bytes)
-            }
-            FieldValues::Vector(values) => float_array(self.name, 3, &[], values.as_flattened()),
-            FieldValues::Integer(values) => integer_array(self.name, values),
-            FieldValues::Components { names, values } => {
-                float_array(self.name, names.len(), names, values)
-            }
-        }
-    }
-}
-
 /// A planar grid with its fields.
 #[derive(Debug, Clone, Copy)]
 pub struct UnstructuredGrid<'a> {
@@ -166,25 +80,43 @@ pub struct UnstructuredGrid<'a> {
 impl UnstructuredGrid<'_> {
     fn check(&self, path: &Path) -> Result<(), Error> {
         let (n_points, n_cells) = (self.points.len(), self.cells.len());
+        let refused = |reason: String| {
+            let path = path.to_path_buf();
+            Err(Error::Refused { path, reason })
+        };
         if n_points == 0 || n_cells == 0 {
-            return Err(Error::EmptyGrid {
-                path: path.to_path_buf(),
-                n_points,
-                n_cells,
-            });
+            return refused(format!(
+                "a VTU file needs points and cells, got {n_points} points and {n_cells} cells; write no file instead"
+            ));
         }
         for (cell, points) in self.cells.iter().map(Cell::points).enumerate() {
             if let Some(&point) = points.iter().find(|&&point| point as usize >= n_points) {
-                return Err(Error::PointOutOfRange {
-                    path: path.to_path_buf(),
-                    cell,
-                    point,
-                    n_points,
-                });
+                return refused(format!(
+                    "cell {cell} names point {point}, but there are only {n_points} points (counted from 0)"
+                ));
             }
         }
-        check_fields(path, FieldLocation::Point, self.point_fields, n_points)?;
-        check_fields(path, FieldLocation::Cell, self.cell_fields, n_cells)
+        for (location, fields, expected) in [
+            (FieldLocation::Point, self.point_fields, n_points),
+            (FieldLocation::Cell, self.cell_fields, n_cells),
+        ] {
+            let mut names = HashSet::new();
+            for field in fields {
+                let (name, found) = (field.name, field.len());
+                if found != expected {
+                    return refused(format!(
+                        "{location} field '{name}' has {found} values, expected {expected}, one per {location}"
+                    ));
+                }
+                // Readers would keep one of them only.
+                if !names.insert(name) {
+                    return refused(format!(
+                        "two {location} fields are named '{name}'; give each its own name"
+                    ));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The document, the same for any number of threads: they share arrays and blocks of fixed size.
@@ -199,62 +131,14 @@ impl UnstructuredGrid<'_> {
         );
         push_fields(&mut xml, "PointData", self.point_fields);
         push_fields(&mut xml, "CellData", self.cell_fields);
-        let points: Vec<f64> = self.points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
+        let points: Vec<[f64; 3]> = self.points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
         xml.push_str("<Points>\n");
-        xml.push_str(&float_array("Points", 3, &[], &points));
+        xml.push_str(&Field::vector("Points", &points).to_xml());
         xml.push_str("</Points>\n<Cells>\n");
         xml.extend(cell_arrays(self.cells));
         xml.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
         xml
     }
-}
-
-fn check_fields(
-    path: &Path,
-    location: FieldLocation,
-    fields: &[Field<'_>],
-    expected: usize,
-) -> Result<(), Error> {
-    let mut names = HashSet::new();
-    for field in fields {
-        if field.values.len() != expected {
-            return Err(Error::FieldLength {
-                path: path.to_path_buf(),
-                location,
-                field: field.name.to_owned(),
-                expected,
-                found: field.values.len(),
-            });
-        }
-        if !names.insert(field.name) {
-            return Err(Error::DuplicateField {
-                path: path.to_path_buf(),
-                location,
-                field: field.name.to_owned(),
-            });
-        }
-    }
-    Ok(())
-}
-
-fn float_array(
-    name: &str,
-    n_components: usize,
-    component_names: &[&str],
-    values: &[f64],
-) -> String {
-    data_array(
-        name,
-        "Float64",
-        n_components,
-        component_names,
-        values,
-        f64::to_le_bytes,
-    )
-}
-
-fn integer_array(name: &str, values: &[i64]) -> String {
-    data_array(name, "Int64", 1, &[], values, i64::to_le_bytes)
 }
 
 fn cell_arrays(cells: &[Cell]) -> [String; 3] {
@@ -266,29 +150,22 @@ fn cell_arrays(cells: &[Cell]) -> [String; 3] {
     }
     let types: Vec<u8> = cells.iter().map(Cell::vtk_type).collect();
     [
-        integer_array("connectivity", &connectivity),
-        integer_array("offsets", &offsets),
-        data_array("types", "UInt8", 1, &[], &types, u8::to_le_bytes),
+        Field::integer("connectivity", &connectivity),
+        Field::integer("offsets", &offsets),
+        Field::bytes("types", &types),
     ]
+    .map(Field::to_xml)
 }
 
-/// The element `PointData` or `CellData`. It names the first scalar and the first vector, which readers show first; an
-/// index is none of them.
+/// The element `PointData` or `CellData`. It names the first scalar and the first vector, which readers show first.
 fn push_fields(xml: &mut String, element: &str, fields: &[Field<'_>]) {
-    let scalar = |field: &&Field<'_>| {
-        matches!(
-            field.values,
-            FieldValues::Scalar(_) | FieldValues::Single(_)
-        )
-    };
-    let vector = |field: &&Field<'_>| matches!(field.values, FieldValues::Vector(_));
     let arrays: Vec<String> = fields.par_iter().map(|field| field.to_xml()).collect();
     // Writing to a string cannot fail.
     let _ = write!(xml, "<{element}");
-    if let Some(first) = fields.iter().find(scalar) {
+    if let Some(first) = fields.iter().find(|field| field.is_scalar()) {
         let _ = write!(xml, " Scalars=\"{}\"", escape_attribute(first.name));
     }
-    if let Some(first) = fields.iter().find(vector) {
+    if let Some(first) = fields.iter().find(|field| field.is_vector()) {
         let _ = write!(xml, " Vectors=\"{}\"", escape_attribute(first.name));
     }
     xml.push_str(">\n");

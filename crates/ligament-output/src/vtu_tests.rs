@@ -202,22 +202,22 @@ fn refuses_fields_of_the_wrong_length() {
         "{message}"
     );
     let error = refusal(&grid(&[], &[Field::integer("material", &[0; 5])]));
-    assert!(matches!(
-        error,
-        Error::FieldLength {
-            location: FieldLocation::Cell,
-            expected: 4,
-            found: 5,
-            ..
-        }
-    ));
+    let message = error.to_string();
+    assert!(
+        message.ends_with("cell field 'material' has 5 values, expected 4, one per cell"),
+        "{message}"
+    );
 }
 
 #[test]
 fn refuses_two_fields_of_one_name() {
     let field = Field::scalar("damage", &[0.0; 5]);
     let error = refusal(&grid(&[field, field], &[]));
-    assert!(matches!(error, Error::DuplicateField { field, .. } if field == "damage"));
+    assert!(
+        error
+            .to_string()
+            .contains("two point fields are named 'damage'")
+    );
 }
 
 #[test]
@@ -227,15 +227,8 @@ fn refuses_a_cell_on_a_missing_point() {
         cells: &cells,
         ..grid(&[], &[])
     });
-    assert!(matches!(
-        error,
-        Error::PointOutOfRange {
-            cell: 1,
-            point: 5,
-            n_points: 5,
-            ..
-        }
-    ));
+    let expected = "cell 1 names point 5, but there are only 5 points (counted from 0)";
+    assert!(error.to_string().ends_with(expected));
 }
 
 #[test]
@@ -249,6 +242,7 @@ fn refuses_a_grid_that_readers_reject() {
         ..grid(&[], &[])
     };
     for grid in [no_points, no_cells] {
-        assert!(matches!(refusal(&grid), Error::EmptyGrid { .. }));
+        let message = refusal(&grid).to_string();
+        assert!(message.contains("needs points and cells"), "{message}");
     }
 }

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use anyhow::Context;
 use ligament_output::folder::RESOLVED_CASE;
+use ligament_output::{Error, read_text};
 
 use ligament::units::Units;
 
@@ -21,13 +21,14 @@ pub struct StoredLoading {
 /// # Errors
 ///
 /// If the case cannot be read.
-pub fn stored_loading(folder: &Path) -> anyhow::Result<StoredLoading> {
+pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     let path = folder.join(RESOLVED_CASE);
-    let text = std::fs::read_to_string(&path)
-        .with_context(|| format!("cannot read {}", path.display()))?;
-    let case: toml::Table = text
+    let case: toml::Table = read_text(&path)?
         .parse()
-        .with_context(|| format!("cannot use {}", path.display()))?;
+        .map_err(|error: toml::de::Error| Error::Unreadable {
+            path,
+            reason: error.to_string(),
+        })?;
     let control = case.get("fracture").and_then(|it| it.get("control"));
     let first = case.get("load").and_then(|loads| loads.get(0));
     let given = |key: &str| first.and_then(|load| load.get(key));

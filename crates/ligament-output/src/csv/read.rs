@@ -1,9 +1,9 @@
 //! Reads CSV tables back.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
-use crate::Error;
+use crate::{Error, read_text};
 
 /// A table in memory, all values as texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,11 +21,7 @@ impl Sheet {
     /// If the file cannot be read, or a row has not as many values as there are columns.
     pub fn read(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let text = fs::read_to_string(&path).map_err(|source| Error::ReadFile {
-            path: path.clone(),
-            source,
-        })?;
-        Self::parse(path, &text)
+        Self::parse(&path, &read_text(&path)?)
     }
 
     /// The table of a text, which is that of the file `path`, or would be.
@@ -72,30 +68,27 @@ impl Sheet {
         Some(self.rows.iter().map(move |row| row[place].as_str()))
     }
 
+    /// What a function makes of each row.
+    ///
+    /// # Errors
+    ///
+    /// If the function fails for a row.
+    pub fn rows<T>(&self, read: impl Fn(Row<'_>) -> Result<T, Error>) -> Result<Vec<T>, Error> {
+        let row = |number| Row {
+            sheet: self,
+            number,
+        };
+        (0..self.rows.len()).map(|it| read(row(it))).collect()
+    }
+
     /// The values of a column, parsed.
     ///
     /// # Errors
     ///
     /// If there is no such column, or something else in it.
-    pub fn values<T: std::str::FromStr>(&self, column: &str) -> Result<Vec<T>, Error> {
-        let strange = |reason: String| Error::Unreadable {
-            path: self.path.clone(),
-            reason,
-        };
-        let texts = self.texts(column);
-        let texts = texts.ok_or_else(|| strange(format!("it has no column `{column}`")))?;
-        texts
-            .enumerate()
-            .map(|(row, text)| {
-                let parsed = text.parse();
-                parsed.map_err(|_| {
-                    strange(format!(
-                        "`{text}` in column `{column}`, row {}, is no value",
-                        row + 1
-                    ))
-                })
-            })
-            .collect()
+    pub fn values<T: FromStr>(&self, column: &str) -> Result<Vec<T>, Error> {
+        self.place(column)?;
+        self.rows(|row| row.value(column))
     }
 
     /// The numbers of several columns, row by row.
@@ -111,6 +104,40 @@ impl Sheet {
             }
         }
         Ok(rows)
+    }
+
+    fn place(&self, column: &str) -> Result<usize, Error> {
+        let place = self.columns.iter().position(|name| name == column);
+        place.ok_or_else(|| self.strange(format!("it has no column `{column}`")))
+    }
+
+    fn strange(&self, reason: String) -> Error {
+        let path = self.path.clone();
+        Error::Unreadable { path, reason }
+    }
+}
+
+/// A row of a table.
+#[derive(Debug, Clone, Copy)]
+pub struct Row<'a> {
+    sheet: &'a Sheet,
+    /// Number of the row, from 0.
+    number: usize,
+}
+
+impl Row<'_> {
+    /// The value in a column, parsed.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such column, or something else in it.
+    pub fn value<T: FromStr>(&self, column: &str) -> Result<T, Error> {
+        let text = &self.sheet.rows[self.number][self.sheet.place(column)?];
+        text.parse().map_err(|_| {
+            let row = self.number + 1;
+            let reason = format!("`{text}` in column `{column}`, row {row}, is no value");
+            self.sheet.strange(reason)
+        })
     }
 }
 
@@ -143,6 +170,7 @@ mod tests {
     use super::*;
     use crate::csv::Table;
     use proptest::prelude::*;
+    use std::fs;
 
     proptest! {
         #[test]

@@ -35,9 +35,7 @@ pub fn point_grid(
     spacing: &[f64],
     fixed: &FixedFields,
 ) -> Result<(), Error> {
-    let mut fields = fixed_fields(fixed, volumes, spacing);
-    fields.push(Field::integer(grid.tagged, &grid.tags));
-    write_grid(path, grid, None, &fields)
+    write_points(path, grid, &fixed_fields(fixed, volumes, spacing))
 }
 
 /// Writes fields of the points (n_points) of a body at rest, with the tags of the points.

@@ -110,40 +110,24 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
         return Ok(None);
     }
     let file = VtuFile::open(path)?;
-    let of_points = |name| file.integers(FieldLocation::Point, name);
-    let tags = match of_points("node")? {
-        Some(tags) => Some(tags),
-        None => of_points("cell")?,
-    };
-    let tags = tags.ok_or_else(|| file.strange("its points have no tags"))?;
-    let absent = file.integers(FieldLocation::Cell, "absent")?;
-    let absent = absent.ok_or_else(|| file.strange("it has no cell field absent"))?;
+    let absent = file.required_integers(FieldLocation::Cell, "absent")?;
     let is_cut = |number: &i64| Absence::from_number(*number) == Some(Absence::PreCrack);
     if !absent.iter().any(is_cut) {
         return Ok(Some(Vec::new()));
     }
-    let tag = |point: i64| tags.get(usize::try_from(point).ok()?).copied();
-    let connectivity = file.connectivity()?;
-    let (ends, _) = connectivity.as_chunks::<2>();
-    let cut = ends
-        .iter()
-        .zip(&absent)
-        .filter(|(_, absent)| is_cut(absent));
-    let pairs: Option<Vec<[i64; 2]>> = cut.map(|(&[a, b], _)| Some([tag(a)?, tag(b)?])).collect();
-    let strange = || file.strange("its cells are no pairs of its points");
-    pairs.map(Some).ok_or_else(strange)
+    let (_, tags) = file.tags(FieldLocation::Point)?;
+    let pairs = file.lines()?.into_iter().zip(&absent);
+    let cut = pairs.filter(|(_, absent)| is_cut(absent));
+    let tagged = cut.map(|(ends, _)| ends.map(|point| tags[point as usize]));
+    Ok(Some(tagged.collect()))
 }
 
 /// The files `STEM_NNNN.vtu` by their numbers.
 pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize, PathBuf>, Error> {
-    let failed = |source| Error::Folder {
-        action: "list",
-        path: folder.to_path_buf(),
-        source,
-    };
+    let failed = Error::system("list", folder);
     let mut files = BTreeMap::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
+    for entry in fs::read_dir(folder).map_err(&failed)? {
+        let path = entry.map_err(&failed)?.path();
         let name = path.file_name().and_then(|name| name.to_str());
         let number = name.and_then(|name| {
             name.strip_prefix(stem)?

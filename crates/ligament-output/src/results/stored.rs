@@ -10,7 +10,7 @@ use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
 use super::tables::told;
-use crate::csv::read::Sheet;
+use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -157,8 +157,8 @@ impl StoredRun {
         let deformation_names = if has_strains { strains } else { pairs };
         Ok(Self {
             deformation_names,
-            history: steps(&Sheet::read(folder.join("history.csv"))?)?,
-            breaks: breaks(&broken, model.tagged, deformation_names)?,
+            history: Sheet::read(folder.join("history.csv"))?.rows(StoredStep::read)?,
+            breaks: broken.rows(|row| StoredBreak::read(row, model.tagged, deformation_names))?,
             fields: numbered_files(folder, "fields")?,
             folder: folder.to_path_buf(),
             model,
@@ -191,14 +191,11 @@ impl StoredRun {
         } else {
             FieldLocation::Point
         };
-        let displacement = required(&file, location, "displacement", VtuFile::numbers)?;
-        let rotation = required(&file, location, "rotation", VtuFile::numbers)?;
+        let displacement = file.required_numbers(location, "displacement")?;
+        let rotation = file.required_numbers(location, "rotation")?;
         let n_points = self.model.positions.len();
         let thermal = (file.numbers(location, THERMAL_STRAIN)?).unwrap_or_default();
-        let fits = displacement.len() == 3 * n_points
-            && rotation.len() == n_points
-            && (thermal.is_empty() || thermal.len() == 3 * n_points);
-        if !fits {
+        if rotation.len() != n_points {
             return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
         }
         let in_plane = displacement.chunks_exact(3).map(|u| [u[0], u[1]]);
@@ -235,98 +232,32 @@ fn require_run(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-type Read<T> = fn(&VtuFile, FieldLocation, &str) -> Result<Option<Vec<T>>, Error>;
-
-fn required<T>(
-    file: &VtuFile,
-    location: FieldLocation,
-    name: &str,
-    read: Read<T>,
-) -> Result<Vec<T>, Error> {
-    let values = read(file, location, name)?;
-    values.ok_or_else(|| file.strange(format!("it has no {location} field {name}")))
-}
-
 impl StoredModel {
     fn read(folder: &Path) -> Result<Self, Error> {
         let file = VtuFile::open(folder.join(MODEL))?;
-        let numbers = |name| required(&file, FieldLocation::Point, name, VtuFile::numbers);
-        let mut found = None;
-        for tagged in ["node", "cell"] {
-            let tags = file.integers(FieldLocation::Point, tagged)?;
-            found = found.or(tags.map(|tags| (tagged, tags)));
-        }
-        let (tagged, tags) = found.ok_or_else(|| file.strange("its points have no tags"))?;
-        let no_fail = required(&file, FieldLocation::Point, "no_fail", VtuFile::integers)?;
-        let model = Self {
+        let numbers = |name| file.required_numbers(FieldLocation::Point, name);
+        let (tagged, tags) = file.tags(FieldLocation::Point)?;
+        let no_fail = file.required_integers(FieldLocation::Point, "no_fail")?;
+        Ok(Self {
             tagged,
+            tags,
             positions: file.points()?,
             volumes: numbers("volume")?,
             horizon: numbers("horizon")?,
             no_fail: no_fail.into_iter().map(|flag| flag != 0).collect(),
-            bonds: StoredBonds::read(&file, tags.len())?,
+            bonds: StoredBonds::read(&file)?,
             criteria: criteria(folder, &file)?,
             largest: StoredLargest::read(&file)?,
-            tags,
-        };
-        let n_points = model.tags.len();
-        let of_points = [
-            model.positions.len(),
-            model.volumes.len(),
-            model.horizon.len(),
-            model.no_fail.len(),
-        ];
-        if of_points.iter().any(|len| *len != n_points) || !model.bonds_are_complete() {
-            return Err(file.strange("its fields are not equally long"));
-        }
-        Ok(model)
-    }
-
-    fn bonds_are_complete(&self) -> bool {
-        let n_bonds = self.bonds.ends.len();
-        let bonds = &self.bonds;
-        let largest = self.largest.iter();
-        let of_bonds = [
-            bonds.absence.len(),
-            bonds.horizon.len(),
-            bonds.length_factor.len(),
-            bonds.domain_factor.len(),
-        ];
-        let of_criteria = self.criteria.iter().all(|criterion| {
-            let mut all = criterion.coefficients.iter().chain([&criterion.limit]);
-            let parameter = criterion.parameter.len();
-            all.all(|values| values.len() == n_bonds) && (parameter == 0 || parameter == n_bonds)
-        });
-        let mut of_largest = largest.flat_map(|largest| {
-            [
-                largest.utilisation.len(),
-                largest.step.len(),
-                largest.criterion.len(),
-            ]
-        });
-        of_criteria
-            && of_bonds.iter().all(|len| *len == n_bonds)
-            && of_largest.all(|len| len == n_bonds)
+        })
     }
 }
 
 impl StoredBonds {
-    fn read(file: &VtuFile, n_points: usize) -> Result<Self, Error> {
-        let numbers = |name| required(file, FieldLocation::Cell, name, VtuFile::numbers);
-        let end = |point: &i64| {
-            let inside = u32::try_from(*point).ok();
-            inside.filter(|point| (*point as usize) < n_points)
-        };
-        let connectivity = file.connectivity()?;
-        let ends: Option<Vec<[u32; 2]>> = (connectivity.chunks(2))
-            .map(|pair| match pair {
-                [a, b] => Some([end(a)?, end(b)?]),
-                _ => None,
-            })
-            .collect();
-        let absent = required(file, FieldLocation::Cell, "absent", VtuFile::integers)?;
+    fn read(file: &VtuFile) -> Result<Self, Error> {
+        let numbers = |name| file.required_numbers(FieldLocation::Cell, name);
+        let absent = file.required_integers(FieldLocation::Cell, "absent")?;
         Ok(Self {
-            ends: ends.ok_or_else(|| file.strange("its cells are no pairs of its points"))?,
+            ends: file.lines()?,
             absence: absent.into_iter().map(Absence::from_number).collect(),
             horizon: numbers("horizon")?,
             length_factor: numbers("length_factor")?,
@@ -336,32 +267,22 @@ impl StoredBonds {
 }
 
 fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error> {
-    let sheet = Sheet::read(folder.join("criteria.csv"))?;
-    let column = |name| sheet.values::<String>(name);
-    let (names, measures, after) = (column("criterion")?, column("measure")?, column("after")?);
-    let of_row = |((name, measure), after): ((String, String), String)| {
-        let field = |what: &str| {
-            file.numbers(FieldLocation::Cell, &format!("{what}.{name}"))
-                .map(Option::unwrap_or_default)
-        };
-        let coefficients = COEFFICIENTS.iter().map(|what| field(what));
-        let mut coefficients = coefficients.collect::<Result<Vec<_>, _>>()?;
-        coefficients.retain(|values| !values.is_empty());
+    Sheet::read(folder.join("criteria.csv"))?.rows(|row| {
+        let name: String = row.value("criterion")?;
+        let field = |what: &str| file.numbers(FieldLocation::Cell, &format!("{what}.{name}"));
+        let mut coefficients = Vec::new();
+        for what in COEFFICIENTS {
+            coefficients.extend(field(what)?);
+        }
         Ok(StoredCriterion {
-            limit: field("limit")?,
+            measure: row.value("measure")?,
+            after: row.value("after")?,
+            limit: file.required_numbers(FieldLocation::Cell, &format!("limit.{name}"))?,
             coefficients,
-            parameter: field("after")?,
+            parameter: field("after")?.unwrap_or_default(),
             name,
-            measure,
-            after,
         })
-    };
-    names
-        .into_iter()
-        .zip(measures)
-        .zip(after)
-        .map(of_row)
-        .collect()
+    })
 }
 
 impl StoredLargest {
@@ -372,52 +293,41 @@ impl StoredLargest {
         };
         Ok(Some(Self {
             utilisation,
-            step: required(file, location, "step_of_largest", VtuFile::integers)?,
-            criterion: required(file, location, "criterion_of_largest", VtuFile::integers)?,
+            step: file.required_integers(location, "step_of_largest")?,
+            criterion: file.required_integers(location, "criterion_of_largest")?,
         }))
     }
 }
 
-fn steps(sheet: &Sheet) -> Result<Vec<StoredStep>, Error> {
-    let number = |name| sheet.values::<f64>(name);
-    let step: Vec<usize> = sheet.values("step")?;
-    let (factors, displacements) = (number("load_factor")?, number("displacement")?);
-    let rows = step.into_iter().zip(factors).zip(displacements);
-    Ok((rows.zip(number("reaction")?))
-        .map(
-            |(((step, load_factor), displacement), reaction)| StoredStep {
-                step,
-                load_factor,
-                displacement,
-                reaction,
-            },
-        )
-        .collect())
+impl StoredStep {
+    fn read(row: Row<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            step: row.value("step")?,
+            load_factor: row.value("load_factor")?,
+            displacement: row.value("displacement")?,
+            reaction: row.value("reaction")?,
+        })
+    }
 }
 
-fn breaks(sheet: &Sheet, tagged: &str, names: &[&str]) -> Result<Vec<StoredBreak>, Error> {
-    let tags = |end| sheet.values::<i64>(&format!("{tagged}_{end}"));
-    let count = |name| sheet.values::<usize>(name);
-    let number = |name| sheet.values::<f64>(name);
-    let (a, b, at) = (tags("a")?, tags("b")?, steps(sheet)?);
-    let (order, round) = (count("order")?, count("round")?);
-    let utilisation = number("utilisation")?;
-    let components = names.iter().map(|name| number(name));
-    let components = components.collect::<Result<Vec<_>, _>>()?;
-    let component = |place: usize, row: usize| components.get(place).map_or(0.0, |of| of[row]);
-    let criterion: Vec<String> = sheet.values("criterion")?;
-    let of_row = |(row, criterion)| StoredBreak {
-        order: order[row],
-        round: round[row],
-        at: at[row],
-        tags: [a[row], b[row]],
-        criterion,
-        utilisation: utilisation[row],
-        deformation: BondDeformation {
-            stretch: component(0, row),
-            shear: component(1, row),
-            rotation: component(2, row),
-        },
-    };
-    Ok(criterion.into_iter().enumerate().map(of_row).collect())
+impl StoredBreak {
+    fn read(row: Row<'_>, tagged: &str, names: &[&str]) -> Result<Self, Error> {
+        let component = |place: usize| names.get(place).map_or(Ok(0.0), |name| row.value(name));
+        Ok(Self {
+            order: row.value("order")?,
+            round: row.value("round")?,
+            at: StoredStep::read(row)?,
+            tags: [
+                row.value(&format!("{tagged}_a"))?,
+                row.value(&format!("{tagged}_b"))?,
+            ],
+            criterion: row.value("criterion")?,
+            utilisation: row.value("utilisation")?,
+            deformation: BondDeformation {
+                stretch: component(0)?,
+                shear: component(1)?,
+                rotation: component(2)?,
+            },
+        })
+    }
 }

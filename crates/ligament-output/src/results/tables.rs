@@ -1,5 +1,7 @@
 //! The CSV tables of a run.
 
+use std::time::Duration;
+
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
@@ -9,24 +11,27 @@ use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 
-const HISTORY: [&str; 17] = [
-    "step",
-    "load_factor",
-    "displacement",
-    "reaction",
-    "stored_energy",
-    "released_energy",
-    "broken_bonds",
-    "external_work",
-    "energy_error",
-    "broken_in_step",
-    "largest_ratio",
-    "rounds",
-    "solves",
-    "fragments",
-    "at_rest",
-    "negative_eigenvalues",
-    "dissipated_energy",
+/// A column of a table: its name, and its value in the row of a record.
+type Column<R> = (&'static str, fn(&R) -> Value<'static>);
+
+const HISTORY: [Column<StepRecord>; 17] = [
+    ("step", |it| it.step.into()),
+    ("load_factor", |it| it.load_factor.into()),
+    ("displacement", |it| it.displacement.into()),
+    ("reaction", |it| it.reaction.into()),
+    ("stored_energy", |it| it.stored_energy.into()),
+    ("released_energy", |it| it.released_energy.into()),
+    ("broken_bonds", |it| it.broken_bonds.into()),
+    ("external_work", |it| it.external_work.into()),
+    ("energy_error", |it| it.energy_error().into()),
+    ("broken_in_step", |it| it.broken_in_step.into()),
+    ("largest_ratio", |it| it.largest_ratio.into()),
+    ("rounds", |it| it.rounds.into()),
+    ("solves", |it| it.solves.into()),
+    ("fragments", |it| it.fragments.into()),
+    ("at_rest", |it| usize::from(it.at_rest).into()),
+    ("negative_eigenvalues", |it| it.negative_eigenvalues.into()),
+    ("dissipated_energy", |it| it.dissipated_energy.into()),
 ];
 const ITERATIONS: [&str; 7] = [
     "step",
@@ -37,23 +42,23 @@ const ITERATIONS: [&str; 7] = [
     "stored_energy",
     "broken_bonds",
 ];
-const BREAKS: [&str; 6] = [
-    "order",
-    "step",
-    "round",
-    "load_factor",
-    "displacement",
-    "reaction",
+const BREAKS: [Column<BreakRecord>; 6] = [
+    ("order", |it| it.order.into()),
+    ("step", |it| it.step.into()),
+    ("round", |it| it.round.into()),
+    ("load_factor", |it| it.load_factor.into()),
+    ("displacement", |it| it.displacement.into()),
+    ("reaction", |it| it.reaction.into()),
 ];
-const TIMINGS: [&str; 8] = [
-    "step",
-    "assembly_s",
-    "factorisation_s",
-    "change_s",
-    "backward_s",
-    "solve_s",
-    "bonds_s",
-    "connectivity_s",
+/// Columns of the table of times, behind the step.
+const TIMINGS: [(&str, fn(&Costs) -> Duration); 7] = [
+    ("assembly_s", |it| it.assembly),
+    ("factorisation_s", |it| it.factorisation),
+    ("change_s", |it| it.change),
+    ("backward_s", |it| it.backward),
+    ("solve_s", |it| it.solve),
+    ("bonds_s", |it| it.bonds),
+    ("connectivity_s", |it| it.connectivity),
 ];
 
 const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
@@ -135,21 +140,23 @@ impl Tables {
         let extra: Vec<String> = group_columns
             .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
-        let history_columns: Vec<&str> = HISTORY
-            .into_iter()
+        let history_columns: Vec<&str> = (HISTORY.iter().map(|column| column.0))
             .chain(extra.iter().map(String::as_str))
             .collect();
         let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
-        let breaks_columns: Vec<&str> = (BREAKS.into_iter())
+        let breaks_columns: Vec<&str> = (BREAKS.iter().map(|column| column.0))
             .chain(ends.iter().map(String::as_str))
             .chain(["utilisation", "criterion"])
             .chain(deformation_names(&*problem.system).iter().copied())
+            .collect();
+        let timings: Vec<&str> = (["step"].into_iter())
+            .chain(TIMINGS.iter().map(|column| column.0))
             .collect();
         Ok(Self {
             history: Table::create(folder.file("history.csv"), &history_columns)?,
             iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
             breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
-            timings: Table::create(folder.file("timings.csv"), &TIMINGS)?,
+            timings: Table::create(folder.file("timings.csv"), &timings)?,
             criteria,
             n_components: deformation_names(&*problem.system).len(),
             step: 0,
@@ -195,18 +202,10 @@ impl Tables {
     ) -> Result<(), Error> {
         for record in records {
             let [a, b] = ends[record.bond as usize].map(|end| tags[end as usize]);
-            let mut row: Vec<Value<'_>> = vec![
-                record.order.into(),
-                record.step.into(),
-                record.round.into(),
-                record.load_factor.into(),
-                record.displacement.into(),
-                record.reaction.into(),
-                a.into(),
-                b.into(),
-                record.ratio.into(),
-                self.criteria[record.criterion].as_str().into(),
-            ];
+            let mut row: Vec<Value<'_>> = BREAKS.iter().map(|column| column.1(record)).collect();
+            row.extend([a, b].map(Value::from));
+            row.push(record.ratio.into());
+            row.push(self.criteria[record.criterion].as_str().into());
             let components = record.deformation.components().into_iter();
             row.extend(components.take(self.n_components).map(Value::from));
             self.breaks.append(&row)?;
@@ -215,25 +214,7 @@ impl Tables {
     }
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
-        let mut row: Vec<Value<'_>> = vec![
-            record.step.into(),
-            record.load_factor.into(),
-            record.displacement.into(),
-            record.reaction.into(),
-            record.stored_energy.into(),
-            record.released_energy.into(),
-            record.broken_bonds.into(),
-            record.external_work.into(),
-            record.energy_error().into(),
-            record.broken_in_step.into(),
-            record.largest_ratio.into(),
-            record.rounds.into(),
-            record.solves.into(),
-            record.fragments.into(),
-            usize::from(record.at_rest).into(),
-            record.negative_eigenvalues.into(),
-            record.dissipated_energy.into(),
-        ];
+        let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
         let layout = view.system.layout();
         let of_groups = record.group_forces.iter().flat_map(|force| {
             // The forces of a group stand as those of one point.
@@ -247,19 +228,11 @@ impl Tables {
 
     fn time(&mut self, step: usize, costs: &Costs) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.costs_before, *costs);
-        let seconds = |now: std::time::Duration, then: std::time::Duration| {
-            Value::from((now - then).as_secs_f64())
-        };
-        self.timings.append(&[
-            step.into(),
-            seconds(costs.assembly, before.assembly),
-            seconds(costs.factorisation, before.factorisation),
-            seconds(costs.change, before.change),
-            seconds(costs.backward, before.backward),
-            seconds(costs.solve, before.solve),
-            seconds(costs.bonds, before.bonds),
-            seconds(costs.connectivity, before.connectivity),
-        ])
+        let seconds = TIMINGS.map(|(_, of)| (of(costs) - of(&before)).as_secs_f64());
+        let row: Vec<Value<'_>> = (std::iter::once(step.into()))
+            .chain(seconds.map(Value::from))
+            .collect();
+        self.timings.append(&row)
     }
 }
 

@@ -24,7 +24,15 @@ const HEADER_ENTRY: usize = 8;
 pub struct VtuFile {
     path: PathBuf,
     text: String,
+    contents: Contents,
+}
+
+/// The arrays of a file, and the number of values that a field has.
+#[derive(Debug)]
+struct Contents {
     arrays: Vec<Entry>,
+    n_points: usize,
+    n_cells: usize,
 }
 
 /// The part of a file that an array belongs to.
@@ -57,17 +65,18 @@ impl VtuFile {
     /// If the file cannot be read, or is no VTU file as this program writes them.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let bytes = fs::read(&path).map_err(|source| Error::ReadFile {
-            path: path.clone(),
-            source,
-        })?;
+        let bytes = fs::read(&path).map_err(Error::system("read", &path))?;
         let strange = |reason: &str| Error::Unreadable {
             path: path.clone(),
             reason: reason.to_owned(),
         };
         let text = String::from_utf8(bytes).map_err(|_| strange("it is no text"))?;
-        let arrays = arrays(&text).map_err(strange)?;
-        Ok(Self { path, text, arrays })
+        let contents = contents(&text).map_err(strange)?;
+        Ok(Self {
+            path,
+            text,
+            contents,
+        })
     }
 
     /// The path of the file.
@@ -78,10 +87,8 @@ impl VtuFile {
     /// Names of the fields on the points or cells, in their order.
     pub fn fields(&self, location: FieldLocation) -> impl Iterator<Item = &str> {
         let section = Section::Fields(location);
-        let of_section = self
-            .arrays
-            .iter()
-            .filter(move |array| array.section == section);
+        let arrays = self.contents.arrays.iter();
+        let of_section = arrays.filter(move |array| array.section == section);
         of_section.map(|array| array.name.as_str())
     }
 
@@ -92,21 +99,14 @@ impl VtuFile {
         Some((entry.n_components, &entry.components))
     }
 
-    /// Whether a field holds integers.
-    pub fn is_integer(&self, location: FieldLocation, name: &str) -> bool {
-        let entry = self.find(Section::Fields(location), name);
-        entry.is_some_and(|array| array.vtk_type == "Int64")
-    }
-
     /// The numbers of a field, point by point or cell by cell; None where there is no such field.
     ///
     /// # Errors
     ///
     /// If it is damaged, or does not hold numbers.
     pub fn numbers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<f64>>, Error> {
-        self.find(Section::Fields(location), name)
-            .map(|entry| self.floats(entry))
-            .transpose()
+        let entry = self.find(Section::Fields(location), name);
+        entry.map(|entry| self.floats(entry)).transpose()
     }
 
     /// The integers of a field; None where there is no such field.
@@ -115,9 +115,46 @@ impl VtuFile {
     ///
     /// If it is damaged, or does not hold integers.
     pub fn integers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<i64>>, Error> {
-        self.find(Section::Fields(location), name)
-            .map(|entry| self.whole(entry))
-            .transpose()
+        let entry = self.find(Section::Fields(location), name);
+        entry.map(|entry| self.whole(entry)).transpose()
+    }
+
+    /// The numbers of a field that the file must have.
+    ///
+    /// # Errors
+    ///
+    /// If it is missing or damaged, or does not hold numbers.
+    pub fn required_numbers(&self, location: FieldLocation, name: &str) -> Result<Vec<f64>, Error> {
+        let values = self.numbers(location, name)?;
+        values.ok_or_else(|| self.missing(location, name))
+    }
+
+    /// The integers of a field that the file must have.
+    ///
+    /// # Errors
+    ///
+    /// If it is missing or damaged, or does not hold integers.
+    pub fn required_integers(
+        &self,
+        location: FieldLocation,
+        name: &str,
+    ) -> Result<Vec<i64>, Error> {
+        let values = self.integers(location, name)?;
+        values.ok_or_else(|| self.missing(location, name))
+    }
+
+    /// The tags of what the points of a model are: the noun `node` or `cell`, and the tags of the nodes or cells.
+    ///
+    /// # Errors
+    ///
+    /// If there are none, or they are damaged.
+    pub fn tags(&self, location: FieldLocation) -> Result<(&'static str, Vec<i64>), Error> {
+        for tagged in ["node", "cell"] {
+            if let Some(tags) = self.integers(location, tagged)? {
+                return Ok((tagged, tags));
+            }
+        }
+        Err(self.strange(format!("its {location}s have no tags")))
     }
 
     /// Positions of the points, shape (n_points).
@@ -130,29 +167,19 @@ impl VtuFile {
         Ok(values.chunks_exact(3).map(|p| [p[0], p[1]]).collect())
     }
 
-    /// Points of all cells, one cell after the other.
-    ///
-    /// # Errors
-    ///
-    /// If they are damaged or missing.
-    pub fn connectivity(&self) -> Result<Vec<i64>, Error> {
-        self.whole(self.required(Section::Cells, "connectivity")?)
-    }
-
     /// The cells, whose points are points of the file.
     ///
     /// # Errors
     ///
     /// If they are damaged or missing, or of another kind than this program writes.
     pub fn cells(&self) -> Result<Vec<Cell>, Error> {
-        let connectivity = self.connectivity()?;
+        let connectivity = self.whole(self.required(Section::Cells, "connectivity")?)?;
         let offsets = self.whole(self.required(Section::Cells, "offsets")?)?;
         let types = self.required(Section::Cells, "types")?;
         let types = self.values(types, u8::from_le_bytes)?;
-        let n_points = self.points()?.len();
         let point = |number: &i64| {
             let number = u32::try_from(*number).ok();
-            number.filter(|point| (*point as usize) < n_points)
+            number.filter(|point| (*point as usize) < self.contents.n_points)
         };
         let mut from = 0;
         let cell = |(vtk_type, to): (u8, i64)| {
@@ -162,7 +189,22 @@ impl VtuFile {
             Cell::from_vtk(vtk_type, &points?)
         };
         let cells: Option<Vec<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
+        let cells = cells.filter(|cells| cells.len() == self.contents.n_cells);
         cells.ok_or_else(|| self.strange("its cells are not those of a planar grid"))
+    }
+
+    /// The cells of a file whose cells are lines between its points, as their ends.
+    ///
+    /// # Errors
+    ///
+    /// If they are damaged or missing, or not all of them are lines.
+    pub fn lines(&self) -> Result<Vec<[u32; 2]>, Error> {
+        let ends = |cell: Cell| match cell {
+            Cell::Line(ends) => Some(ends),
+            _ => None,
+        };
+        let lines: Option<Vec<[u32; 2]>> = self.cells()?.into_iter().map(ends).collect();
+        lines.ok_or_else(|| self.strange("its cells are no pairs of its points"))
     }
 
     /// The error of something in the file that is not as it should be.
@@ -173,9 +215,13 @@ impl VtuFile {
         }
     }
 
+    fn missing(&self, location: FieldLocation, name: &str) -> Error {
+        self.strange(format!("it has no {location} field {name}"))
+    }
+
     fn find(&self, section: Section, name: &str) -> Option<&Entry> {
         let is_meant = |it: &&Entry| it.section == section && it.name == name;
-        self.arrays.iter().find(is_meant)
+        self.contents.arrays.iter().find(is_meant)
     }
 
     fn required(&self, section: Section, name: &str) -> Result<&Entry, Error> {
@@ -187,6 +233,7 @@ impl VtuFile {
         match entry.vtk_type.as_str() {
             "Float64" => self.values(entry, f64::from_le_bytes),
             "Float32" => self.values(entry, |bytes| f64::from(f32::from_le_bytes(bytes))),
+            "Int64" => self.values(entry, |bytes| i64::from_le_bytes(bytes) as f64),
             other => Err(self.strange(format!("array {} has {other}, no numbers", entry.name))),
         }
     }
@@ -206,7 +253,12 @@ impl VtuFile {
         let damaged = || self.strange(format!("array {} is damaged", entry.name));
         let bytes = decode(self.text[entry.content.clone()].trim()).ok_or_else(damaged)?;
         let (values, rest) = bytes.as_chunks::<SIZE>();
-        if rest.is_empty() {
+        let expected = match entry.section {
+            Section::Fields(FieldLocation::Point) | Section::Points => self.contents.n_points,
+            Section::Fields(FieldLocation::Cell) => self.contents.n_cells,
+            Section::Cells => values.len(),
+        };
+        if rest.is_empty() && values.len() == expected * entry.n_components {
             Ok(values.iter().map(|bytes| from_bytes(*bytes)).collect())
         } else {
             Err(damaged())
@@ -214,9 +266,10 @@ impl VtuFile {
     }
 }
 
-/// The arrays of a text. Base64 has no `<`, so that tags are what lies between the angles.
-fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
-    let mut found = Vec::new();
+/// The contents of a text. Base64 has no `<`, so that tags are what lies between the angles.
+fn contents(text: &str) -> Result<Contents, &'static str> {
+    let mut arrays = Vec::new();
+    let mut counts = None;
     let mut section = None;
     let mut is_known_format = false;
     let mut at = 0;
@@ -227,6 +280,10 @@ fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
         let name_end = tag.find([' ', '\n', '/']).unwrap_or(tag.len());
         match &tag[..name_end] {
             "VTKFile" => is_known_format = is_ours(tag),
+            "Piece" => {
+                let count = |key| attribute(tag, key)?.parse().ok();
+                counts = count("NumberOfPoints").zip(count("NumberOfCells"));
+            }
             "PointData" => section = Some(Section::Fields(FieldLocation::Point)),
             "CellData" => section = Some(Section::Fields(FieldLocation::Cell)),
             "Points" => section = Some(Section::Points),
@@ -236,7 +293,7 @@ fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
                 let length = text[at..].find('<').ok_or("it ends in an array")?;
                 let count = attribute(tag, "NumberOfComponents").map_or(Ok(1), str::parse);
                 let component = |number| attribute(tag, &format!("ComponentName{number}"));
-                found.push(Entry {
+                arrays.push(Entry {
                     section: section.ok_or("an array is out of place")?,
                     name: unescape(of("Name")?),
                     vtk_type: of("type")?.to_owned(),
@@ -255,7 +312,12 @@ fn arrays(text: &str) -> Result<Vec<Entry>, &'static str> {
     if !text.trim_end().ends_with("</VTKFile>") {
         return Err("its end is missing");
     }
-    Ok(found)
+    let (n_points, n_cells) = counts.ok_or("it has no number of points and cells")?;
+    Ok(Contents {
+        arrays,
+        n_points,
+        n_cells,
+    })
 }
 
 fn is_ours(tag: &str) -> bool {
@@ -355,21 +417,19 @@ mod tests {
             let read = file.numbers(on_points, "f32").unwrap().unwrap();
             prop_assert!(read.iter().zip(&single).all(|(a, b)| *a == f64::from(*b)));
             prop_assert_eq!(read.len(), n_points);
+            let whole: Vec<f64> = integers.iter().map(|it| *it as f64).collect();
+            prop_assert_eq!(file.numbers(on_cells, &name).unwrap(), Some(whole));
             prop_assert_eq!(file.integers(on_cells, &name).unwrap(), Some(integers));
             let read = file.numbers(on_cells, "v").unwrap().unwrap();
             prop_assert_eq!(bits(&read), bits(vectors.as_flattened()));
             let read = file.points().unwrap();
             prop_assert_eq!(bits(read.as_flattened()), bits(points.as_flattened()));
-            let of_cells: Vec<i64> = (cells.iter().flat_map(Cell::points))
-                .map(|&point| i64::from(point))
-                .collect();
-            prop_assert_eq!(file.connectivity().unwrap(), of_cells);
             prop_assert_eq!(file.cells().unwrap(), cells);
             prop_assert_eq!(file.components(on_cells, "v"), Some((3, &[][..])));
             prop_assert_eq!(file.components(on_points, "v"), None);
-            prop_assert!(file.is_integer(on_cells, &name) && !file.is_integer(on_points, &name));
             prop_assert_eq!(file.numbers(on_cells, "w").unwrap(), None);
-            prop_assert!(file.numbers(on_cells, &name).is_err(), "integers are no numbers");
+            prop_assert!(file.lines().is_err(), "one cell is no line");
+            prop_assert!(file.integers(on_points, &name).is_err(), "numbers are no integers");
         }
     }
 
@@ -426,6 +486,6 @@ mod tests {
         let other = text.replace("vtkZLibDataCompressor", "vtkLZ4DataCompressor");
         assert!(message(&other).ends_with("it is no VTU file of this program"));
         let open = VtuFile::open(path.with_file_name("b.vtu"));
-        assert!(matches!(open, Err(Error::ReadFile { .. })));
+        assert!(matches!(open, Err(Error::System { action: "read", .. })));
     }
 }

@@ -2,11 +2,9 @@
 
 use std::collections::HashMap;
 
-use ligament_output::FieldLocation;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
-
-use super::PictureError;
+use ligament_output::{Error, FieldLocation};
 
 /// Share of the body's size that the largest displacement has where the scale is chosen by the program.
 const DRAWN_SHARE: f64 = 0.05;
@@ -28,31 +26,19 @@ pub(super) struct Body {
 
 impl Body {
     /// Reads it from an output.
-    pub(super) fn read(file: &VtuFile) -> Result<Self, PictureError> {
-        let reference = file.points()?;
-        let moved = file.numbers(FieldLocation::Point, "displacement")?;
-        let moved = moved.ok_or_else(|| missing(file, "displacement"))?;
-        let displacement: Vec<[f64; 2]> = moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect();
-        let mut tagged = FieldLocation::Point;
-        let mut tags = file.integers(tagged, "node")?;
-        if tags.is_none() {
-            tagged = FieldLocation::Cell;
-            tags = file.integers(tagged, "cell")?;
-        }
-        let tags = tags.ok_or_else(|| missing(file, "node or cell"))?;
-        let cells = file.cells()?;
-        let fits = displacement.len() == reference.len()
-            && match tagged {
-                FieldLocation::Point => tags.len() == reference.len(),
-                FieldLocation::Cell => tags.len() == cells.len(),
-            };
-        if !fits {
-            return Err(missing(file, "displacement of all points"));
-        }
+    pub(super) fn read(file: &VtuFile) -> Result<Self, Error> {
+        let moved = file.required_numbers(FieldLocation::Point, "displacement")?;
+        let (tagged, tags) = match file.integers(FieldLocation::Point, "node")? {
+            Some(tags) => (FieldLocation::Point, tags),
+            None => {
+                let location = FieldLocation::Cell;
+                (location, file.required_integers(location, "cell")?)
+            }
+        };
         Ok(Self {
-            reference,
-            displacement,
-            cells,
+            reference: file.points()?,
+            displacement: moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect(),
+            cells: file.cells()?,
             tagged,
             places: tags.into_iter().zip(0..).collect(),
         })
@@ -133,13 +119,6 @@ pub(super) fn bounds(positions: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
             [high[0].max(p[0]), high[1].max(p[1])],
         ])
     })
-}
-
-fn missing(file: &VtuFile, what: &str) -> PictureError {
-    PictureError::NotDrawable {
-        path: file.path().to_path_buf(),
-        reason: format!("it has no {what}"),
-    }
 }
 
 #[cfg(test)]

@@ -1,16 +1,13 @@
 //! Broken bonds, as lines between their ends.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ligament_output::csv::read::Sheet;
 use ligament_output::results::outputs::cut_pairs;
 
 use super::PictureError;
-
-/// Colours of the criteria, which any colour vision can distinguish (Okabe and Ito).
-const COLOURS: [&str; 6] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-];
+use crate::plots::Colour;
 
 /// Colour of what a pre-crack cut.
 const CUT: &str = "#8c8c8c";
@@ -24,7 +21,7 @@ pub(super) struct Broken {
     /// The criterion.
     pub(super) name: String,
     /// Colour of the criterion.
-    pub(super) colour: &'static str,
+    pub(super) colour: String,
     /// Tags of the ends with the step in which they broke.
     bonds: Vec<([i64; 2], usize)>,
 }
@@ -48,7 +45,7 @@ impl Crack {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut = (!cut.is_empty()).then(|| Broken {
             name: "pre-crack".to_owned(),
-            colour: CUT,
+            colour: CUT.to_owned(),
             bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
         });
         let broken = if with_broken {
@@ -82,39 +79,35 @@ impl Broken {
 fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
     let has_cells = sheet.columns().iter().any(|it| it == "cell_a");
     let tagged = if has_cells { "cell" } else { "node" };
-    let tags = |end: &str| sheet.values::<i64>(&format!("{tagged}_{end}"));
-    let steps: Vec<usize> = sheet.values("step")?;
-    let criteria: Vec<String> = sheet.values("criterion")?;
-    let ends = tags("a")?.into_iter().zip(tags("b")?).map(|(a, b)| [a, b]);
-    let bonds: Vec<([i64; 2], usize)> = ends.zip(steps).collect();
-    let mut names = criteria.clone();
-    names.sort();
-    names.dedup();
-    let of_name = |name: String| {
-        let own = criteria.iter().zip(&bonds).filter(|(it, _)| **it == name);
-        Broken {
-            bonds: own.map(|(_, bond)| *bond).collect(),
-            colour: OVER_FIELD,
-            name,
-        }
+    let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
+    let mut by_name: BTreeMap<String, Vec<_>> = BTreeMap::new();
+    let rows = sheet.rows(|row| {
+        let ends = [row.value(&ends[0])?, row.value(&ends[1])?];
+        Ok((row.value("criterion")?, (ends, row.value("step")?)))
+    })?;
+    for (name, bond) in rows {
+        by_name.entry(name).or_default().push(bond);
+    }
+    let of_name = |(name, bonds)| Broken {
+        name,
+        colour: OVER_FIELD.to_owned(),
+        bonds,
     };
-    Ok(names.into_iter().map(of_name).collect())
+    Ok(by_name.into_iter().map(of_name).collect())
 }
 
 /// Gives each criterion of all cracks a colour of its own; black where there is only one, drawn over a field.
 pub(super) fn paint(mut cracks: Vec<&mut Crack>, over_field: bool) {
     let kinds = cracks.iter().flat_map(|crack| &crack.kinds);
     let broken = kinds.filter(|kind| !kind.is_cut());
-    let mut names: Vec<String> = broken.map(|kind| kind.name.clone()).collect();
-    names.sort();
-    names.dedup();
+    let names: BTreeSet<String> = broken.map(|kind| kind.name.clone()).collect();
     if over_field && names.len() == 1 {
         return;
     }
     let kinds = cracks.iter_mut().flat_map(|crack| &mut crack.kinds);
     for kind in kinds.filter(|kind| !kind.is_cut()) {
         let place = names.iter().position(|it| *it == kind.name).unwrap_or(0);
-        kind.colour = COLOURS[place % COLOURS.len()];
+        kind.colour = Colour::CYCLE[place % Colour::CYCLE.len()].hex();
     }
 }
 

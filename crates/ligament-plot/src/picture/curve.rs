@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
+use ligament_output::read_text;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 
 use super::units::Shown;
@@ -57,9 +58,10 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     let place = |point: [f64; 2]| [0, 1].map(|axis| point[axis] * shown[axis].factor);
     let mut series = Vec::new();
     let is_single = curves.len() == 1;
+    let colours: Vec<Colour> = Colour::CYCLE.into_iter().chain([Colour::Black]).collect();
     for (number, (curve, label)) in curves.iter().zip(&labels).enumerate() {
-        let colour = COLOURS[number % COLOURS.len()];
-        let mark = match (number / COLOURS.len(), curve.points.len()) {
+        let colour = colours[number % colours.len()];
+        let mark = match (number / colours.len(), curve.points.len()) {
             (0, 0..=DOTTED) => Mark::Line,
             (0, _) => Mark::Curve,
             _ => Mark::Dashes,
@@ -81,7 +83,7 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         // One entry of the legend for all.
         let label = if is_named { "" } else { "first peak" };
         is_named = true;
-        let colour = COLOURS[number % COLOURS.len()];
+        let colour = colours[number % colours.len()];
         series.push(Series::new(label, Mark::Circles, colour, vec![place(peak)]));
     }
     let words = |column: &str| column.replace('_', " ");
@@ -99,16 +101,6 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     let svg = plot.for_paper(width)?;
     request.target.write(file, &svg)
 }
-
-const COLOURS: [Colour; 7] = [
-    Colour::Blue,
-    Colour::Vermilion,
-    Colour::Green,
-    Colour::Purple,
-    Colour::Orange,
-    Colour::Sky,
-    Colour::Black,
-];
 
 impl Curve {
     fn read(folder: &Path, columns: &[String; 2]) -> Result<Self, PictureError> {
@@ -149,7 +141,7 @@ impl Curve {
 
 /// The load before its first fall, from the summary; a run that was cut short has none.
 fn first_peak(folder: &Path) -> Option<[f64; 2]> {
-    let text = std::fs::read_to_string(folder.join("summary.json")).ok()?;
+    let text = read_text(&folder.join("summary.json")).ok()?;
     let summary: serde_json::Value = serde_json::from_str(&text).ok()?;
     let peak = &summary["first_peak"];
     Some([peak["displacement"].as_f64()?, peak["reaction"].as_f64()?])
@@ -166,21 +158,16 @@ fn known_columns(name: &str, columns: &[String]) -> String {
 /// The unit to show an axis in.
 fn shown(curves: &[Curve], axis: usize, request: &CurveRequest) -> Result<Shown, PictureError> {
     let unit = &curves[0].units[axis];
-    if let Some(other) = curves
-        .iter()
-        .map(|it| &it.units[axis])
-        .find(|it| *it != unit)
-    {
+    let mut units = curves.iter().map(|it| &it.units[axis]);
+    if let Some(other) = units.find(|it| *it != unit) {
         return Err(PictureError::Units {
             axis: request.columns[axis].clone(),
             first: unit.clone(),
             other: other.clone(),
         });
     }
-    let values = curves
-        .iter()
-        .flat_map(|it| &it.points)
-        .map(|point| point[axis].abs());
+    let points = curves.iter().flat_map(|it| &it.points);
+    let values = points.map(|point| point[axis].abs());
     let largest = values.filter(|it| it.is_finite()).fold(0.0, f64::max);
     Ok(Shown::new(unit, largest))
 }

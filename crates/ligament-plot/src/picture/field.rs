@@ -22,13 +22,6 @@ pub(super) struct Field {
     pub(super) values: Vec<f64>,
 }
 
-/// The number of a vector or tensor that is drawn.
-enum Component {
-    Only,
-    Norm,
-    At(usize),
-}
-
 impl Field {
     /// Reads a field: `damage`, `displacement` (its norm), `displacement.x`, `stress_virial.xx`. On a lattice, where fields belong
     /// to the cells, those of the cells go first.
@@ -45,29 +38,21 @@ impl Field {
         };
         let location = whole(base).ok_or_else(|| unknown(file, name))?;
         let (count, names) = file.components(location, base).unwrap_or((1, &[]));
-        let component = match (part, count) {
-            (None, 1) => Component::Only,
-            (None | Some("magnitude"), 3) if names.is_empty() => Component::Norm,
+        let all = file.required_numbers(location, base)?;
+        let values = match (part, count) {
+            (None, 1) => all,
+            (None | Some("magnitude"), 3) if names.is_empty() => {
+                all.chunks_exact(3).map(|v| v[0].hypot(v[1])).collect()
+            }
             (part, _) => {
                 let known = component_names(count, names);
                 let place = part.and_then(|part| known.iter().position(|it| it == part));
-                Component::At(place.ok_or_else(|| PictureError::NoComponent {
+                let place = place.ok_or_else(|| PictureError::NoComponent {
                     field: base.to_owned(),
                     choices: known.iter().map(|it| format!("{base}.{it}")).collect(),
-                })?)
+                })?;
+                all.chunks_exact(count).map(|v| v[place]).collect()
             }
-        };
-        let read = if file.is_integer(location, base) {
-            let integers = file.integers(location, base)?;
-            integers.map(|all| all.into_iter().map(|it| it as f64).collect())
-        } else {
-            file.numbers(location, base)?
-        };
-        let all: Vec<f64> = read.ok_or_else(|| unknown(file, name))?;
-        let values = match component {
-            Component::Only => all,
-            Component::Norm => all.chunks_exact(3).map(|v| v[0].hypot(v[1])).collect(),
-            Component::At(place) => all.chunks_exact(count).map(|v| v[place]).collect(),
         };
         Ok(Self {
             name: name.to_owned(),
@@ -102,16 +87,17 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
     for location in [FieldLocation::Point, FieldLocation::Cell] {
         for field in file.fields(location) {
             let (count, names) = file.components(location, field).unwrap_or((1, &[]));
-            let components = component_names(count, names);
-            let all: Vec<String> = match components.as_slice() {
-                [] => vec![field.to_owned()],
-                parts => parts.iter().map(|part| format!("{field}.{part}")).collect(),
-            };
-            known.extend(all);
+            let mut drawable = component_names(count, names)
+                .iter()
+                .map(|part| format!("{field}.{part}"))
+                .collect::<Vec<_>>();
+            if drawable.is_empty() {
+                drawable.push(field.to_owned());
+            }
+            drawable.retain(|name| !known.contains(name));
+            known.extend(drawable);
         }
     }
-    let mut seen = std::collections::HashSet::new();
-    known.retain(|name| seen.insert(name.clone()));
     PictureError::UnknownField {
         suggestion: nearest(name, &known).map(str::to_owned),
         name: name.to_owned(),

@@ -161,50 +161,43 @@ fn sources(request: &FieldRequest, labels: Vec<String>) -> Result<Vec<Source>, P
 
 impl Source {
     fn open(folder: &Path, label: String, request: &FieldRequest) -> Result<Self, PictureError> {
-        let outputs = Outputs::list(folder)?;
-        let path = folder.to_path_buf();
-        if outputs.kind == OutputKind::Modes {
+        let mut source = Self {
+            outputs: Outputs::list(folder)?,
+            label,
+            moments: BTreeMap::new(),
+            shown: None,
+            crack: None,
+            shows_broken: request.crack,
+            frequencies: BTreeMap::new(),
+        };
+        if source.outputs.kind == OutputKind::Modes {
             if request.crack {
-                let (what, option) = ("broken bonds", "--crack");
-                return Err(PictureError::Modes { path, what, option });
+                return Err(PictureError::Modes {
+                    path: folder.to_path_buf(),
+                    what: "broken bonds",
+                    option: "--crack",
+                });
             }
             let table = Sheet::read(folder.join("modes.csv"))?;
-            let numbers: Vec<usize> = table.values("mode")?;
-            let frequencies = numbers
-                .into_iter()
-                .zip(table.values("frequency_hz")?)
-                .collect();
-            return Ok(Self {
-                outputs,
-                label,
-                moments: BTreeMap::new(),
-                shown: None,
-                crack: None,
-                shows_broken: false,
-                frequencies,
-            });
+            let numbers = table.values::<usize>("mode")?.into_iter();
+            source.frequencies = numbers.zip(table.values("frequency_hz")?).collect();
+            return Ok(source);
         }
-        let moments = moments(folder)?;
+        source.moments = moments(folder)?;
         let loading = stored_loading(folder).ok();
-        let largest =
-            |of: fn(&Moment) -> f64| moments.values().map(|it| of(it).abs()).fold(0.0, f64::max);
-        let shown = loading.map(|it| {
+        let largest = |of: fn(&Moment) -> f64| {
+            let sizes = source.moments.values().map(|it| of(it).abs());
+            sizes.fold(0.0, f64::max)
+        };
+        source.shown = loading.map(|it| {
             [
                 Shown::new(it.units.displacement, largest(|it| it.displacement)),
                 Shown::new(it.units.force, largest(|it| it.reaction)),
             ]
         });
         let follows_path = loading.is_some_and(|it| it.follows_path);
-        let crack = Crack::read(folder, follows_path, request.crack)?;
-        Ok(Self {
-            outputs,
-            label,
-            moments,
-            shown,
-            crack: Some(crack),
-            shows_broken: request.crack,
-            frequencies: BTreeMap::new(),
-        })
+        source.crack = Some(Crack::read(folder, follows_path, request.crack)?);
+        Ok(source)
     }
 
     fn title(&self, number: usize, is_labelled: bool) -> Vec<[String; 2]> {
@@ -248,31 +241,15 @@ impl Source {
         title: Vec<[String; 2]>,
     ) -> Result<Panel, PictureError> {
         let file = VtuFile::open(path)?;
-        let mut field = (name != NONE)
-            .then(|| Field::read(&file, name))
-            .transpose()?;
-        if let Some(field) = field
-            .as_mut()
-            .filter(|_| self.outputs.kind == OutputKind::Modes)
-        {
-            relate_to_largest(field);
-        }
-        let body = Body::read(&file)?;
-        let (n_points, n_cells) = (body.reference.len(), body.cells.len());
-        let fits = field.as_ref().is_none_or(|it| match it.location {
-            ligament_output::FieldLocation::Point => it.values.len() == n_points,
-            ligament_output::FieldLocation::Cell => it.values.len() == n_cells,
-        });
-        if !fits {
-            return Err(PictureError::NotDrawable {
-                path: path.to_path_buf(),
-                reason: format!("`{name}` has not one value a point or cell"),
-            });
+        let is_drawn = name != NONE;
+        let mut field = is_drawn.then(|| Field::read(&file, name)).transpose()?;
+        if self.outputs.kind == OutputKind::Modes {
+            field.iter_mut().for_each(relate_to_largest);
         }
         Ok(Panel {
             title,
             positions: Vec::new(),
-            body,
+            body: Body::read(&file)?,
             field,
             broken: Vec::new(),
         })
@@ -295,7 +272,7 @@ impl Source {
         panel.broken = kinds
             .map(|(crack, kind)| {
                 let bonds = crack.until(kind, number).into_iter();
-                (kind.colour, bonds.filter_map(line).collect())
+                (kind.colour.clone(), bonds.filter_map(line).collect())
             })
             .collect();
         panel.positions = positions;
@@ -304,11 +281,8 @@ impl Source {
 
     fn has_broken(&self) -> bool {
         let breaks = Sheet::read(self.outputs.folder.join("breaks.csv"));
-        breaks.is_ok_and(|sheet| {
-            sheet
-                .texts("step")
-                .is_some_and(|mut it| it.next().is_some())
-        })
+        let steps = breaks.and_then(|sheet| sheet.values::<usize>("step"));
+        steps.is_ok_and(|steps| !steps.is_empty())
     }
 }
 
@@ -367,18 +341,13 @@ fn scale(
     has_modes: bool,
     request: &FieldRequest,
 ) -> Result<Option<(Scale, [f64; 2])>, PictureError> {
-    let mut fields = panels
-        .iter()
-        .filter_map(|panel| panel.field.as_ref())
-        .peekable();
-    if fields.peek().is_none() {
+    if name == NONE {
         return Ok(None);
     }
+    let fields = panels.iter().filter_map(|panel| panel.field.as_ref());
     let ranges = fields.filter_map(Field::range);
     let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    let range = range.ok_or_else(|| PictureError::NoValues {
-        name: name.to_owned(),
-    })?;
+    let range = range.ok_or_else(|| PictureError::NoValues(name.to_owned()))?;
     // Modes are relative to their largest values.
     let of_modes = has_modes.then_some([range[0].signum().min(0.0), 1.0]);
     let asked = request.range.or(of_modes);
@@ -417,7 +386,7 @@ fn crack_legend(sources: &[Source], panels: &[Panel]) -> Vec<Entry> {
         };
         if count > 0 && !entries.iter().any(|it| it.words == words) {
             entries.push(Entry {
-                colour: Some(kind.colour),
+                colour: Some(kind.colour.clone()),
                 words,
             });
         }

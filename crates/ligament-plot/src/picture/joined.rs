@@ -8,6 +8,8 @@ use std::collections::HashMap;
 
 use ligament_output::vtu::Cell;
 
+use super::body::bounds;
+
 /// Share of the shorter side of a cell beyond which corners are apart.
 const NEAR: f64 = 0.25;
 
@@ -23,7 +25,11 @@ pub(super) struct Joined {
 impl Joined {
     /// Joins the corners of cells, by their positions without load and as they are drawn, both of shape (n_corners).
     pub(super) fn new(cells: &[Cell], reference: &[[f64; 2]], positions: &[[f64; 2]]) -> Self {
-        let Grid { origin, sides } = Grid::from_cells(cells, reference);
+        let corners = cells.first().map_or(&[][..], Cell::points);
+        let corners: Vec<[f64; 2]> = corners.iter().map(|it| reference[*it as usize]).collect();
+        // A corner of the grid, and the sides that all cells share, m.
+        let [origin, opposite] = bounds(&corners).unwrap_or_default();
+        let sides = [0, 1].map(|axis| opposite[axis] - origin[axis]);
         let near = NEAR * sides[0].min(sides[1]);
         let mut meeting: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
         let mut place_of = Vec::with_capacity(reference.len());
@@ -52,34 +58,6 @@ impl Joined {
         Self {
             place_of,
             places: sums.into_iter().map(mean).collect(),
-        }
-    }
-}
-
-/// The grid of a lattice's corners without load.
-struct Grid {
-    /// One corner of the grid, m.
-    origin: [f64; 2],
-    /// Sides of the cells along x and y, which all of them share, m.
-    sides: [f64; 2],
-}
-
-impl Grid {
-    fn from_cells(cells: &[Cell], reference: &[[f64; 2]]) -> Self {
-        let corners = cells.first().map_or(&[][..], Cell::points);
-        let corners = corners.iter().map(|it| reference[*it as usize]);
-        let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        let [low, high] = corners.fold(empty, |[low, high], it| {
-            [0, 1].map(|end| {
-                [0, 1].map(|axis| match end {
-                    0 => low[axis].min(it[axis]),
-                    _ => high[axis].max(it[axis]),
-                })
-            })
-        });
-        Self {
-            origin: low,
-            sides: [high[0] - low[0], high[1] - low[1]],
         }
     }
 }

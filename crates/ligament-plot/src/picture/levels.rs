@@ -1,5 +1,7 @@
 //! The levels between the bands of a contour plot, and which of them are labelled.
 
+use crate::plots::rounded_up;
+
 /// Bands that a scale of its own has at most, ...
 const MOST_BANDS: f64 = 20.0;
 
@@ -39,15 +41,14 @@ impl Levels {
             return Self::equal([low, high], bands);
         }
         let step = round_step((high - low) / MOST_BANDS);
-        let [first, last] = [(low / step).floor(), (high / step).ceil()];
         let is_multiple = |it: f64| (it / step - (it / step).round()).abs() < 1e-6;
-        if rule.range.is_some() && !(is_multiple(low) && is_multiple(high)) {
-            return Self::equal([low, high], 16);
-        }
-        // A range that ends at a multiple but for rounding ends there.
         let [first, last] = match rule.range {
-            Some(_) => [(low / step).round(), (high / step).round()],
-            None => [first, last],
+            None => [(low / step).floor(), (high / step).ceil()],
+            // A range that ends at a multiple but for rounding ends there.
+            Some(_) if is_multiple(low) && is_multiple(high) => {
+                [low, high].map(|it| (it / step).round())
+            }
+            Some(_) => return Self::equal([low, high], 16),
         };
         let count = (last - first) as usize;
         let bounds: Vec<f64> = (0..=count).map(|it| (first + it as f64) * step).collect();
@@ -109,11 +110,8 @@ fn span([least, largest]: [f64; 2], centred: bool) -> [f64; 2] {
 }
 
 /// The least of 1, 2, 2.5 and 5 times a power of ten that is not below a number.
-pub(super) fn round_step(least: f64) -> f64 {
-    let power = 10f64.powf(least.log10().floor());
-    let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|it| it * power);
-    let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
-    steps.into_iter().find(reaches).unwrap_or(10.0 * power)
+fn round_step(least: f64) -> f64 {
+    rounded_up(least, &[1.0, 2.0, 2.5, 5.0])
 }
 
 #[cfg(test)]

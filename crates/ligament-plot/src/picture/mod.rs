@@ -72,8 +72,7 @@ pub enum PictureError {
     },
     /// There is no output of this number.
     #[error(
-        "{} has no output of {} {number}; there are {}{}",
-        path.display(),
+        "{path} has no output of {} {number}; there are {}{}",
         match kind { OutputKind::Steps => "step", OutputKind::Modes => "mode" },
         list(known),
         match kind {
@@ -91,14 +90,11 @@ pub enum PictureError {
         /// Numbers that there are.
         known: Vec<usize>,
     },
-    /// There is no history to choose or to draw from.
-    #[error("{} has no history.csv with the outputs, so none can be chosen by the displacement", path.display())]
-    NoHistory {
-        /// The folder.
-        path: PathBuf,
-    },
+    /// There is no history to choose or to draw from in the folder.
+    #[error("{0} has no history.csv with the outputs, so none can be chosen by the displacement")]
+    NoHistory(PathBuf),
     /// Modes have no curves and no cracks.
-    #[error("{} has natural modes, and so no {what}; leave out {option}", path.display())]
+    #[error("{path} has natural modes, and so no {what}; leave out {option}")]
     Modes {
         /// The folder.
         path: PathBuf,
@@ -115,22 +111,11 @@ pub enum PictureError {
         /// Results given.
         n_results: usize,
     },
-    /// A file without what a picture needs.
-    #[error("cannot draw {}: {reason}", path.display())]
-    NotDrawable {
-        /// The file.
-        path: PathBuf,
-        /// What is missing.
-        reason: String,
-    },
-    /// No value to draw.
-    #[error("`{name}` has no finite value in these outputs")]
-    NoValues {
-        /// The field.
-        name: String,
-    },
+    /// The field has no value to draw.
+    #[error("`{0}` has no finite value in these outputs")]
+    NoValues(String),
     /// No column has the name.
-    #[error("{} has no column `{name}`{hint}", path.display())]
+    #[error("{path} has no column `{name}`{hint}")]
     UnknownColumn {
         /// The table.
         path: PathBuf,
@@ -149,12 +134,9 @@ pub enum PictureError {
         /// Unit of another.
         other: String,
     },
-    /// A file that is neither PNG nor SVG.
-    #[error("{}: a picture ends in .png or .svg", path.display())]
-    Format {
-        /// The file.
-        path: PathBuf,
-    },
+    /// The file is neither PNG nor SVG.
+    #[error("{0}: a picture ends in .png or .svg")]
+    Format(PathBuf),
     /// A plot cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -174,41 +156,29 @@ fn list(numbers: &[usize]) -> String {
     }
 }
 
-/// The formats of pictures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
-    Png,
-    Svg,
-}
-
-impl Format {
-    fn from_path(path: &Path) -> Result<Self, PictureError> {
-        let extension = path
-            .extension()
-            .and_then(|it| it.to_str())
-            .map(str::to_lowercase);
-        match extension.as_deref() {
-            Some("png") => Ok(Self::Png),
-            Some("svg") => Ok(Self::Svg),
-            _ => Err(PictureError::Format {
-                path: path.to_path_buf(),
-            }),
-        }
+/// Whether a file is to be a PNG, and not an SVG.
+fn is_png(path: &Path) -> Result<bool, PictureError> {
+    let extension = path.extension().and_then(|it| it.to_str());
+    match extension.map(str::to_lowercase).as_deref() {
+        Some("png") => Ok(true),
+        Some("svg") => Ok(false),
+        _ => Err(PictureError::Format(path.to_path_buf())),
     }
 }
 
 impl Target {
-    /// The file and its format; `default` where none is given.
-    fn file(&self, default: impl FnOnce() -> PathBuf) -> Result<(PathBuf, Format), PictureError> {
+    /// The file; `default` where none is given.
+    fn file(&self, default: impl FnOnce() -> PathBuf) -> Result<PathBuf, PictureError> {
         let path = self.out.clone().unwrap_or_else(default);
-        let format = Format::from_path(&path)?;
-        Ok((path, format))
+        is_png(&path)?;
+        Ok(path)
     }
 
-    fn write(&self, (path, format): (PathBuf, Format), svg: &str) -> Result<PathBuf, PictureError> {
-        match format {
-            Format::Svg => replace_file(&path, svg.as_bytes())?,
-            Format::Png => replace_file(&path, &to_png(svg, self.dpi)?)?,
+    fn write(&self, path: PathBuf, svg: &str) -> Result<PathBuf, PictureError> {
+        if is_png(&path)? {
+            replace_file(&path, &to_png(svg, self.dpi)?)?;
+        } else {
+            replace_file(&path, svg.as_bytes())?;
         }
         Ok(path)
     }

@@ -34,7 +34,7 @@ pub(super) struct Panel {
     /// The field, if one is drawn.
     pub(super) field: Option<Field>,
     /// Broken bonds by colour, between deformed ends.
-    pub(super) broken: Vec<(&'static str, Vec<[[f64; 2]; 2]>)>,
+    pub(super) broken: Vec<(String, Vec<[[f64; 2]; 2]>)>,
 }
 
 /// The colours of a field.
@@ -97,7 +97,7 @@ impl Panel {
             for ends in bonds.iter().filter(|ends| frame.meets(*ends)) {
                 path.segment(ends.map(|end| frame.to_pixels(end)));
             }
-            let stroke = Some((*colour, BOND_WIDTH));
+            let stroke = Some((colour.as_str(), BOND_WIDTH));
             document.path(&path, Paint { fill: None, stroke });
         }
     }

@@ -39,21 +39,16 @@ pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureE
     if !path.is_file() {
         return Ok(BTreeMap::new());
     }
-    let sheet = Sheet::read(path)?;
-    let steps: Vec<usize> = sheet.values("step")?;
-    let (displacements, reactions) = (sheet.values("displacement")?, sheet.values("reaction")?);
-    let rows = steps.into_iter().zip(displacements).zip(reactions);
-    Ok(rows
-        .map(|((step, displacement), reaction)| {
-            (
-                step,
-                Moment {
-                    displacement,
-                    reaction,
-                },
-            )
-        })
-        .collect())
+    let rows = Sheet::read(path)?.rows(|row| {
+        let displacement = row.value("displacement")?;
+        let reaction = row.value("reaction")?;
+        let moment = Moment {
+            displacement,
+            reaction,
+        };
+        Ok((row.value("step")?, moment))
+    })?;
+    Ok(rows.into_iter().collect())
 }
 
 /// The numbers of the chosen outputs, in the order of the choice, with their files.
@@ -78,39 +73,28 @@ pub(super) fn chosen(
         }
         Choice::Displacements(displacements) => {
             let of_outputs = || {
-                all.iter()
-                    .filter_map(|step| Some((*step, moments.get(step)?)))
+                let rows = all.iter().map(|step| Some((*step, moments.get(step)?)));
+                rows.flatten()
             };
-            let nearest = |wanted: f64| {
+            let nearest = |wanted: &f64| {
                 let away = |(_, moment): &(usize, &Moment)| (moment.displacement - wanted).abs();
-                of_outputs().min_by(|a, b| away(a).total_cmp(&away(b)))
+                let nearest = of_outputs().min_by(|a, b| away(a).total_cmp(&away(b)));
+                nearest.map(|(step, _)| step)
             };
-            let found: Option<Vec<usize>> = displacements
-                .iter()
-                .map(|&wanted| Some(nearest(wanted)?.0))
-                .collect();
-            found.ok_or_else(|| PictureError::NoHistory {
-                path: outputs.folder.clone(),
-            })?
+            let found: Option<Vec<usize>> = displacements.iter().map(nearest).collect();
+            found.ok_or_else(|| PictureError::NoHistory(outputs.folder.clone()))?
         }
     };
-    let file = |number: usize| {
-        let file = outputs.files.get(&number).cloned();
-        Some((number, file?))
-    };
-    let missing = numbers
-        .iter()
-        .copied()
-        .find(|&number| file(number).is_none());
-    match missing {
-        Some(number) => Err(PictureError::NoSuchOutput {
+    let file = |number: usize| match outputs.files.get(&number) {
+        Some(file) => Ok((number, file.clone())),
+        None => Err(PictureError::NoSuchOutput {
             path: outputs.folder.clone(),
             kind: outputs.kind,
             number,
-            known: all,
+            known: all.clone(),
         }),
-        None => Ok(numbers.into_iter().filter_map(file).collect()),
-    }
+    };
+    numbers.into_iter().map(file).collect()
 }
 
 #[cfg(test)]
@@ -171,7 +155,7 @@ mod tests {
             "{error}"
         );
         let error = chosen(&few, &Choice::Displacements(vec![1.0]), &BTreeMap::new());
-        assert!(matches!(error, Err(PictureError::NoHistory { .. })));
+        assert!(matches!(error, Err(PictureError::NoHistory(_))));
     }
 
     #[test]

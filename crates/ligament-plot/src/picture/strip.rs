@@ -24,7 +24,7 @@ const WIDE: f64 = 2.2;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Entry {
     /// Colour of its sample; None: words alone.
-    pub(super) colour: Option<&'static str>,
+    pub(super) colour: Option<String>,
     /// Words of the title.
     pub(super) words: String,
 }

@@ -1,12 +1,9 @@
 //! Plots with one scale along x and y, cut off at a window: loci that are open.
 
-use plotters::prelude::{IntoDrawingArea, SVGBackend, WHITE};
+use plotters::prelude::{IntoDrawingArea, SVGBackend};
 
-use super::paper::{LEGEND, Pen};
-use super::{Drawn, Plot, PlotError, Series, draw_legends};
-
-/// Width and height, in pixels.
-const SIZE: (u32, u32) = (760, 600);
+use super::paper::{Paper, Pen};
+use super::{DrawingError, Plot, PlotError, Series, svg_text};
 
 /// A plot with one scale along x and y.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,58 +26,44 @@ impl EqualScales {
             let name = self.plot.name.clone();
             return Err(PlotError::Empty { name });
         }
-        let error = |error| self.plot.error(&error);
         // Drawn into nothing once to know how many pixels there are.
-        let [width, height] = pixels(&self.plot, self.window).map_err(error)?;
+        let mut pixels = [0.0; 2];
+        svg_text(&self.plot.name, |nothing| {
+            pixels = self.pixels(nothing)?;
+            Ok(())
+        })?;
         let scale = (0..2)
-            .map(|axis| (upper[axis] - lower[axis]) / [width, height][axis])
+            .map(|axis| (upper[axis] - lower[axis]) / pixels[axis])
             .fold(0.0, f64::max);
-        let range = |axis: usize, pixels: f64| {
+        let ranges = [0, 1].map(|axis| {
             let middle = 0.5 * (lower[axis] + upper[axis]);
-            [middle - 0.5 * scale * pixels, middle + 0.5 * scale * pixels]
-        };
-        let mut text = String::new();
-        self.draw(&mut text, range(0, width), range(1, height))
-            .map_err(error)?;
-        Ok(text)
+            let half = 0.5 * scale * pixels[axis];
+            [middle - half, middle + half]
+        });
+        let [x, y] = ranges;
+        let pieces = self.plot.series.iter().flat_map(|series| {
+            let pieces = inside(&series.points, [[x[0], y[0]], [x[1], y[1]]]).into_iter();
+            pieces.map(|points| Series {
+                points,
+                ..series.clone()
+            })
+        });
+        let pieces: Vec<Series> = pieces.collect();
+        svg_text(&self.plot.name, |text| {
+            self.plot.draw(text, Paper::SQUARE, ranges, &pieces)
+        })
     }
 
-    fn draw(&self, out: &mut String, x: [f64; 2], y: [f64; 2]) -> Drawn {
-        let area = SVGBackend::with_string(out, SIZE).into_drawing_area();
-        area.fill(&WHITE)?;
-        let (plane, legend) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
-        let mut chart = self.plot.chart(&plane, Pen::SCREEN, x, y)?;
-        self.plot.draw_axes(&mut chart, Pen::SCREEN, x, y)?;
-        for series in &self.plot.series {
-            for points in inside(&series.points, [[x[0], y[0]], [x[1], y[1]]]) {
-                let piece = Series {
-                    points,
-                    ..series.clone()
-                };
-                piece.draw(&mut chart, Pen::SCREEN)?;
-            }
-        }
-        draw_legends(&self.plot.series, &legend, Pen::SCREEN)?;
-        area.present()
+    /// Width and height of the room for the curves.
+    fn pixels(&self, out: &mut String) -> Result<[f64; 2], DrawingError> {
+        let area = SVGBackend::with_string(out, Paper::SQUARE.dots()).into_drawing_area();
+        let (plane, _) = area.split_horizontally(Paper::SQUARE.plane());
+        let [lower, upper] = self.window;
+        let [x, y] = [0, 1].map(|axis| [lower[axis], upper[axis]]);
+        let chart = self.plot.chart(&plane, Pen::SCREEN, x, y)?;
+        let (width, height) = chart.plotting_area().dim_in_pixel();
+        Ok([f64::from(width), f64::from(height)])
     }
-}
-
-/// Width and height of the room for the curves.
-fn pixels(
-    plot: &Plot,
-    [lower, upper]: [[f64; 2]; 2],
-) -> Result<[f64; 2], plotters::drawing::DrawingAreaErrorKind<std::io::Error>> {
-    let mut nothing = String::new();
-    let area = SVGBackend::with_string(&mut nothing, SIZE).into_drawing_area();
-    let (plane, _) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
-    let chart = plot.chart(
-        &plane,
-        Pen::SCREEN,
-        [lower[0], upper[0]],
-        [lower[1], upper[1]],
-    )?;
-    let (width, height) = chart.plotting_area().dim_in_pixel();
-    Ok([f64::from(width), f64::from(height)])
 }
 
 /// The pieces of a curve inside a window; a point that is not finite ends a piece.

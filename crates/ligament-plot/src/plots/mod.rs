@@ -192,20 +192,25 @@ impl Plot {
             let name = self.name.clone();
             return Err(PlotError::Empty { name });
         };
-        let mut text = String::new();
-        self.draw(&mut text, paper, x, y)
-            .map_err(|error| self.error(&error))?;
-        Ok(paper.sized(text))
+        let draw = |text: &mut String| self.draw(text, paper, [x, y], &self.series);
+        Ok(paper.sized(svg_text(&self.name, draw)?))
     }
 
-    fn draw(&self, out: &mut String, paper: Paper, x: [f64; 2], y: [f64; 2]) -> Drawn {
+    /// Draws pieces of the curves, and the legend of the curves as wholes.
+    fn draw(
+        &self,
+        out: &mut String,
+        paper: Paper,
+        [x, y]: [[f64; 2]; 2],
+        pieces: &[Series],
+    ) -> Drawn {
         let area = SVGBackend::with_string(out, paper.dots()).into_drawing_area();
         area.fill(&WHITE)?;
         let (plane, legend) = area.split_horizontally(paper.plane());
         let mut chart = self.chart(&plane, paper.pen, x, y)?;
         self.draw_axes(&mut chart, paper.pen, x, y)?;
-        for series in &self.series {
-            series.draw(&mut chart, paper.pen)?;
+        for piece in pieces {
+            piece.draw(&mut chart, paper.pen)?;
         }
         draw_legends(&self.series, &legend, paper.pen)?;
         area.present()
@@ -218,7 +223,7 @@ impl Plot {
         pen: Pen,
         x: [f64; 2],
         y: [f64; 2],
-    ) -> Result<Chart<'a, 'b>, DrawingAreaErrorKind<std::io::Error>> {
+    ) -> Result<Chart<'a, 'b>, DrawingError> {
         let mut builder = ChartBuilder::on(plane);
         builder
             .margin(pen.dots(14))
@@ -248,13 +253,16 @@ impl Plot {
             .set_all_tick_mark_size(pen.dots(5))
             .draw()
     }
+}
 
-    fn error(&self, error: &DrawingAreaErrorKind<std::io::Error>) -> PlotError {
-        PlotError::Drawing {
-            name: self.name.clone(),
-            reason: error.to_string(),
-        }
-    }
+/// The text of the SVG file of a plot, from what draws it.
+fn svg_text(name: &str, draw: impl FnOnce(&mut String) -> Drawn) -> Result<String, PlotError> {
+    let mut text = String::new();
+    draw(&mut text).map_err(|error| PlotError::Drawing {
+        name: name.to_owned(),
+        reason: error.to_string(),
+    })?;
+    Ok(text)
 }
 
 /// The legends of the curves that have a name and points, below each other.
@@ -268,7 +276,8 @@ fn draw_legends(series: &[Series], area: &DrawingArea<Backend<'_>, Shift>, pen: 
 
 type Backend<'a> = SVGBackend<'a>;
 type Chart<'a, 'b> = ChartContext<'a, Backend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+type DrawingError = DrawingAreaErrorKind<std::io::Error>;
+type Drawn = Result<(), DrawingError>;
 
 impl Series {
     fn draw(&self, chart: &mut Chart<'_, '_>, pen: Pen) -> Drawn {
@@ -357,6 +366,12 @@ impl Colour {
             Self::Sky => RGBColor(86, 180, 233),
         }
     }
+
+    /// The colour as `#rrggbb`.
+    pub(crate) fn hex(self) -> String {
+        let RGBColor(r, g, b) = self.rgb();
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
 }
 
 /// What an axis shows: all finite values and a twentieth more at each end; `None` without values.
@@ -368,6 +383,14 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     // A curve that is level, or a single point, needs some room as well.
     let room = 0.05 * (high - low).max(1e-3 * low.abs().max(high.abs()).max(f64::MIN_POSITIVE));
     (low <= high).then_some([low - room, high + room])
+}
+
+/// The least product of a factor (1 to 5, ascending) and a power of ten that is not below a number.
+pub(crate) fn rounded_up(least: f64, factors: &[f64]) -> f64 {
+    let power = 10f64.powf(least.log10().floor());
+    let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
+    let steps = factors.iter().map(|factor| factor * power);
+    { steps }.find(reaches).unwrap_or(10.0 * power)
 }
 
 /// Decimals that tell the labels of an axis apart.

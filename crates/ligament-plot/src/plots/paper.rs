@@ -49,6 +49,12 @@ impl Paper {
         width: None,
     };
 
+    /// A screen for plots with one scale along x and y: 760 x 600 pixels.
+    pub(super) const SQUARE: Self = Self {
+        size: (760, 600),
+        ..Self::SCREEN
+    };
+
     /// A sheet of paper of a width in mm, with room at the right for a legend whose longest label has so many letters.
     pub(super) fn new(width: f64, letters: Option<usize>) -> Self {
         // 8.5 pixels a letter of 15 pixels, beside the sample of the line.

@@ -10,7 +10,9 @@ use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::paper::{LEGEND, Pen};
-use super::{Chart, Drawn, GRID, PlotError, Series, TEXT, decimals, draw_legends, tick};
+use super::{
+    Chart, Drawn, GRID, PlotError, Series, TEXT, decimals, draw_legends, rounded_up, svg_text, tick,
+};
 
 /// Width and height, in pixels: the room beside the legend is square.
 const SIZE: (u32, u32) = (570 + LEGEND as u32, 600);
@@ -40,16 +42,11 @@ impl PolarPlot {
     pub fn to_svg(&self) -> Result<String, PlotError> {
         let points = self.series.iter().flat_map(|series| &series.points);
         let finite = points.filter(|point| point.iter().all(|it| it.is_finite()));
-        let name = || self.name.clone();
         let largest = finite.map(|point| point[1]).reduce(f64::max);
-        let largest = largest.ok_or_else(|| PlotError::Empty { name: name() })?;
-        let mut text = String::new();
-        self.draw(&mut text, largest)
-            .map_err(|error| PlotError::Drawing {
-                name: name(),
-                reason: error.to_string(),
-            })?;
-        Ok(text)
+        let largest = largest.ok_or_else(|| PlotError::Empty {
+            name: self.name.clone(),
+        })?;
+        svg_text(&self.name, |text| self.draw(text, largest))
     }
 
     fn draw(&self, out: &mut String, largest: f64) -> Drawn {
@@ -114,13 +111,10 @@ fn draw_circles(chart: &mut Chart<'_, '_>, step: f64, circles: u32) -> Drawn {
 
 /// Distance of the circles: 1, 2 or 5 times a power of ten, so that there are 3 to 7.
 fn circle_step(largest: f64) -> f64 {
-    let rough = largest.max(f64::MIN_POSITIVE.sqrt()) / 6.0;
-    let power = 10f64.powf(rough.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|it| it * power);
-    steps
-        .into_iter()
-        .find(|&it| it >= rough)
-        .unwrap_or(10.0 * power)
+    rounded_up(
+        largest.max(f64::MIN_POSITIVE.sqrt()) / 6.0,
+        &[1.0, 2.0, 5.0],
+    )
 }
 
 #[cfg(test)]

@@ -1,0 +1,163 @@
+//! Fields, and their arrays in a VTU file: numbers in blocks compressed by zlib, as base64.
+//!
+//! Blocks are compressed whole and by all threads. The writer of vtkio hands each number to the compressor by itself,
+//! which takes ten times as long.
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use rayon::prelude::*;
+
+use crate::xml::escape_attribute;
+
+/// Bytes of a block before compression, VTK's default.
+const BLOCK_SIZE: usize = 32_768;
+
+/// At 100,000 points level 6 takes 9 times the time of level 1 and saves 1 % of the size.
+const COMPRESSION_LEVEL: u8 = 1;
+
+/// A named field: the same number of values for each point or cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Field<'a> {
+    /// The name readers show, unique among the point fields and among the cell fields.
+    pub(super) name: &'a str,
+    numbers: Numbers<'a>,
+    /// Numbers a point or cell.
+    n_components: usize,
+    /// Names of the components: all of them or none.
+    component_names: &'a [&'a str],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Numbers<'a> {
+    Double(&'a [f64]),
+    Single(&'a [f32]),
+    Integer(&'a [i64]),
+    Byte(&'a [u8]),
+}
+
+impl<'a> Field<'a> {
+    /// A field of numbers.
+    pub fn scalar(name: &'a str, values: &'a [f64]) -> Self {
+        Self::new(name, Numbers::Double(values), 1, &[])
+    }
+
+    /// A field of numbers of seven digits, in half of the space.
+    pub fn single(name: &'a str, values: &'a [f32]) -> Self {
+        Self::new(name, Numbers::Single(values), 1, &[])
+    }
+
+    /// A field of vectors; planar ones have a third component of 0, which VTK requires.
+    pub fn vector(name: &'a str, values: &'a [[f64; 3]]) -> Self {
+        Self::new(name, Numbers::Double(values.as_flattened()), 3, &[])
+    }
+
+    /// A field of integers, such as numbers of bonds or flags.
+    pub fn integer(name: &'a str, values: &'a [i64]) -> Self {
+        Self::new(name, Numbers::Integer(values), 1, &[])
+    }
+
+    /// A field of named components, such as those of a stress, one point or cell after the other: shape (n, number of names).
+    pub fn components(name: &'a str, names: &'a [&'a str], values: &'a [f64]) -> Self {
+        Self::new(name, Numbers::Double(values), names.len(), names)
+    }
+
+    /// A field of small numbers, such as kinds of cells.
+    pub(super) fn bytes(name: &'a str, values: &'a [u8]) -> Self {
+        Self::new(name, Numbers::Byte(values), 1, &[])
+    }
+
+    fn new(
+        name: &'a str,
+        numbers: Numbers<'a>,
+        n_components: usize,
+        component_names: &'a [&'a str],
+    ) -> Self {
+        Self {
+            name,
+            numbers,
+            n_components,
+            component_names,
+        }
+    }
+
+    /// The number of points or cells that have values.
+    pub(super) fn len(&self) -> usize {
+        let count = match self.numbers {
+            Numbers::Double(values) => values.len(),
+            Numbers::Single(values) => values.len(),
+            Numbers::Integer(values) => values.len(),
+            Numbers::Byte(values) => values.len(),
+        };
+        count / self.n_components.max(1)
+    }
+
+    /// Whether readers take it for a scalar; an index is none.
+    pub(super) fn is_scalar(&self) -> bool {
+        let is_float = matches!(self.numbers, Numbers::Double(_) | Numbers::Single(_));
+        is_float && self.n_components == 1 && self.component_names.is_empty()
+    }
+
+    /// Whether readers take it for a vector.
+    pub(super) fn is_vector(&self) -> bool {
+        self.n_components == 3 && self.component_names.is_empty()
+    }
+
+    /// The element `DataArray`.
+    pub(super) fn to_xml(self) -> String {
+        match self.numbers {
+            Numbers::Double(values) => self.data_array("Float64", values, f64::to_le_bytes),
+            Numbers::Single(values) => self.data_array("Float32", values, f32::to_le_bytes),
+            Numbers::Integer(values) => self.data_array("Int64", values, i64::to_le_bytes),
+            Numbers::Byte(values) => self.data_array("UInt8", values, u8::to_le_bytes),
+        }
+    }
+
+    fn data_array<T: Copy + Sync, const SIZE: usize>(
+        &self,
+        vtk_type: &str,
+        values: &[T],
+        to_le_bytes: impl Fn(T) -> [u8; SIZE] + Sync,
+    ) -> String {
+        let blocks: Vec<Vec<u8>> = values
+            .par_chunks(BLOCK_SIZE / SIZE)
+            .map(|values| {
+                let mut bytes = Vec::with_capacity(BLOCK_SIZE);
+                for &value in values {
+                    bytes.extend_from_slice(&to_le_bytes(value));
+                }
+                compress_to_vec_zlib(&bytes, COMPRESSION_LEVEL)
+            })
+            .collect();
+        let name = escape_attribute(self.name);
+        let mut element = format!("<DataArray type=\"{vtk_type}\" Name=\"{name}\"");
+        // meshio gives an array with a number of components, even of 1, a second dimension.
+        if self.n_components > 1 {
+            element.push_str(&format!(" NumberOfComponents=\"{}\"", self.n_components));
+        }
+        for (number, name) in self.component_names.iter().enumerate() {
+            let name = escape_attribute(name);
+            element.push_str(&format!(" ComponentName{number}=\"{name}\""));
+        }
+        element.push_str(" format=\"binary\">");
+        let header = header(&blocks, values.len() * SIZE);
+        BASE64_STANDARD.encode_string(header, &mut element);
+        BASE64_STANDARD.encode_string(blocks.concat(), &mut element);
+        element.push_str("</DataArray>\n");
+        element
+    }
+}
+
+/// The number of blocks, the sizes of the first blocks and of the last one before compression, and the size of each
+/// after it, all `UInt64`.
+///
+/// Where the last block is a whole one VTK also takes a zero for its size, but vtkio then loses the block.
+fn header(blocks: &[Vec<u8>], n_bytes: usize) -> Vec<u8> {
+    let first_blocks = blocks.len().saturating_sub(1) * BLOCK_SIZE;
+    let sizes = [blocks.len(), BLOCK_SIZE, n_bytes - first_blocks];
+    sizes
+        .into_iter()
+        .chain(blocks.iter().map(Vec::len))
+        .flat_map(|size| (size as u64).to_le_bytes())
+        .collect()
+}
