@@ -102,7 +102,7 @@ impl<'a> ResultWriter<'a> {
             .map(|place| {
                 let deformations = balanced.deformations.iter();
                 deformations
-                    .map(|deformation| deformation.components()[place])
+                    .map(|deformation| deformation.strains()[place])
                     .collect()
             })
             .collect();
