@@ -6,7 +6,7 @@ use anyhow::Context;
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_output::csv::{Table, Value};
-use ligament_output::results::stored::{StoredRun, StoredStep};
+use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
 use super::life::{Life, Lives};
@@ -99,12 +99,17 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         })
     });
     let breakage = life.breakage.as_ref().map(|(broke, _)| {
-        let mut breakage = moment(&broke.at, lives, &broke.deformation);
-        breakage["order"] = broke.order.into();
-        breakage["round"] = broke.round.into();
-        breakage["criterion"] = broke.criterion.as_str().into();
-        breakage["utilisation"] = broke.utilisation.into();
-        breakage
+        let breakage = json!({
+            "order": broke.order,
+            "step": broke.at.step,
+            "round": broke.round,
+            "load_factor": broke.at.load_factor,
+            "displacement": broke.at.displacement,
+            "reaction": broke.at.reaction,
+            "criterion": broke.criterion,
+            "utilisation": broke.utilisation,
+        });
+        with_components(breakage, lives, &broke.deformation)
     });
     let nearest = life.nearest.map(|it| {
         json!({
@@ -114,12 +119,17 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         })
     });
     let path = lives.moments.iter().zip(&life.deformation).enumerate();
-    let path = path.map(|(place, (at, deformation))| {
+    let path = path.map(|(place, (moment, deformation))| {
         let utilisation = life.limits.iter().map(|it| it.utilisation(deformation));
-        let mut moment = moment(at, lives, deformation);
-        moment["intact"] = (place < life.n_intact).into();
-        moment["utilisation"] = utilisation.collect();
-        moment
+        let moment = json!({
+            "step": moment.step,
+            "load_factor": moment.load_factor,
+            "displacement": moment.displacement,
+            "reaction": moment.reaction,
+            "intact": place < life.n_intact,
+            "utilisation": utilisation.collect::<Vec<f64>>(),
+        });
+        with_components(moment, lives, deformation)
     });
     json!({
         "ends": life.ends.map(|end| run.model.tags[end as usize]),
@@ -135,14 +145,12 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
     })
 }
 
-/// A step with its load and the components of a deformation under their names.
-fn moment(at: &StoredStep, lives: &Lives, deformation: &BondDeformation) -> serde_json::Value {
-    let mut object = json!({
-        "step": at.step,
-        "load_factor": at.load_factor,
-        "displacement": at.displacement,
-        "reaction": at.reaction,
-    });
+/// An object with the components of a deformation under their names.
+fn with_components(
+    mut object: serde_json::Value,
+    lives: &Lives,
+    deformation: &BondDeformation,
+) -> serde_json::Value {
     for (name, value) in lives.components.iter().zip(deformation.components()) {
         object[*name] = json!(value);
     }
