@@ -43,7 +43,7 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
                 moment.reaction.into(),
                 usize::from(is_intact).into(),
             ];
-            let values = deformation.components().into_iter();
+            let values = deformation.strains().into_iter();
             row.extend(values.take(lives.components.len()).map(Value::from));
             for (criterion, limit) in life.limits.iter().enumerate() {
                 let utilisation = if is_intact {
@@ -151,7 +151,7 @@ fn with_components(
     lives: &Lives,
     deformation: &BondDeformation,
 ) -> serde_json::Value {
-    for (name, value) in lives.components.iter().zip(deformation.components()) {
+    for (name, value) in lives.components.iter().zip(deformation.strains()) {
         object[*name] = json!(value);
     }
     object

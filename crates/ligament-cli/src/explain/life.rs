@@ -330,10 +330,7 @@ mod tests {
             coefficients: Vec::new(),
             after: AfterLimit::new(bilinear::LAW, vec![4.0]),
         };
-        let stretched = |stretch| BondDeformation {
-            stretch,
-            ..Default::default()
-        };
+        let stretched = |stretch| BondDeformation::new([stretch, 0.0, 0.0]);
         let mut life = life_of(vec![limit], [1.0, 5.0, -3.0].map(stretched).to_vec());
         let moments = [0, 5, 10].map(|step| StoredStep {
             step,

@@ -194,7 +194,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
     let mut table = Columns::new(header);
     for (place, (moment, deformation)) in lives.moments.iter().zip(&life.deformation).enumerate() {
         let mut row = load(moment);
-        let values = deformation.components().into_iter();
+        let values = deformation.strains().into_iter();
         row.extend(values.take(names.len()).map(number));
         for (criterion, limit) in life.limits.iter().enumerate() {
             let is_intact = place < life.n_intact;

@@ -100,7 +100,7 @@ impl<'a> ResultWriter<'a> {
         let names = deformation_names(system);
         let component = |place: usize| {
             let deformations = balanced.deformations.iter();
-            deformations.map(|it| it.components()[place]).collect()
+            deformations.map(|it| it.strains()[place]).collect()
         };
         let deformations: Vec<Vec<f64>> = (0..names.len()).map(component).collect();
         let utilisation: Vec<f64> = (balanced.deformations.iter().enumerate())

@@ -70,7 +70,7 @@ impl StudyFolder {
             match ResultFolder::create_marked(path, MARKER, false) {
                 Ok(new) => {
                     let marker = json!({
-                        "study": study.path.to_string_lossy(),
+                        "study": study.source.path.to_string_lossy(),
                         "title": study.title,
                         "version": env!("CARGO_PKG_VERSION"),
                     });

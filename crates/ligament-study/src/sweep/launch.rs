@@ -199,7 +199,7 @@ impl Launcher<'_> {
     fn spawn(&self, run: &Run, threads: usize) -> io::Result<Child> {
         let log = File::create(self.folder.log(run))?;
         let mut command = Command::new(&self.program);
-        command.arg("run").arg(&run.case.path);
+        command.arg("run").arg(&run.case.source.path);
         for setting in &run.overrides {
             command.arg("--set").arg(setting);
         }

@@ -84,7 +84,7 @@ pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
     let total = sizes.fold(1, usize::saturating_mul);
     if total > MOST_RUNS {
         return Err(StudyError::TooMany {
-            path: study.path.clone(),
+            path: study.source.path.clone(),
             runs: total,
             most: MOST_RUNS,
         });

@@ -188,8 +188,8 @@ fn append_locus(
             it.theoretical.second.into(),
             it.effective.first.into(),
             it.effective.second.into(),
-            it.bond.stretch.into(),
-            it.bond.shear.into(),
+            it.bond.stretch().into(),
+            it.bond.shear().into(),
             subject.criterion_name(it.criterion).into(),
             it.error.into(),
         ])?;
@@ -279,7 +279,7 @@ fn deciding(points: &[LocusPoint]) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for it in points {
         let scale = 1.0 + it.error;
-        let point = [scale * it.bond.stretch, scale * it.bond.shear];
+        let point = [scale * it.bond.stretch(), scale * it.bond.shear()];
         match pieces.last_mut() {
             Some((criterion, piece)) if *criterion == it.criterion => piece.push(point),
             _ => pieces.push((it.criterion, vec![point])),
