@@ -142,7 +142,9 @@ impl Case {
     /// What `ligament yield --case` writes for the three criteria of the case, with this Poisson's ratio in the plane.
     fn yields(&self, poisson: f64) {
         let request = Request {
-            of: Families::Field(Box::new(CaseFile::load(&self.file.path, &[]).unwrap())),
+            of: Families::Field(Box::new(
+                CaseFile::load(&self.file.source.path, &[]).unwrap(),
+            )),
             combinations: Vec::new(),
             poisson: None,
             ratio: 3.0,

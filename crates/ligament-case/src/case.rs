@@ -29,6 +29,7 @@ mod resolved;
 mod schema;
 mod sections;
 mod solver;
+pub mod source;
 mod temperature;
 pub mod values;
 mod word;

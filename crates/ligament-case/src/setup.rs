@@ -58,7 +58,7 @@ impl CaseFile {
     /// If a table of temperatures cannot be read.
     pub fn setup_on(&self, body: Arc<dyn Body>) -> Result<Setup, CaseError> {
         let setup = self.case.setup(body);
-        let mut setup = setup.map_err(|fault| self.source().error(fault))?;
+        let mut setup = setup.map_err(|fault| self.source.error(fault))?;
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
                 let rows = temperature_table::rows_of(file);
@@ -74,7 +74,7 @@ impl CaseFile {
     fn lattice(&self, section: &LatticeSection) -> Result<LatticeBody, CaseError> {
         let key = KeyPath::default().child("lattice");
         let parts = section.parts(&key);
-        let (holes, sets) = parts.map_err(|fault| self.source().error(fault))?;
+        let (holes, sets) = parts.map_err(|fault| self.source.error(fault))?;
         let (spacing, corner) = (section.spacing.0, section.corner);
         let body = LatticeBody::new(section.cells, spacing, corner, &holes, &sets);
         body.map_err(|error| {
@@ -97,15 +97,6 @@ impl CaseFile {
         let SetupError { field, fault } = error;
         let mut key = self.key(field);
         let fault = match *fault {
-            SetupFault::UnknownName {
-                what,
-                found,
-                candidates,
-            } => Fault::unknown_name(what, found, candidates),
-            SetupFault::OutOfRange { expected, found } => Fault::OutOfRange {
-                expected: expected.into_owned(),
-                found,
-            },
             SetupFault::Missing { reason, .. } => Fault::Required {
                 key: missing_key(field),
                 reason,
@@ -137,7 +128,7 @@ impl CaseFile {
                 first,
                 second,
             } => self.row_twice(field, &place, [first, second]),
-            other => Fault::Other(other.to_string()),
+            other => other.into(),
         };
         self.error(&key, fault)
     }

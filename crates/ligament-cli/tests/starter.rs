@@ -25,7 +25,7 @@ fn case(starter: &Starter, folder: &Path) -> CaseFile {
 fn checked(case: &CaseFile, extent: Extent) -> String {
     let mut report = Vec::new();
     check(case, extent, None, &mut report)
-        .unwrap_or_else(|error| panic!("{error:#}\n{}", case.text));
+        .unwrap_or_else(|error| panic!("{error:#}\n{}", case.source.text));
     String::from_utf8(report).unwrap()
 }
 

@@ -50,9 +50,10 @@ pub struct Summary {
     pub steps: usize,
     /// Whether [`steps`](Self::steps) counts events of the exact path.
     pub exact_path: bool,
-    /// Why the run ended: `termination` and `termination_message`.
-    #[serde(flatten)]
-    pub termination: TerminationSummary,
+    /// Why the run ended, as a short name.
+    pub termination: &'static str,
+    /// Why the run ended, in words.
+    pub termination_message: String,
     /// Largest |external work - stored - released energy| over the largest external work.
     pub energy_balance_error: f64,
     /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
@@ -104,17 +105,6 @@ fn write_units<S: Serializer>(units: &Units, serializer: S) -> Result<S::Ok, S::
     map.serialize_entry("displacement", units.displacement)?;
     map.serialize_entry("force", units.force)?;
     map.end()
-}
-
-/// Why the run ended.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TerminationSummary {
-    /// Short name.
-    #[serde(rename = "termination")]
-    pub reason: &'static str,
-    /// In words.
-    #[serde(rename = "termination_message")]
-    pub message: String,
 }
 
 /// Inertia of the intact stiffness.
@@ -170,10 +160,8 @@ impl Summary {
             broken_bonds: outcome.state.broken_bonds(),
             steps: history.len().saturating_sub(1),
             exact_path: outcome.rows == Rows::Events,
-            termination: TerminationSummary {
-                reason: outcome.termination.name(),
-                message: outcome.termination.to_string(),
-            },
+            termination: outcome.termination.name(),
+            termination_message: outcome.termination.to_string(),
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
@@ -207,7 +195,7 @@ impl Summary {
             "  energy balance     off by {:.1e} of the work",
             self.energy_balance_error
         )?;
-        writeln!(out, "  ended because      {}", self.termination.message)?;
+        writeln!(out, "  ended because      {}", self.termination_message)?;
         for warning in self.warnings.iter().take(WARNINGS_SHOWN) {
             writeln!(out, "  warning: {warning}")?;
         }

@@ -4,6 +4,7 @@
 use ligament::body::PointsError;
 use ligament::prelude::*;
 use ligament_model::failure::mixed_mode::MIXED_MODE;
+use ligament_model::{Anisotropic, Orthotropic};
 
 /// Ten by ten points of 10 mm with the groups `left` and `right`, pulled apart.
 fn plate() -> Setup {
@@ -81,6 +82,115 @@ fn values_out_of_range_say_what_they_must_be() {
         ),
     ] {
         assert_eq!(found, expected);
+    }
+}
+
+/// Rules that a case file keeps hold for a setup that is built in memory as well.
+#[test]
+fn a_setup_is_held_to_the_rules_of_a_case() {
+    let with_axes = |poisson: f64| {
+        let elasticity = Elasticity::Orthotropic(Orthotropic {
+            young: [15e9, 5e9],
+            poisson,
+            shear_modulus: 4.8e9,
+            out_of_plane: None,
+            angle: 0.0,
+        });
+        move |it: &mut Setup| it.materials[0].material.elasticity = elasticity
+    };
+    let six = |c16: f64| {
+        let constants = Anisotropic::new([9e10, 2e10, c16, 4e10, -c16, 3e10]);
+        move |it: &mut Setup| {
+            it.materials[0].material.elasticity = Elasticity::Anisotropic(constants);
+        }
+    };
+    let crack = |points: Vec<[f64; 2]>| {
+        let ends = Ends::Excluded;
+        move |it: &mut Setup| it.precracks.push(PreCrack { points, ends })
+    };
+    let steps = |factors: Vec<f64>| {
+        move |it: &mut Setup| {
+            it.materials[0].material.tensile_strength = Some(1e6);
+            it.criteria = vec![STRENGTH.into()];
+            it.analysis = Analysis::Stepped(stepped(factors));
+        }
+    };
+    let strained = |it: &mut Setup| {
+        with_axes(0.2)(it);
+        it.law = Law::ALL[6];
+        it.section = Section::Plane {
+            state: Plane::Strain,
+            thickness: 1.0,
+        };
+    };
+    let reading = Reading::Between {
+        positions: [[0.0; 2]; 2],
+        component: Component::X,
+    };
+    let name = "gauge".to_owned();
+    for (found, expected) in [
+        (
+            error(|it| it.horizon = Horizon::Length(f64::INFINITY)),
+            "horizon: must be a finite number, found inf",
+        ),
+        (
+            error(|it| it.horizon = Horizon::Length(f64::NAN)),
+            "horizon: must be greater than 0, found NaN",
+        ),
+        (
+            error(with_axes(1.8)),
+            "materials[0].elasticity.poisson: must be so small that every strain costs energy",
+        ),
+        (
+            error(with_axes(0.2)),
+            "materials[0].elasticity: an orthotropic material needs `Law::Orthotropic` or `Law::MbbPd`: \"nhpd\" is a law for \
+             isotropic ones",
+        ),
+        (
+            error(strained),
+            "materials[0].elasticity.out_of_plane: missing elasticity.out_of_plane: it is required because of plane strain",
+        ),
+        (
+            error(six(6e10)),
+            "materials[0].elasticity.c16: must be so small that every strain costs energy (c16^2 < c11 c66), found 60000000000.0",
+        ),
+        (
+            error(six(3e10)),
+            "materials[0].elasticity: the stiffness c11 to c66 is not positive definite",
+        ),
+        (
+            error(crack(vec![[0.0; 2]])),
+            "precracks[0].points: must be two points or more, found [[0.0, 0.0]]",
+        ),
+        (
+            error(crack(vec![[0.0; 2]; 2])),
+            "precracks[0].points: must be another point than the one before it, found [0.0, 0.0]",
+        ),
+        (
+            error(steps(Vec::new())),
+            "analysis.load_factors: must be one load factor or more, found []",
+        ),
+        (
+            error(steps(vec![0.5, 0.5])),
+            "analysis.load_factors[1]: must be a number other than the load factor before it, 0.5, found 0.5",
+        ),
+        (
+            error(|it| it.probes.push(Probe { name, reading })),
+            "probes[0].reading: must be two different points, found [[0.0, 0.0], [0.0, 0.0]]",
+        ),
+        (
+            error(|it| it.supports[0] = Support::new("left", &[])),
+            "supports[0]: needs one of `x`, `y`, `rotation` or more",
+        ),
+        (
+            error(|it| {
+                it.loads[0].place = Place::At([0.0; 2]);
+                it.loads[0].action = Action::ForcePerLength([1.0, 0.0]);
+            }),
+            "loads[0].action: acts along the curve of a `group`, so the load needs one",
+        ),
+    ] {
+        assert!(found.starts_with(expected), "{found}");
     }
 }
 

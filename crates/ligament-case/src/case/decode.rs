@@ -87,13 +87,7 @@ impl serde::de::Error for DecodeError {
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        let (expected, found) = (expected_words(expected), found_words(found));
-        Fault::WrongType {
-            expected,
-            found,
-            unit: None,
-        }
-        .into()
+        wrong_type(expected_words(expected), found_words(found))
     }
 
     fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
@@ -101,13 +95,7 @@ impl serde::de::Error for DecodeError {
     }
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
-        let found = format!("a list of {length}");
-        Fault::WrongType {
-            expected: expected_words(expected),
-            found,
-            unit: None,
-        }
-        .into()
+        wrong_type(expected_words(expected), format!("a list of {length}"))
     }
 
     fn unknown_field(key: &str, valid: &'static [&'static str]) -> Self {
@@ -128,6 +116,16 @@ impl serde::de::Error for DecodeError {
         }
         .into()
     }
+}
+
+fn wrong_type(expected: String, found: String) -> DecodeError {
+    let unit = None;
+    Fault::WrongType {
+        expected,
+        found,
+        unit,
+    }
+    .into()
 }
 
 /// What serde's visitors expect, in the words of a case file.
@@ -167,15 +165,15 @@ fn string_words(text: &str) -> String {
 
 /// What a value is, for "found ...".
 fn value_words(value: &Value) -> String {
-    match value {
-        Value::String(text) => string_words(text),
-        Value::Integer(integer) => format!("the number {integer}"),
-        Value::Float(float) => format!("the number {float:?}"),
-        Value::Boolean(value) => value.to_string(),
-        Value::Date => "a date".to_owned(),
-        Value::List(_) => "a list".to_owned(),
-        Value::Table(_) => "a table".to_owned(),
-    }
+    found_words(match value {
+        Value::String(text) => Unexpected::Str(text),
+        Value::Integer(integer) => Unexpected::Signed(*integer),
+        Value::Float(float) => Unexpected::Float(*float),
+        Value::Boolean(value) => Unexpected::Bool(*value),
+        Value::Date => Unexpected::Other("a date"),
+        Value::List(_) => Unexpected::Seq,
+        Value::Table(_) => Unexpected::Map,
+    })
 }
 
 impl<'de> Deserializer<'de> for &'de Node {
@@ -186,11 +184,9 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::String(text) => visitor.visit_borrowed_str(text),
             Value::Integer(integer) => visitor.visit_i64(*integer),
             Value::Float(float) if float.is_finite() => visitor.visit_f64(*float),
-            Value::Float(float) => Err(Fault::OutOfRange {
-                expected: "a finite number".to_owned(),
-                found: float.to_string(),
+            Value::Float(float) => {
+                Err(Fault::out_of_range("a finite number", float.to_string()).into())
             }
-            .into()),
             Value::Boolean(value) => visitor.visit_bool(*value),
             Value::Date => Err(serde::de::Error::invalid_type(
                 Unexpected::Other("a date"),
@@ -221,15 +217,7 @@ impl<'de> Deserializer<'de> for &'de Node {
     ) -> Result<V::Value, DecodeError> {
         match &self.value {
             Value::Table(_) => self.deserialize_any(visitor),
-            other => {
-                let expected = "a table".to_owned();
-                Err(Fault::WrongType {
-                    expected,
-                    found: value_words(other),
-                    unit: None,
-                }
-                .into())
-            }
+            other => Err(wrong_type("a table".to_owned(), value_words(other))),
         }
     }
 
@@ -248,12 +236,7 @@ impl<'de> Deserializer<'de> for &'de Node {
                 [only] => only.clone(),
                 _ => format!("one of {}", quoted.join(", ")),
             };
-            return Err(Fault::WrongType {
-                expected,
-                found: value_words(&self.value),
-                unit: None,
-            }
-            .into());
+            return Err(wrong_type(expected, value_words(&self.value)));
         };
         if !variants.contains(&word.as_str()) {
             let valid = variants.iter().map(|&variant| variant.to_owned()).collect();
@@ -279,16 +262,8 @@ fn visit_list<'de, V: Visitor<'de>>(
     let mut elements = Elements { nodes, next: 0 };
     let value = visitor.visit_seq(&mut elements)?;
     if elements.next < nodes.len() {
-        let (expected, found) = (
-            format!("a list of {}", elements.next),
-            format!("a list of {}", nodes.len()),
-        );
-        return Err(Fault::WrongType {
-            expected,
-            found,
-            unit: None,
-        }
-        .into());
+        let [expected, found] = [elements.next, nodes.len()].map(|it| format!("a list of {it}"));
+        return Err(wrong_type(expected, found));
     }
     Ok(value)
 }

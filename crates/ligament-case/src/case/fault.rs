@@ -1,8 +1,10 @@
 //! What can be wrong with a case file, and where.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::key_path::KeyPath;
+use ligament::error::Fault as SetupFault;
 use ligament::suggestion::hint;
 
 /// What is wrong with a key or its value.
@@ -83,27 +85,9 @@ pub enum Fault {
         /// The words that the key takes.
         valid: Vec<String>,
     },
-    /// A name that is defined elsewhere (a group of the mesh, say) does not exist there.
-    #[error(
-        "no {what} is called `{found}`{}",
-        hint(found, candidates, "there are", '`')
-    )]
-    UnknownName {
-        /// What the name should be of, and where: "physical group in the mesh".
-        what: String,
-        /// The name as given.
-        found: String,
-        /// The names that exist.
-        candidates: Vec<String>,
-    },
-    /// The value lies outside of what makes sense.
-    #[error("must be {expected}, found {found}")]
-    OutOfRange {
-        /// The condition, in words.
-        expected: String,
-        /// What was given.
-        found: String,
-    },
+    /// A fault of the setup that the case makes: a name that does not exist, or a value out of range.
+    #[error(transparent)]
+    Setup(#[from] SetupFault),
     /// Keys of which exactly one is to be given.
     #[error(
         "needs exactly one of {}; found {}",
@@ -135,16 +119,21 @@ impl Fault {
     /// A name that does not exist where it should: `what` says of what and where
     /// ("physical group in the mesh"), `candidates` are the names that do exist.
     pub fn unknown_name<N: Into<String>>(
-        what: impl Into<String>,
+        what: &'static str,
         found: impl Into<String>,
         candidates: impl IntoIterator<Item = N>,
     ) -> Self {
-        let candidates = candidates.into_iter().map(Into::into).collect();
-        Self::UnknownName {
-            what: what.into(),
+        Self::Setup(SetupFault::UnknownName {
+            what,
             found: found.into(),
-            candidates,
-        }
+            candidates: candidates.into_iter().map(Into::into).collect(),
+        })
+    }
+
+    /// A value that is not as `expected` in words.
+    pub fn out_of_range(expected: impl Into<Cow<'static, str>>, found: String) -> Self {
+        let expected = expected.into();
+        Self::Setup(SetupFault::OutOfRange { expected, found })
     }
 }
 

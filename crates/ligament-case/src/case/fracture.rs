@@ -1,7 +1,6 @@
 //! `[fracture]`: how bonds break, and when to stop.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use ligament::setup::{self, Analysis};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
@@ -10,13 +9,13 @@ use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_model::failure::{Kind, mixed_mode, strength};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{SeqAccess, Visitor};
+use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::criterion::Criterion;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::{first_given, missing, require};
+use super::values::{Numbers, first_given, missing, numbers, require};
 use super::word::Word;
 
 /// How bonds break while the load rises.
@@ -227,7 +226,17 @@ impl Steps {
 
 impl<'de> Deserialize<'de> for Steps {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(StepsVisitor)
+        let expected = "a whole number of load steps or a list of load factors";
+        let unfit = |found| Err(D::Error::invalid_type(found, &expected));
+        match numbers(deserializer, expected)? {
+            Numbers::Integer(0) => Err(D::Error::custom("must be at least 1, found 0")),
+            Numbers::Integer(count) => match u32::try_from(count) {
+                Ok(count) => Ok(Self::Uniform(count)),
+                Err(_) => unfit(Unexpected::Signed(count)),
+            },
+            Numbers::Float(number) => unfit(Unexpected::Float(number)),
+            Numbers::List(factors) => Ok(Self::Factors(factors)),
+        }
     }
 }
 
@@ -246,31 +255,5 @@ impl JsonSchema for Steps {
                 },
             ]
         })
-    }
-}
-
-struct StepsVisitor;
-
-impl<'de> Visitor<'de> for StepsVisitor {
-    type Value = Steps;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a whole number of load steps or a list of load factors")
-    }
-
-    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Steps, E> {
-        let out_of_range = |_| E::invalid_value(serde::de::Unexpected::Signed(value), &self);
-        match u32::try_from(value).map_err(out_of_range)? {
-            0 => Err(E::custom("must be at least 1, found 0")),
-            count => Ok(Steps::Uniform(count)),
-        }
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Steps, A::Error> {
-        let mut factors = Vec::new();
-        while let Some(factor) = elements.next_element()? {
-            factors.push(factor);
-        }
-        Ok(Steps::Factors(factors))
     }
 }

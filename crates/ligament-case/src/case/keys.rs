@@ -97,7 +97,7 @@ fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault
     match range_in_words(schema) {
         Some(expected) if !holds => Err(KeyFault::new(
             key.clone(),
-            Fault::OutOfRange { expected, found },
+            Fault::out_of_range(expected, found),
         )),
         _ => Ok(()),
     }

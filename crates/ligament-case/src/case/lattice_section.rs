@@ -2,19 +2,19 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
 
 use ligament::body;
 use ligament_model::shape::crosses_itself;
 use ligament_model::{Plane, Shape};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{SeqAccess, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::Rectangle;
-use super::values::{Point, exactly_one, metre, one_of, require, require_column_name};
+use super::values::{Numbers, Point, exactly_one, metre, numbers, one_of};
+use super::values::{require, require_column_name};
 use super::word::Word;
 
 /// Cells of a lattice at most.
@@ -255,7 +255,15 @@ impl TryFrom<Vec<Point>> for Polygon {
 
 impl<'de> Deserialize<'de> for Spacing {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(SpacingVisitor)
+        let expected = "a number or a list of 2";
+        match numbers(deserializer, expected)? {
+            Numbers::Integer(side) => Ok(Self([side as f64; 2])),
+            Numbers::Float(side) => Ok(Self([side; 2])),
+            Numbers::List(sides) => match sides.as_slice() {
+                &[dx, dy] => Ok(Self([dx, dy])),
+                sides => Err(D::Error::invalid_length(sides.len(), &expected)),
+            },
+        }
     }
 }
 
@@ -274,35 +282,5 @@ impl JsonSchema for Spacing {
                 },
             ]
         })
-    }
-}
-
-struct SpacingVisitor;
-
-impl<'de> Visitor<'de> for SpacingVisitor {
-    type Value = Spacing;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a number or a list of 2")
-    }
-
-    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Spacing, E> {
-        self.visit_f64(value as f64)
-    }
-
-    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Spacing, E> {
-        Ok(Spacing([value; 2]))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Spacing, A::Error> {
-        let mut sides = Vec::new();
-        while let Some(side) = elements.next_element()? {
-            sides.push(side);
-        }
-        let length = sides.len();
-        let sides = sides.try_into();
-        sides
-            .map(Spacing)
-            .map_err(|_: Vec<f64>| serde::de::Error::invalid_length(length, &self))
     }
 }

@@ -7,7 +7,7 @@ use super::conditions::{Displacement, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Rectangle, place};
-use super::values::{Point, exactly_one, one_of, require_column_name};
+use super::values::{Point, exactly_one, first_given, one_of, require_column_name};
 use super::word::Word;
 use ligament::setup::{self, Action, Axis, Place};
 
@@ -68,7 +68,7 @@ impl Load {
     }
 
     pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Load, KeyFault> {
-        let action = self.action(key)?;
+        let action = one_of(key, self.actions())?;
         let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
         let place = match action {
             Action::Displacement(_) | Action::Force(_) | Action::Moment(_) => self.place(key)?,
@@ -91,14 +91,14 @@ impl Load {
         place(key, self.group.as_ref(), self.r#box, self.at)
     }
 
-    fn action(&self, key: &KeyPath) -> Result<Action, KeyFault> {
+    fn actions(&self) -> [(&'static str, Option<Action>); 7] {
         let displacement = self.displacement.map(|it| setup::Displacement {
             x: it.x,
             y: it.y,
             rotation: it.rotation,
         });
         let vector = |given: Option<Vector>| given.map(|it| [it.x, it.y]);
-        let actions = [
+        [
             ("displacement", displacement.map(Action::Displacement)),
             ("force", vector(self.force).map(Action::Force)),
             (
@@ -109,20 +109,12 @@ impl Load {
             ("moment", self.moment.map(Action::Moment)),
             ("body_couple", self.body_couple.map(Action::BodyCouple)),
             ("pressure", self.pressure.map(Action::Pressure)),
-        ];
-        one_of(key, actions)
+        ]
     }
 
     /// Key of the action.
     pub(crate) fn action_key(&self) -> &'static str {
-        match self.action(&KeyPath::default()) {
-            Ok(Action::Displacement(_)) => "displacement",
-            Ok(Action::Force(_)) => "force",
-            Ok(Action::ForcePerLength(_)) => "force_per_length",
-            Ok(Action::BodyForce(_)) => "body_force",
-            Ok(Action::Moment(_)) => "moment",
-            Ok(Action::BodyCouple(_)) => "body_couple",
-            Ok(Action::Pressure(_)) | Err(_) => "pressure",
-        }
+        let given = self.actions().map(|(key, action)| (key, action.is_some()));
+        first_given(given).unwrap_or("force")
     }
 }

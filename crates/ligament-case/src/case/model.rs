@@ -7,7 +7,7 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{exactly_one, one_of};
 use super::word::Word;
-use ligament::setup::{Calibration, Form, Horizon, Law, Open, Strains};
+use ligament::setup::{Calibration, Form, Horizon, Law, Strains};
 use ligament_model::law::rotational::RotationalStiffness;
 
 /// The bond model.
@@ -40,34 +40,28 @@ impl ModelSection {
     /// Puts what the case says into the law, and what the law says else into the case.
     pub(super) fn complete(&mut self, key: &KeyPath) -> Result<(), KeyFault> {
         let mut law = self.law.0;
-        let Open {
-            calibration,
-            rotational_stiffness,
-            form,
-            strains,
-        } = law.open();
-        let of_paper = "its constants are those of the paper";
-        let settled = settle(&mut self.calibration, calibration, "calibration", of_paper)
-            .and_then(|()| {
-                let (given, reason) = (&mut self.rotational_stiffness, "the law says what it is");
-                settle(given, rotational_stiffness, "rotational_stiffness", reason)
-            })
-            .and_then(|()| {
-                let reason = "only \"mbb-pd\" has several";
-                settle(&mut self.form, form, "form", reason)
-            })
-            .and_then(|()| {
-                let reason = "only \"mbb-pd\" has true strains";
-                settle(&mut self.strains, strains, "strains", reason)
-            });
-        settled.map_err(|(name, reason)| {
+        let open = law.open();
+        let is_open = [
+            settle(&mut self.calibration, open.calibration),
+            settle(&mut self.rotational_stiffness, open.rotational_stiffness),
+            settle(&mut self.form, open.form),
+            settle(&mut self.strains, open.strains),
+        ];
+        let reasons = [
+            ("calibration", "its constants are those of the paper"),
+            ("rotational_stiffness", "the law says what it is"),
+            ("form", "only \"mbb-pd\" has several"),
+            ("strains", "only \"mbb-pd\" has true strains"),
+        ];
+        if let Some(settled) = is_open.iter().position(|is_open| !is_open) {
+            let (name, reason) = reasons[settled];
             let fault = Fault::NotWith {
                 key: name,
-                setting: format!("law = \"{}\"", self.law.0.name()),
+                setting: format!("law = \"{}\"", law.name()),
                 reason,
             };
-            KeyFault::new(key.child(name), fault)
-        })?;
+            return Err(KeyFault::new(key.child(name), fault));
+        }
         self.law = Word(law);
         Ok(())
     }
@@ -79,18 +73,13 @@ impl ModelSection {
     }
 }
 
-/// Gives a key and what a law leaves open the same value; the key and the reason where the law does not leave it open.
-fn settle<T: Copy>(
-    given: &mut Option<Word<T>>,
-    open: Option<&mut T>,
-    key: &'static str,
-    reason: &'static str,
-) -> Result<(), (&'static str, &'static str)> {
+/// Gives a key and what a law leaves open the same value; false where the law does not leave it open.
+fn settle<T: Copy>(given: &mut Option<Word<T>>, open: Option<&mut T>) -> bool {
     match (given, open) {
-        (Some(_), None) => return Err((key, reason)),
+        (Some(_), None) => return false,
         (None, None) => {}
         (Some(given), Some(open)) => *open = given.0,
         (given, Some(open)) => *given = Some(Word(*open)),
     }
-    Ok(())
+    true
 }

@@ -1,5 +1,10 @@
 //! Checks on single values that several sections share.
 
+use std::fmt;
+
+use serde::Deserializer;
+use serde::de::{SeqAccess, Visitor};
+
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 
@@ -26,14 +31,8 @@ pub fn require(
     if holds {
         return Ok(());
     }
-    let found = format!("{found:?}");
-    Err(KeyFault::new(
-        key(),
-        Fault::OutOfRange {
-            expected: expected.to_owned(),
-            found,
-        },
-    ))
+    let fault = Fault::out_of_range(expected.to_owned(), format!("{found:?}"));
+    Err(KeyFault::new(key(), fault))
 }
 
 /// The one value that is given of keys of which a table has exactly one.
@@ -120,4 +119,45 @@ pub fn require_unique<'a>(
         seen.push((key, name));
     }
     Ok(())
+}
+
+/// What a key takes that is a number or a list of numbers.
+pub(super) enum Numbers {
+    Integer(i64),
+    Float(f64),
+    List(Vec<f64>),
+}
+
+/// Reads a number or a list of numbers; `expected` is what the key takes, in words.
+pub(super) fn numbers<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    expected: &'static str,
+) -> Result<Numbers, D::Error> {
+    deserializer.deserialize_any(NumbersVisitor(expected))
+}
+
+struct NumbersVisitor(&'static str);
+
+impl<'de> Visitor<'de> for NumbersVisitor {
+    type Value = Numbers;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.0)
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Numbers, E> {
+        Ok(Numbers::Integer(value))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Numbers, E> {
+        Ok(Numbers::Float(value))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Numbers, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = elements.next_element()? {
+            numbers.push(number);
+        }
+        Ok(Numbers::List(numbers))
+    }
 }

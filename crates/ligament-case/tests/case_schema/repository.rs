@@ -37,7 +37,7 @@ fn every_case_is_valid() {
     assert!(cases.len() > 40, "{} cases", cases.len());
     for path in cases {
         let case = CaseFile::load(&path, &[]).unwrap();
-        for text in [&case.text, &case.resolved_toml().unwrap()] {
+        for text in [&case.source.text, &case.resolved_toml().unwrap()] {
             let objection = objection(&document(text));
             assert_eq!(objection, None, "{}:\n{text}", path.display());
         }

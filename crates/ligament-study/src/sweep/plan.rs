@@ -84,7 +84,7 @@ pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
     let total = sizes.fold(1, usize::saturating_mul);
     if total > MOST_RUNS {
         return Err(StudyError::TooMany {
-            path: study.path.clone(),
+            path: study.source.path.clone(),
             runs: total,
             most: MOST_RUNS,
         });
@@ -308,7 +308,7 @@ pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
 }
 
 /// A text in letters that every file system takes.
-fn safe(text: &str) -> String {
+pub(super) fn safe(text: &str) -> String {
     let letter = |letter: char| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' | '+' => letter,
         _ => '_',

@@ -12,8 +12,8 @@ use super::written;
 use ligament_case::case::decode::decode;
 use ligament_case::case::document::{Node, Value};
 use ligament_case::case::fault::KeyFault;
-use ligament_case::case::file::{Source, syntax_error};
 use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::source::Source;
 use ligament_case::case::values::{require, require_column_name, require_unique};
 use ligament_case::case::{CaseError, Fault, Location};
 
@@ -21,7 +21,7 @@ use ligament_case::case::{CaseError, Fault, Location};
 #[derive(Debug, Clone)]
 pub struct Study {
     /// The study file, as it was given.
-    pub path: PathBuf,
+    pub source: Source,
     /// One line on what is studied.
     pub title: String,
     /// The file of the base case.
@@ -36,8 +36,6 @@ pub struct Study {
     pub derived: Vec<Derived>,
     /// Plots over the runs.
     pub plots: Vec<StudyPlot>,
-    text: String,
-    document: Node,
 }
 
 /// A column that is made from a result.
@@ -152,22 +150,15 @@ impl Study {
             path: path.to_owned(),
             source,
         })?;
-        let document =
-            Node::parse_document(&text).map_err(|error| syntax_error(path, &text, &error))?;
-        let source = Source {
-            path,
-            text: &text,
-            overrides: &[],
-            document: &document,
-        };
+        let source = Source::parse(path, text, &[])?;
+        let document = &source.document;
         let read = || {
-            let raw: RawStudy = decode(&document, &KeyPath::default()).map_err(in_study)?;
-            raw.checked(&document)
+            let raw: RawStudy = decode(document, &KeyPath::default()).map_err(in_study)?;
+            raw.checked(document)
         };
         let (raw, axes, settings) = read().map_err(|fault| source.error(fault))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Ok(Self {
-            path: path.to_owned(),
             title: raw.title,
             case: folder.join(raw.case),
             geometry: raw.geometry.map(|geometry| folder.join(geometry)),
@@ -175,40 +166,23 @@ impl Study {
             axes,
             derived: raw.result,
             plots: raw.plot,
-            text,
-            document,
+            source,
         })
     }
 
     /// The study's own name: that of its folder if the file is called `study.toml`, else the file's own without its extension.
     pub fn name(&self) -> String {
-        let stem = self.path.file_stem().unwrap_or_default();
-        let stem = stem.to_string_lossy().into_owned();
-        if stem != "study" {
-            return stem;
-        }
-        let absolute = std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone());
-        let folder = absolute.parent().and_then(Path::file_name);
-        folder.map_or(stem, |name| name.to_string_lossy().into_owned())
+        self.source.name(&["study"])
     }
 
     /// The place of a key in the study file, or of the table that would have it.
     pub(crate) fn location(&self, key: &KeyPath) -> Location {
-        self.source().location(self.document.origin_of(key))
+        self.source.location_of(key)
     }
 
     /// The error for a fault that is found later, with the place of its key.
     pub(crate) fn error(&self, key: KeyPath, fault: impl Into<Fault>) -> CaseError {
-        self.source().error(KeyFault::new(key, fault))
-    }
-
-    fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.path,
-            text: &self.text,
-            overrides: &[],
-            document: &self.document,
-        }
+        self.source.error(KeyFault::new(key, fault))
     }
 }
 
