@@ -71,11 +71,7 @@ fn bonds_of_the_square() {
         let (bonds, row) = (&model.system.bonds, summary.row_where("set", set));
         assert_eq!(bonds.len(), expected.len(), "{set}: number of bonds");
         assert_eq!(bonds.len(), summary.count(row, "bonds"));
-        assert_eq!(
-            domain(&model).sweeps,
-            summary.count(row, "sweeps"),
-            "{set}"
-        );
+        assert_eq!(domain(&model).sweeps, summary.count(row, "sweeps"), "{set}");
         let domain_factor = &model.fixed.domain_factor;
         let length_factor: Vec<f64> = (model.system.weight.iter().zip(domain_factor))
             .map(|(weight, omega)| weight / omega)

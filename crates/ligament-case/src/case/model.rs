@@ -7,7 +7,7 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{exactly_one, one_of};
 use super::word::Word;
-use ligament::setup::{Calibration, Form, Horizon, Law, Strains};
+use ligament::setup::{Calibration, Form, Horizon, Law, Setup, Strains};
 use ligament_model::law::rotational::RotationalStiffness;
 
 /// The bond model.
@@ -23,8 +23,8 @@ pub struct ModelSection {
     /// One horizon for all points, m, in the place of `horizon_factor`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub horizon: Option<f64>,
-    /// Whether bonds run through holes, slots and notches of a mesh, as if they were filled.
-    #[serde(default)]
+    /// Whether bonds run through holes, slots and notches of a mesh, as if these were filled.
+    #[serde(default = "through_voids")]
     pub bonds_through_voids: bool,
     /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
     pub calibration: Option<Word<Calibration>>,
@@ -34,6 +34,10 @@ pub struct ModelSection {
     pub form: Option<Word<Form>>,
     /// What the strains of `mbb-pd` are taken over.
     pub strains: Option<Word<Strains>>,
+}
+
+fn through_voids() -> bool {
+    Setup::BONDS_THROUGH_VOIDS
 }
 
 impl ModelSection {

@@ -40,7 +40,7 @@ pub struct Setup {
     pub law: Law,
     /// Horizon of the points.
     pub horizon: Horizon,
-    /// Whether bonds run through holes, notches and other voids of a meshed body.
+    /// Whether bonds run through holes, slots and notches of a meshed body, as if these were filled; those of a lattice never do.
     pub bonds_through_voids: bool,
     /// Corrections of the bonds.
     pub correction: Correction,
@@ -97,6 +97,9 @@ pub enum Horizon {
 }
 
 impl Setup {
+    /// Whether bonds run through voids of a mesh unless it is said.
+    pub const BONDS_THROUGH_VOIDS: bool = true;
+
     /// The elastic analysis of a body of one material in plane stress with a thickness of 1 m, horizon factor 3 and the
     /// correction of the law's paper; nothing holds it and nothing loads it yet.
     pub fn new(body: impl Body + 'static, material: Material, law: Law) -> Self {
@@ -112,7 +115,7 @@ impl Setup {
             }],
             law,
             horizon: Horizon::Factor(3.0),
-            bonds_through_voids: false,
+            bonds_through_voids: Self::BONDS_THROUGH_VOIDS,
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
             no_fail: Vec::new(),

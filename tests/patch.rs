@@ -1,0 +1,291 @@
+//! The patch correction: a uniform strain is an equilibrium with the tractions of the mesh.
+//!
+//! The forces of a uniform strain are made here anew, by linear triangles with the matrix of their strains; the stiffness of a bar is
+//! the closed form.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::sync::Arc;
+
+use ligament::model::Model;
+use ligament::prelude::*;
+use ligament::run::on_threads;
+use ligament::setup::Surface;
+use ligament_model::Bonds;
+use ligament_model::correction::CorrectionReport;
+use ligament_model::correction::patch::Settings;
+use ligament_model::system::BondsLeft;
+use ligament_model::thermal::ThermalStrain;
+use nalgebra::{Matrix3, Matrix3x6, SVector};
+use verification::meshes;
+
+const CALIBRATION: Calibration = Calibration::Integral;
+
+fn patched(body: impl Body + 'static, poisson: f64, law: Law) -> Setup {
+    let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
+    setup.correction.surface = Surface::Patch(Settings::default());
+    setup
+}
+
+fn build(setup: Setup) -> Model {
+    Model::build(setup, &mut ()).unwrap()
+}
+
+/// What the correction leaves of its equations, as a root mean square.
+fn left(model: &Model) -> f64 {
+    let report = model.correction.as_ref().and_then(CorrectionReport::patch);
+    report.unwrap().left
+}
+
+/// Displacements of a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations of the points.
+fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
+    let components = model.system.components();
+    let of_point = |[x, y]: &[f64; 2]| {
+        let (x, y) = (*x, *y);
+        components.iter().map(move |component| match component {
+            Component::X => xx * x + 0.5 * xy * y,
+            Component::Y => yy * y + 0.5 * xy * x,
+            Component::Rotation => 0.0,
+        })
+    };
+    model
+        .system
+        .cloud
+        .positions
+        .iter()
+        .flat_map(of_point)
+        .collect()
+}
+
+/// Forces of the bonds on the points, shape (n_points, 2).
+fn bond_forces(model: &Model, displacement: &[f64]) -> Vec<[f64; 2]> {
+    let system = &*model.system;
+    let intact = vec![true; system.bonds.len()];
+    let deformations = system.deformations(&intact, displacement, ThermalStrain::NONE);
+    let sweep = system.forces(BondsLeft::whole(&intact), deformations, ThermalStrain::NONE);
+    let of_points = sweep.force.chunks(system.components().len());
+    of_points.map(|force| [force[0], force[1]]).collect()
+}
+
+/// Nodal forces of linear triangles: V B^T C B u.
+fn triangle_forces(
+    mesh: &Mesh,
+    stiffness: &Matrix3<f64>,
+    displacement: &[[f64; 2]],
+) -> Vec<[f64; 2]> {
+    let mut forces = vec![[0.0; 2]; mesh.positions.len()];
+    for cell in &mesh.cells {
+        let nodes: [usize; 3] = std::array::from_fn(|k| cell.corners()[k] as usize);
+        let area = cell.area(&mesh.positions);
+        let mut strains = Matrix3x6::zeros();
+        for k in 0..3 {
+            let [[x1, y1], [x2, y2]] =
+                [nodes[(k + 1) % 3], nodes[(k + 2) % 3]].map(|node| mesh.positions[node]);
+            let (along_x, along_y) = ((y1 - y2) / (2.0 * area), (x2 - x1) / (2.0 * area));
+            strains[(0, 2 * k)] = along_x;
+            strains[(1, 2 * k + 1)] = along_y;
+            strains[(2, 2 * k)] = along_y;
+            strains[(2, 2 * k + 1)] = along_x;
+        }
+        let motion = SVector::<f64, 6>::from_fn(|row, _| displacement[nodes[row / 2]][row % 2]);
+        let force = area * strains.transpose() * stiffness * strains * motion;
+        for (k, &node) in nodes.iter().enumerate() {
+            forces[node][0] += force[2 * k];
+            forces[node][1] += force[2 * k + 1];
+        }
+    }
+    forces
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count() as f64;
+    (values.map(|value| value * value).sum::<f64>() / count).sqrt()
+}
+
+/// Forces of the bonds of a disk of irregular triangles in three uniform strains against those of the triangles, over the largest of
+/// these. Points at the rim carry all of them: without the correction the points inside are off by as much.
+#[test]
+fn bonds_carry_uniform_strains_as_triangles_do() {
+    let mesh = meshes::read("meshes/disk-4mm.msh");
+    for (law, poisson) in [
+        (Law::Nhpd, 0.21),
+        (Law::Nhpd, 0.38),
+        (Law::Nhpd, -0.3),
+        (
+            Law::Pds {
+                calibration: CALIBRATION,
+            },
+            0.2,
+        ),
+        (
+            Law::Bbpd {
+                calibration: CALIBRATION,
+            },
+            1.0 / 3.0,
+        ),
+    ] {
+        let stiffness = Isotropic {
+            young: 1.0,
+            poisson,
+        }
+        .plane_stiffness(Plane::Stress);
+        let off = |setup: Setup| {
+            let model = build(setup);
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|strain| {
+                let [xx, yy, xy] = strain;
+                let found = bond_forces(&model, &affine(&model, strain));
+                let affine = |[x, y]: &[f64; 2]| [xx * x + 0.5 * xy * y, yy * y + 0.5 * xy * x];
+                let displacement: Vec<[f64; 2]> = mesh.positions.iter().map(affine).collect();
+                let wanted = triangle_forces(&mesh, &stiffness, &displacement);
+                let both = || found.as_flattened().iter().zip(wanted.as_flattened());
+                let largest = both().map(|(_, wanted)| wanted.abs()).fold(0.0, f64::max);
+                root_mean_square(both().map(|(found, wanted)| (found - wanted) / largest))
+            })
+        };
+        let body = || MeshBody::from(mesh.clone());
+        let with = off(patched(body(), poisson, law));
+        let without = off(Setup::new(body(), Material::isotropic(1.0, poisson), law));
+        for (with, without) in with.into_iter().zip(without) {
+            // The regularisation lets go a part in a thousand; without the correction it is a part in four.
+            assert!(
+                with < 2e-3 && without > 50.0 * with,
+                "{law:?} {poisson}: {with:.1e}, without {without:.1e}"
+            );
+        }
+    }
+}
+
+/// A plate under tension along x between its sides is as stiff as the bar of its material, E A/L, to 0.2 %, for points with rotations
+/// and without, in plane stress and strain, on triangles and on a lattice; with two materials side by side as stiff as both together.
+#[test]
+fn a_bar_is_as_stiff_as_its_material() {
+    let laws = [
+        (Law::Nhpd, Plane::Stress),
+        (Law::Nhpd, Plane::Strain),
+        (
+            Law::Mppd {
+                calibration: CALIBRATION,
+                rotational_stiffness: RotationalStiffness::Decaying,
+            },
+            Plane::Stress,
+        ),
+        (
+            Law::Pds {
+                calibration: CALIBRATION,
+            },
+            Plane::Stress,
+        ),
+    ];
+    for (law, state) in laws {
+        let mut setup = patched(MeshBody::from(meshes::read("meshes/plate.msh")), 0.2, law);
+        setup.section = Section::Plane {
+            state,
+            thickness: 1.0,
+        };
+        let stiffness = pulled(setup, 1.0);
+        let plane_modulus = if state == Plane::Stress {
+            1.0
+        } else {
+            1.0 / (1.0 - 0.2_f64.powi(2))
+        };
+        let ratio = stiffness / (plane_modulus * 0.1 / 0.2);
+        assert!((ratio - 1.0).abs() < 2e-3, "{law:?} {state:?}: {ratio}");
+    }
+    let sets = [
+        ("left".to_owned(), CellSet::Left(1)),
+        ("right".to_owned(), CellSet::Right(1)),
+    ];
+    let lattice = LatticeBody::new([40, 20], [0.005; 2], [0.0; 2], &[], &sets.into()).unwrap();
+    // The points are the centres of the cells: the gauge ends there.
+    let ratio = pulled(patched(lattice, 0.2, Law::Nhpd), 1.0) / (0.1 / 0.195);
+    assert!((ratio - 1.0).abs() < 2e-3, "lattice: {ratio}");
+}
+
+/// Force over displacement of a body that is pulled between its groups `left` and `right`, N/m.
+fn pulled(mut setup: Setup, displacement: f64) -> f64 {
+    setup.supports = vec![Support::new("left", &[Component::X])];
+    let right = Displacement {
+        x: Some(displacement),
+        ..Displacement::default()
+    };
+    setup.loads = vec![Load::new("right", Action::Displacement(right))];
+    let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+    history.last().unwrap().reaction.abs() / displacement
+}
+
+/// The equations know no axes: turning the mesh changes no factor. They are found to what the iteration leaves of them.
+#[test]
+fn a_turned_mesh_has_the_same_factors() {
+    let mesh = meshes::read("meshes/disk-4mm.msh");
+    let factors = |angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let turned = meshes::moved(&mesh, |[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+        let model = build(patched(MeshBody::from(turned), 0.21, Law::Nhpd));
+        (model.fixed.domain_factor, model.fixed.shear_ratio)
+    };
+    let (omega, ratio) = factors(0.0);
+    for degrees in [30.0_f64, 45.0] {
+        let (turned_omega, turned_ratio) = factors(degrees.to_radians());
+        let off = |one: &[f64], other: &[f64]| {
+            root_mean_square(one.iter().zip(other).map(|(one, other)| one / other - 1.0))
+        };
+        let (omega, ratio) = (off(&turned_omega, &omega), off(&turned_ratio, &ratio));
+        assert!(
+            omega < 1e-6 && ratio < 1e-6,
+            "{degrees} degrees: {omega:.1e}, {ratio:.1e}"
+        );
+    }
+}
+
+#[test]
+fn the_factors_do_not_depend_on_the_number_of_threads() {
+    let body: Arc<dyn Body> = Arc::new(MeshBody::from(meshes::read("meshes/disk-2mm.msh")));
+    let factors = |threads: usize| {
+        let mut setup = patched(MeshBody::from(Mesh::default()), 0.21, Law::Nhpd);
+        setup.body = body.clone();
+        let model = on_threads(Some(threads), || build(setup)).unwrap();
+        (model.fixed.domain_factor, model.fixed.shear_ratio)
+    };
+    assert_eq!(factors(1), factors(2));
+}
+
+/// With hardly more bonds than equations they cannot be met, and the model says so.
+#[test]
+fn too_few_bonds_are_noticed() {
+    let body = || MeshBody::from(meshes::read("meshes/disk-4mm.msh"));
+    let mut setup = patched(body(), 0.21, Law::Nhpd);
+    setup.horizon = Horizon::Factor(1.5);
+    let model = build(setup);
+    assert!(left(&model) > 5e-3, "{}", left(&model));
+    let warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
+    let about = |words: &str| warnings.iter().any(|warning| warning.contains(words));
+    assert!(
+        about("cannot make every uniform strain an equilibrium") && about("horizon_factor = 3"),
+        "{warnings:?}"
+    );
+    let model = build(patched(body(), 0.21, Law::Nhpd));
+    assert!(left(&model) < 2e-3 && model.warnings.is_empty());
+}
+
+/// Without cells there are no forces to meet, and cells know nothing of pre-cracks.
+#[test]
+fn bodies_without_cells_are_refused() {
+    let points = Points::new(vec![[0.0; 2], [1.0, 0.0]], vec![1.0; 2]).unwrap();
+    let error = Model::build(patched(points, 0.2, Law::Nhpd), &mut ()).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("correction.surface: the forces of uniform strains"),
+        "{error}"
+    );
+    let mut setup = patched(
+        MeshBody::from(meshes::read("meshes/disk-4mm.msh")),
+        0.21,
+        Law::Nhpd,
+    );
+    setup.correction.domain = ligament::setup::CorrectionDomain::Cracked;
+    let error = Model::build(setup, &mut ()).unwrap_err();
+    assert!(
+        error.to_string().starts_with("correction.domain"),
+        "{error}"
+    );
+}
