@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::sections::Case;
+use super::values::refuse;
 use super::word::Word;
 use ligament::setup;
 use ligament_analysis::modal::{ModalSettings, Rotations};
@@ -73,57 +74,47 @@ impl Case {
             false => Analysis::Static,
         };
         let analysis = *self.analysis.get_or_insert(meant);
-        let modes = (
-            "modal",
-            is_modal,
-            "it says which modes are wanted, and only analysis = \"modal\" finds any",
-        );
-        let (word, unfit) = match analysis {
+        let refuse = |key, is_given, reason| {
+            let setting = format!("analysis = \"{}\"", analysis.word());
+            refuse(&KeyPath::default(), [(key, is_given)], &setting, reason)
+        };
+        if analysis != Analysis::Modal {
+            let reason = "it says which modes are wanted, and only analysis = \"modal\" finds any";
+            refuse("modal", is_modal, reason)?;
+        }
+        match analysis {
             Analysis::Fracture if !is_breaking => {
                 let reason =
                     "\"fracture\" needs a [fracture] section, which says how the loads rise";
-                return Err(KeyFault::new(KeyPath::default().child("analysis"), reason));
+                Err(KeyFault::new(KeyPath::default().child("analysis"), reason))
             }
-            Analysis::Fracture => ("fracture", vec![modes]),
+            Analysis::Fracture => Ok(()),
             Analysis::Static => {
                 let reason = "no bond breaks in an elastic solution";
-                ("static", vec![("fracture", is_breaking, reason), modes])
+                refuse("fracture", is_breaking, reason)
             }
             Analysis::Modal => {
                 self.modal.get_or_insert_default();
-                let free = "modes are free vibrations without loads";
-                let sections = vec![
-                    ("fracture", is_breaking, "no bond breaks in a mode"),
-                    (
-                        "load",
-                        !self.loads.is_empty(),
-                        "modes are free vibrations without loads; supports hold",
-                    ),
-                    ("temperature", !self.temperatures.is_empty(), free),
-                    (
-                        "probe",
-                        !self.probes.is_empty(),
-                        "modes have no history to read",
-                    ),
-                    (
-                        "output",
-                        has_output,
-                        "every mode is written, to a file of its own",
-                    ),
-                ];
-                ("modal", sections)
+                let (loads, free) = (&self.loads, "modes are free vibrations without loads");
+                refuse("fracture", is_breaking, "no bond breaks in a mode")?;
+                let held = "modes are free vibrations without loads; supports hold";
+                refuse("load", !loads.is_empty(), held)?;
+                refuse("temperature", !self.temperatures.is_empty(), free)?;
+                let reason = "modes have no history to read";
+                refuse("probe", !self.probes.is_empty(), reason)?;
+                let reason = "every mode is written, to a file of its own";
+                refuse("output", has_output, reason)
             }
-        };
-        match unfit.into_iter().find(|(_, is_given, _)| *is_given) {
-            None => Ok(()),
-            Some((key, _, reason)) => Err(KeyFault::new(
-                KeyPath::default().child(key),
-                Fault::NotWith {
-                    key,
-                    setting: format!("analysis = \"{word}\""),
-                    reason,
-                },
-            )),
+        }
+    }
+}
+
+impl Analysis {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Static => "static",
+            Self::Fracture => "fracture",
+            Self::Modal => "modal",
         }
     }
 }

@@ -179,7 +179,7 @@ impl Case {
             probes: each("probe", &self.probes, Probe::setup)?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
-                (None, Some(fracture)) => fracture.setup(),
+                (None, Some(fracture)) => fracture.setup(&root().child("fracture"))?,
                 (None, None) => setup::Analysis::default(),
             },
             solver: self.solver.setup(),
