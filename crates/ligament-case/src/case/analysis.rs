@@ -3,10 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::KeyFault;
-use super::key_path::KeyPath;
-use super::sections::Case;
-use super::values::refuse;
 use super::word::Word;
 use ligament::setup;
 use ligament_analysis::modal::{ModalSettings, Rotations};
@@ -65,52 +61,9 @@ impl Modal {
     }
 }
 
-impl Case {
-    /// Names the analysis: the one that the case says, or that its sections mean; all sections must go with it.
-    pub(super) fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
-        let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
-        let meant = match is_breaking {
-            true => Analysis::Fracture,
-            false => Analysis::Static,
-        };
-        let analysis = *self.analysis.get_or_insert(meant);
-        let refuse = |key, is_given, reason| {
-            let setting = format!("analysis = \"{}\"", analysis.word());
-            refuse(&KeyPath::default(), [(key, is_given)], &setting, reason)
-        };
-        if analysis != Analysis::Modal {
-            let reason = "it says which modes are wanted, and only analysis = \"modal\" finds any";
-            refuse("modal", is_modal, reason)?;
-        }
-        match analysis {
-            Analysis::Fracture if !is_breaking => {
-                let reason =
-                    "\"fracture\" needs a [fracture] section, which says how the loads rise";
-                Err(KeyFault::new(KeyPath::default().child("analysis"), reason))
-            }
-            Analysis::Fracture => Ok(()),
-            Analysis::Static => {
-                let reason = "no bond breaks in an elastic solution";
-                refuse("fracture", is_breaking, reason)
-            }
-            Analysis::Modal => {
-                self.modal.get_or_insert_default();
-                let (loads, free) = (&self.loads, "modes are free vibrations without loads");
-                refuse("fracture", is_breaking, "no bond breaks in a mode")?;
-                let held = "modes are free vibrations without loads; supports hold";
-                refuse("load", !loads.is_empty(), held)?;
-                refuse("temperature", !self.temperatures.is_empty(), free)?;
-                let reason = "modes have no history to read";
-                refuse("probe", !self.probes.is_empty(), reason)?;
-                let reason = "every mode is written, to a file of its own";
-                refuse("output", has_output, reason)
-            }
-        }
-    }
-}
-
 impl Analysis {
-    fn word(self) -> &'static str {
+    /// The word of the analysis.
+    pub(super) fn word(self) -> &'static str {
         match self {
             Self::Static => "static",
             Self::Fracture => "fracture",
