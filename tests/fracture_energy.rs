@@ -335,8 +335,8 @@ impl Separation {
             }
             let per_energy = 1.0 / (ratio * ratio * area * FRACTURE_ENERGY);
             let opening =
-                0.5 * system.rigidities.axial[bond] * deformation.stretch.max(0.0).powi(2);
-            let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear.powi(2);
+                0.5 * system.rigidities.axial[bond] * deformation.stretch().max(0.0).powi(2);
+            let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear().powi(2);
             sum.counted += (opening + sliding) * per_energy;
             let both = [&deformation; 2];
             let energy = system.mutual_energy(&intact, bond, &Remaining::WHOLE, both);

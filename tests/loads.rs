@@ -290,10 +290,7 @@ fn strains_do_not_depend_on_the_gauges() {
         let bench = Bench::new(&format!("{PLATE}{support}{load}"), &[]);
         let run = bench.solve();
         let deformations = sweep(&bench, &run).deformations;
-        let strains: Vec<f64> = deformations
-            .iter()
-            .flat_map(|it| [it.stretch, it.shear, it.rotation])
-            .collect();
+        let strains: Vec<f64> = deformations.iter().flat_map(|it| it.strains()).collect();
         (strains, run)
     };
     let (automatic, run) = solve("");

@@ -134,7 +134,7 @@ fn solutions_of_the_square() {
         let ratios = deformations
             .iter()
             .zip(bench.limits())
-            .map(|(it, limit)| it.stretch / limit);
+            .map(|(it, limit)| it.stretch() / limit);
         let largest_ratio = ratios.fold(0.0, f64::max);
         for (name, value, column) in [
             ("reaction", run.last().reaction, "reaction_top"),

@@ -64,8 +64,8 @@ fn deformation_names(problem: &Problem) -> &'static [&'static str] {
 fn component(name: &str, deformation: &ligament_analysis::BondDeformation) -> f64 {
     let [xx, yy, xy] = deformation.strain();
     match name {
-        "stretch" => deformation.stretch,
-        "shear" => deformation.shear,
+        "stretch" => deformation.stretch(),
+        "shear" => deformation.shear(),
         "strain_xx" => xx,
         "strain_yy" => yy,
         "strain_xy" => xy,

@@ -143,11 +143,7 @@ mod tests {
     fn chosen(rule: &BreakingRule, stretch: &[f64], limit: &[f64], intact: &[bool]) -> Vec<u32> {
         let deformations: Vec<BondDeformation> = stretch
             .iter()
-            .map(|&stretch| BondDeformation {
-                stretch,
-                shear: 0.0,
-                rotation: 0.0,
-            })
+            .map(|&stretch| BondDeformation::new([stretch, 0.0, 0.0]))
             .collect();
         next_to_break(rule, &deformations, &stretch_limits(limit), intact)
     }
@@ -184,10 +180,7 @@ mod tests {
         let first = |stretch: &[f64], limit: &[f64], intact: &[bool]| {
             let deformations: Vec<BondDeformation> = stretch
                 .iter()
-                .map(|&stretch| BondDeformation {
-                    stretch,
-                    ..Default::default()
-                })
+                .map(|&stretch| BondDeformation::new([stretch, 0.0, 0.0]))
                 .collect();
             let first = first_to_break(1e-8, &deformations, &stretch_limits(limit), intact);
             (first.ratio, first.bonds)

@@ -19,23 +19,19 @@ pub fn sweep(
 
 /// Largest |external - internal force| of a residual (n_unknowns), relative to the forces that meet at a point.
 pub fn relative_residual(residual: &[f64], unknowns: &Unknowns, internal: &InternalForces) -> f64 {
-    let is_rotation = |dof: u32| unknowns.layout().component(dof as usize).is_rotation();
-    let largest = |rotational: bool| {
-        residual
-            .iter()
-            .zip(unknowns.degrees_of_freedom())
-            .filter(|&(_, &dof)| is_rotation(dof) == rotational)
-            // `f64::max` would pass over a NaN, and with it over a failed solve.
-            .map(|(value, _)| {
-                if value.is_nan() {
-                    f64::INFINITY
-                } else {
-                    value.abs()
-                }
-            })
-            .fold(0.0, f64::max)
-    };
+    // Of forces and of moments.
+    let mut largest = [0.0_f64; 2];
+    for (value, &dof) in residual.iter().zip(unknowns.degrees_of_freedom()) {
+        let component = unknowns.layout().component(dof as usize);
+        // `f64::max` would pass over a NaN, and with it over a failed solve.
+        let size = if value.is_nan() {
+            f64::INFINITY
+        } else {
+            value.abs()
+        };
+        let of_kind = &mut largest[usize::from(component.is_rotation())];
+        *of_kind = of_kind.max(size);
+    }
     let relative = |value: f64, scale: f64| if value == 0.0 { 0.0 } else { value / scale };
-    relative(largest(false), internal.force_scale)
-        .max(relative(largest(true), internal.moment_scale))
+    relative(largest[0], internal.force_scale).max(relative(largest[1], internal.moment_scale))
 }

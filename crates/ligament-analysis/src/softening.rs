@@ -73,7 +73,7 @@ impl Softening {
         let trial = &self.trial;
         (self.remaining.par_iter_mut().enumerate()).for_each(|(bond, remaining)| {
             if intact[bond] {
-                let is_open = deformations[bond].stretch >= 0.0;
+                let is_open = deformations[bond].stretch() >= 0.0;
                 *remaining = remaining_of(criteria, trial, bond, is_open);
             }
         });

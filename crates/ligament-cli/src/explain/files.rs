@@ -43,7 +43,7 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
                 moment.reaction.into(),
                 usize::from(is_intact).into(),
             ];
-            let values = deformation.components().into_iter();
+            let values = deformation.strains().into_iter();
             row.extend(values.take(lives.components.len()).map(Value::from));
             for (criterion, limit) in life.limits.iter().enumerate() {
                 let utilisation = if is_intact {
@@ -54,9 +54,8 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
                 let measure = limit.measure(deformation);
                 row.extend([limit.limit, measure, utilisation].map(Value::from));
                 if !limit.after.is_brittle() {
-                    let softened = life.softened(criterion, &lives.moments, place);
-                    let left = |value: f64| Value::from(if is_intact { value } else { 0.0 });
-                    row.extend([left(softened.force), left(softened.secant)]);
+                    let left = life.left(criterion, &lives.moments, place);
+                    row.extend([left.force, left.secant].map(Value::from));
                 }
             }
             table.append(&row)?;
@@ -152,7 +151,7 @@ fn with_components(
     lives: &Lives,
     deformation: &BondDeformation,
 ) -> serde_json::Value {
-    for (name, value) in lives.components.iter().zip(deformation.components()) {
+    for (name, value) in lives.components.iter().zip(deformation.strains()) {
         object[*name] = json!(value);
     }
     object

@@ -35,7 +35,7 @@ fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
         3 => &["S_xx", "S_xy", "S_yy"],
         _ => &["s", "gamma"],
     };
-    let values = symbols.iter().zip(deformation.components());
+    let values = symbols.iter().zip(deformation.strains());
     let words: Vec<String> = values
         .map(|(symbol, value)| format!("{symbol} = {}", number(value)))
         .collect();
@@ -44,8 +44,10 @@ fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
 
 /// Whether a bond is shortened, or some strain of its own is.
 fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
-    let has_strains = lives.components.len() == 3;
-    deformation.stretch < 0.0 || (has_strains && deformation.rotation < 0.0)
+    match lives.components.len() {
+        3 => deformation.strain()[..2].iter().any(|strain| *strain < 0.0),
+        _ => deformation.stretch() < 0.0,
+    }
 }
 
 /// The limits of a bond, a line each; its name and what it says.

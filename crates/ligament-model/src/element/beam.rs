@@ -49,26 +49,26 @@ impl PairKinematics<3> for BeamBond {
     #[inline]
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         let without_rotations = self.springs.deformation(end_a, end_b);
-        BondDeformation {
-            stretch: without_rotations.stretch,
-            shear: without_rotations.shear - 0.5 * (end_a[2] + end_b[2]),
-            rotation: end_b[2] - end_a[2],
-        }
+        BondDeformation::new([
+            without_rotations.stretch(),
+            without_rotations.shear() - 0.5 * (end_a[2] + end_b[2]),
+            end_b[2] - end_a[2],
+        ])
     }
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
     #[inline]
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         self.springs.mutual_energy(one, other)
-            + 0.5 * (self.rotational_rigidity * one.rotation * other.rotation)
+            + 0.5 * (self.rotational_rigidity * one.rotation() * other.rotation())
     }
 
     /// Internal forces and moment K u at the ends A and B, N and N m.
     #[inline]
     fn end_forces(&self, deformation: &BondDeformation) -> [[f64; 3]; 2] {
         let [[a_x, a_y], [b_x, b_y]] = self.springs.end_forces(deformation);
-        let half_moment = -0.5 * (self.springs.shear_rigidity * deformation.shear);
-        let moment = self.rotational_rigidity * deformation.rotation;
+        let half_moment = -0.5 * (self.springs.shear_rigidity * deformation.shear());
+        let moment = self.rotational_rigidity * deformation.rotation();
         [
             [a_x, a_y, half_moment - moment],
             [b_x, b_y, half_moment + moment],

@@ -45,7 +45,7 @@ impl ElementKind {
         }
     }
 
-    /// Names of the components of a deformation in results, in the order of the fields of [`BondDeformation`].
+    /// Names of the strains of a [`BondDeformation`] in results, in their order.
     pub const fn strain_names(self) -> &'static [&'static str] {
         match self {
             Self::Beam | Self::Spring => &["stretch", "shear", "rotation"],
@@ -56,49 +56,64 @@ impl ElementKind {
     }
 }
 
-/// Deformation of a bond.
-///
-/// An [imaginary element](imaginary) has its strains S_xx, S_xy and S_yy in the places of stretch, shear and rotation.
+/// Deformation of a bond: the strains that its element has, in the order of [`ElementKind::strain_names`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BondDeformation {
-    /// Stretch s.
-    pub stretch: f64,
-    /// Shear deformation gamma, rad.
-    pub shear: f64,
-    /// Relative rotation theta_B - theta_A, rad.
-    pub rotation: f64,
+    strains: [f64; 3],
 }
 
 impl BondDeformation {
+    /// The deformation with strains in the order of their names: of a bond of two points stretch s, shear deformation gamma, rad,
+    /// and relative rotation theta_B - theta_A of the ends, rad; zero what it has not.
+    #[inline]
+    pub const fn new(strains: [f64; 3]) -> Self {
+        Self { strains }
+    }
+
     /// The deformation of an imaginary element with the strains (S_xx, S_yy, S_xy).
     #[inline]
-    pub fn of_strain([xx, yy, xy]: [f64; 3]) -> Self {
+    pub const fn of_strain([xx, yy, xy]: [f64; 3]) -> Self {
         Self {
-            stretch: xx,
-            shear: xy,
-            rotation: yy,
+            strains: [xx, xy, yy],
         }
+    }
+
+    /// Stretch s of a bond of two points.
+    #[inline]
+    pub fn stretch(&self) -> f64 {
+        self.strains[0]
+    }
+
+    /// Shear deformation gamma of a bond of two points, rad.
+    #[inline]
+    pub fn shear(&self) -> f64 {
+        self.strains[1]
+    }
+
+    /// Relative rotation theta_B - theta_A of the ends of a bond of two points, rad.
+    #[inline]
+    pub fn rotation(&self) -> f64 {
+        self.strains[2]
     }
 
     /// The strains (S_xx, S_yy, S_xy) of an imaginary element.
     #[inline]
     pub fn strain(&self) -> [f64; 3] {
-        [self.stretch, self.rotation, self.shear]
+        let [xx, xy, yy] = self.strains;
+        [xx, yy, xy]
     }
 
-    /// Components of the deformation in the order of [`ElementKind::strain_names`].
+    /// All strains in the order of their names.
     #[inline]
-    pub fn components(&self) -> [f64; 3] {
-        [self.stretch, self.shear, self.rotation]
+    pub fn strains(&self) -> [f64; 3] {
+        self.strains
     }
 
     /// A multiple of it.
     #[inline]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
-            stretch: factor * self.stretch,
-            shear: factor * self.shear,
-            rotation: factor * self.rotation,
+            strains: self.strains.map(|strain| factor * strain),
         }
     }
 
@@ -106,9 +121,7 @@ impl BondDeformation {
     #[inline]
     pub fn less(&self, other: &Self) -> Self {
         Self {
-            stretch: self.stretch - other.stretch,
-            shear: self.shear - other.shear,
-            rotation: self.rotation - other.rotation,
+            strains: std::array::from_fn(|place| self.strains[place] - other.strains[place]),
         }
     }
 }

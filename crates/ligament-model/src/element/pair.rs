@@ -101,11 +101,9 @@ impl<const M: usize, B: PairKinematics<M>> Element<M> for Pair<B> {
     #[inline(always)]
     fn deformation_in(&self, [xx, yy, xy]: [f64; 3]) -> BondDeformation {
         let (_, [a, b]) = self.bond.geometry();
-        BondDeformation {
-            stretch: a * a * xx + b * b * yy + a * b * xy,
-            shear: a * b * (yy - xx) + 0.5 * (a * a - b * b) * xy,
-            rotation: 0.0,
-        }
+        let stretch = a * a * xx + b * b * yy + a * b * xy;
+        let shear = a * b * (yy - xx) + 0.5 * (a * a - b * b) * xy;
+        BondDeformation::new([stretch, shear, 0.0])
     }
 
     #[inline(always)]

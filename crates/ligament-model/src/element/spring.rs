@@ -56,18 +56,16 @@ impl PairKinematics<2> for SpringBond {
         let [a, b] = self.direction;
         let (du_x, du_y) = (end_b[0] - end_a[0], end_b[1] - end_a[1]);
         let per_length = 1.0 / self.length;
-        BondDeformation {
-            stretch: (a * du_x + b * du_y) * per_length,
-            shear: (-b * du_x + a * du_y) * per_length,
-            rotation: 0.0,
-        }
+        let stretch = (a * du_x + b * du_y) * per_length;
+        let shear = (-b * du_x + a * du_y) * per_length;
+        BondDeformation::new([stretch, shear, 0.0])
     }
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
     #[inline]
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
-        0.5 * (self.axial_rigidity * one.stretch * other.stretch
-            + self.shear_rigidity * one.shear * other.shear)
+        0.5 * (self.axial_rigidity * one.stretch() * other.stretch()
+            + self.shear_rigidity * one.shear() * other.shear())
     }
 
     /// Internal forces K u at the ends A and B, N.
@@ -75,8 +73,8 @@ impl PairKinematics<2> for SpringBond {
     fn end_forces(&self, deformation: &BondDeformation) -> [[f64; 2]; 2] {
         let [a, b] = self.direction;
         let per_length = 1.0 / self.length;
-        let axial = self.axial_rigidity * deformation.stretch * per_length;
-        let transverse = self.shear_rigidity * deformation.shear * per_length;
+        let axial = self.axial_rigidity * deformation.stretch() * per_length;
+        let transverse = self.shear_rigidity * deformation.shear() * per_length;
         let (force_x, force_y) = (axial * a - transverse * b, axial * b + transverse * a);
         [[-force_x, -force_y], [force_x, force_y]]
     }

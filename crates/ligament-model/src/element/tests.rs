@@ -379,5 +379,5 @@ fn a_rotation_shears_a_spring() {
     let springs = body(0.6, 1.0, |_, _| Pairs::<SpringBond>::default());
     let element = springs.element(7);
     let turned = element.deformation(&springs.rigid([0.3, -0.2], 1.0));
-    assert!((turned.shear - 1.0).abs() < 1e-14);
+    assert!((turned.shear() - 1.0).abs() < 1e-14);
 }

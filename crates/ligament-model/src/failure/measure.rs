@@ -111,7 +111,8 @@ impl Measure {
     /// The value of the measure for a deformation, with the coefficients of the bond where the measure has some.
     #[inline]
     pub fn value(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
-        let BondDeformation { stretch, shear, .. } = *deformation;
+        let (stretch, shear) = (deformation.stretch(), deformation.shear());
+        let [xx, yy, xy] = deformation.strain();
         let coefficient = || coefficients.first().copied().unwrap_or(0.0);
         match self {
             Self::Tension => stretch,
@@ -122,8 +123,8 @@ impl Measure {
                 let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
             }
-            Self::MixedModeX => mixed_mode(stretch, shear, coefficients),
-            Self::MixedModeY => mixed_mode(deformation.rotation, shear, coefficients),
+            Self::MixedModeX => mixed_mode(xx, xy, coefficients),
+            Self::MixedModeY => mixed_mode(yy, xy, coefficients),
         }
     }
 
@@ -207,18 +208,21 @@ fn mixed_mode(opening: f64, shear: f64, coefficients: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn deformation(stretch: f64, shear: f64) -> BondDeformation {
-        BondDeformation {
-            stretch,
-            shear,
-            rotation: 0.3,
+    /// The deformation of a pair, or for measures that take strains the strains of an element with the same opening and shear
+    /// and with S_yy = 0.3.
+    fn deformation(measure: Measure, stretch: f64, shear: f64) -> BondDeformation {
+        if measure.takes_strains() {
+            BondDeformation::of_strain([stretch, 0.3, shear])
+        } else {
+            BondDeformation::new([stretch, shear, 0.3])
         }
     }
 
     #[test]
     fn values_by_hand() {
         let of = |stretch, shear| {
-            Measure::ALL.map(|measure| measure.value(&deformation(stretch, shear), &[0.25]))
+            let value = |it: Measure| it.value(&deformation(it, stretch, shear), &[0.25]);
+            Measure::ALL.map(value)
         };
         let along_y = |shear: f64| (0.3_f64.powi(2) + 0.25 * shear.powi(2)).sqrt();
         assert_eq!(
@@ -230,7 +234,10 @@ mod tests {
 
     #[test]
     fn a_negative_shear_stiffness_never_gives_less_than_nothing() {
-        assert_eq!(Measure::Energy.value(&deformation(1.0, 10.0), &[-0.5]), 0.0);
+        assert_eq!(
+            Measure::Energy.value(&BondDeformation::new([1.0, 10.0, 0.3]), &[-0.5]),
+            0.0
+        );
     }
 
     #[test]
@@ -238,11 +245,7 @@ mod tests {
         for measure in Measure::ALL {
             for coefficients in [&[0.5] as &[f64], &[0.5, 3.0, 1.75]] {
                 let [once, twice] = [1.0, 2.0].map(|load| {
-                    let deformation = BondDeformation {
-                        stretch: load * 0.3,
-                        shear: load * -0.7,
-                        rotation: load * 0.4,
-                    };
+                    let deformation = deformation(measure, 0.3, -0.7).scaled(load);
                     measure.value(&deformation, coefficients)
                 });
                 assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");

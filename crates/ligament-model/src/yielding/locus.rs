@@ -49,11 +49,11 @@ pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
             theoretical,
             effective: theoretical.scaled(1.0 + error),
             criterion,
-            bond: BondDeformation {
-                stretch: bond.stretch / utilisation,
-                shear: bond.shear / utilisation,
-                rotation: 0.0,
-            },
+            bond: BondDeformation::new([
+                bond.stretch() / utilisation,
+                bond.shear() / utilisation,
+                0.0,
+            ]),
             error,
         })
     };
@@ -74,11 +74,7 @@ fn closed<T>(mut points: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
 pub fn bond_locus(family: &Family<'_>, count: u32) -> Vec<[f64; 2]> {
     let point = |k: u32| {
         let angle = 2.0 * PI * f64::from(k) / f64::from(count);
-        let deformation = BondDeformation {
-            stretch: angle.cos(),
-            shear: angle.sin(),
-            rotation: 0.0,
-        };
+        let deformation = BondDeformation::new([angle.cos(), angle.sin(), 0.0]);
         let utilisation = family.utilisation_by(&deformation);
         (utilisation > 0.0).then(|| [angle.cos(), angle.sin()].map(|part| part / utilisation))
     };
@@ -139,7 +135,7 @@ mod tests {
             let strains = it.theoretical;
             let value = strains.deviator() / cosine + strains.mean() * friction.slope;
             assert!((value - friction.cohesion).abs() < 1e-12 * strains.mean().abs().max(1.0));
-            let limit = it.bond.shear + it.bond.stretch * friction.slope;
+            let limit = it.bond.shear() + it.bond.stretch() * friction.slope;
             assert!((limit - friction.cohesion).abs() < 1e-12 * strains.mean().abs().max(1.0));
         }
     }
@@ -153,7 +149,7 @@ mod tests {
         let family = Family::of_directions(&directions, &criteria);
         for it in principal_locus(&family, 40) {
             assert!((it.effective.deviator() - 0.5 * 2f64.sqrt()).abs() < 1e-8);
-            assert!((it.bond.shear - 0.5).abs() < 1e-12);
+            assert!((it.bond.shear() - 0.5).abs() < 1e-12);
         }
         for [_, shear] in bond_locus(&family, 40) {
             assert!((shear.abs() - 0.5).abs() < 1e-12);

@@ -8,7 +8,6 @@
 //! ([`Family::error`](super::Family::error)).
 
 use super::{PrincipalStretches, Worst, printed_orientations};
-use crate::element::BondDeformation;
 use crate::failure::frictional::Friction;
 
 /// The strain s_0t of the paper's tables; the measure depends on it.
@@ -52,7 +51,8 @@ pub fn error(
 ) -> f64 {
     let margin = |&direction: &f64| {
         let twice = 2.0 * (direction - orientation);
-        let BondDeformation { stretch, shear, .. } = strains.along([twice.cos(), twice.sin()]);
+        let bond = strains.along([twice.cos(), twice.sin()]);
+        let (stretch, shear) = (bond.stretch(), bond.shear());
         let room = friction.cohesion - stretch * friction.slope;
         if shear != 0.0 {
             room / shear.abs().atan()

@@ -65,11 +65,8 @@ impl PrincipalStretches {
     #[inline]
     pub fn along(&self, [cosine, sine]: [f64; 2]) -> BondDeformation {
         let half_difference = 0.5 * (self.first - self.second);
-        BondDeformation {
-            stretch: self.mean() + half_difference * cosine,
-            shear: -half_difference * sine,
-            rotation: 0.0,
-        }
+        let stretch = self.mean() + half_difference * cosine;
+        BondDeformation::new([stretch, -half_difference * sine, 0.0])
     }
 }
 

@@ -18,11 +18,8 @@ pub fn critical_deformation(
     let (mean, deviator) = (strains.mean(), strains.deviator());
     let at = |cosine: f64| {
         let cosine = cosine.clamp(-1.0, 1.0);
-        BondDeformation {
-            stretch: mean + deviator * cosine,
-            shear: deviator * (1.0 - cosine * cosine).sqrt(),
-            rotation: 0.0,
-        }
+        let shear = deviator * (1.0 - cosine * cosine).sqrt();
+        BondDeformation::new([mean + deviator * cosine, shear, 0.0])
     };
     let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient]);
     let [first, others @ ..] = measure.worst_directions(coefficient, mean, deviator);

@@ -323,11 +323,7 @@ impl StoredBreak {
             ],
             criterion: row.value("criterion")?,
             utilisation: row.value("utilisation")?,
-            deformation: BondDeformation {
-                stretch: component(0)?,
-                shear: component(1)?,
-                rotation: component(2)?,
-            },
+            deformation: BondDeformation::new([component(0)?, component(1)?, component(2)?]),
         })
     }
 }

@@ -206,7 +206,7 @@ impl Tables {
             row.extend([a, b].map(Value::from));
             row.push(record.ratio.into());
             row.push(self.criteria[record.criterion].as_str().into());
-            let components = record.deformation.components().into_iter();
+            let components = record.deformation.strains().into_iter();
             row.extend(components.take(self.n_components).map(Value::from));
             self.breaks.append(&row)?;
         }
