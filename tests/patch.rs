@@ -62,7 +62,7 @@ fn bond_forces(model: &Model, displacement: &[f64]) -> Vec<[f64; 2]> {
     let intact = vec![true; system.bonds.len()];
     let deformations = system.deformations(&intact, displacement, ThermalStrain::NONE);
     let sweep = system.forces(BondsLeft::whole(&intact), deformations, ThermalStrain::NONE);
-    let of_points = sweep.force.chunks(system.components().len());
+    let of_points = sweep.internal.values.chunks(system.components().len());
     of_points.map(|force| [force[0], force[1]]).collect()
 }
 

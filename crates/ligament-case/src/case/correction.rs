@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{first_given, require};
+use super::values::{refuse, require};
 use super::word::{Word, Worded};
 use ligament::setup::{self, Alpha, CorrectionDomain, Iteration, Law, Surface};
 use ligament_model::correction::StopRule;
@@ -50,7 +50,6 @@ impl Correction {
         let of_paper = setup::Correction::of_paper(law);
         self.alpha.get_or_insert(Word(of_paper.alpha));
         let surface = self.surface.get_or_insert(Word(of_paper.surface));
-        let word = surface.0.word()[0];
         let of_domain = [
             ("rule", self.rule.is_some()),
             ("tolerance", self.tolerance.is_some()),
@@ -62,29 +61,22 @@ impl Correction {
             ("moment_weight", self.moment_weight.is_some()),
             ("regularisation", self.regularisation.is_some()),
         ];
-        let is_iterated = matches!(surface.0, Surface::Domain(_));
-        let is_patch = matches!(surface.0, Surface::Patch(_));
-        let of_others = [
-            first_given(of_domain)
-                .filter(|_| !is_iterated)
-                .map(|name| (name, "only the domain correction is iterated")),
-            first_given(of_patch)
-                .filter(|_| !is_patch)
-                .map(|name| (name, "only surface = \"patch\" has it")),
-        ];
-        if let Some((name, reason)) = of_others.into_iter().flatten().next() {
-            let fault = Fault::NotWith {
-                key: name,
-                setting: format!("surface = \"{word}\""),
-                reason,
-            };
-            return Err(KeyFault::new(key.child(name), fault));
-        }
-        if is_iterated {
-            self.surface = Some(Word(Surface::Domain(self.iteration(key)?)));
-        }
-        if is_patch {
-            self.surface = Some(Word(Surface::Patch(self.patch())));
+        let setting = format!("surface = \"{}\"", surface.0.word()[0]);
+        let is_iterated = "only the domain correction is iterated";
+        let is_patch = "only the patch correction has it";
+        match surface.0 {
+            Surface::Domain(_) => {
+                refuse(key, of_patch, &setting, is_patch)?;
+                self.surface = Some(Word(Surface::Domain(self.iteration(key)?)));
+            }
+            Surface::Patch(_) => {
+                refuse(key, of_domain, &setting, is_iterated)?;
+                self.surface = Some(Word(Surface::Patch(self.patch())));
+            }
+            Surface::None | Surface::Volume => {
+                refuse(key, of_domain, &setting, is_iterated)?;
+                refuse(key, of_patch, &setting, is_patch)?;
+            }
         }
         Ok(())
     }
