@@ -15,8 +15,7 @@
 //! These equations G q = f are fewer than the factors: the factors are those nearest to the uncorrected ones (`dual.rs`).
 //!
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
-//! for polynomials (Trask, You, Yu and Parks 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a
-//! symmetric stiffness.
+//! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
 
 mod dual;
 mod equations;
