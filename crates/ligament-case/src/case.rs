@@ -17,6 +17,7 @@ pub mod key_path;
 pub mod keys;
 mod lattice_section;
 mod load;
+mod located;
 mod material;
 mod mesh_section;
 mod model;

@@ -7,38 +7,31 @@ use std::path::Path;
 use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Group, Mesh};
 
+use crate::lines::entry;
+
 /// Writes a summary of a mesh; `path` heads it.
 ///
 /// # Errors
 ///
 /// If `out` cannot be written to.
 pub fn write_summary(out: &mut dyn Write, path: &Path, mesh: &Mesh) -> io::Result<()> {
-    let triangles = mesh
-        .cells
-        .iter()
-        .filter(|cell| matches!(cell, Cell::Triangle(_)))
-        .count();
-    let quadrangles = mesh.cells.len() - triangles;
+    let is_triangle = |cell: &&Cell| matches!(cell, Cell::Triangle(_));
+    let triangles = mesh.cells.iter().filter(is_triangle).count();
+    let (cells, quadrangles) = (mesh.cells.len(), mesh.cells.len() - triangles);
     let [low, high] = bounding_box(&mesh.positions);
     let (shortest, longest) = edge_lengths(mesh);
     writeln!(out, "{}", path.display())?;
-    writeln!(out, "  nodes         {}", mesh.positions.len())?;
-    writeln!(
-        out,
-        "  cells         {} ({triangles} triangles, {quadrangles} quadrangles)",
-        mesh.cells.len()
-    )?;
-    writeln!(out, "  area          {:.6e} m^2", mesh.area())?;
-    writeln!(
-        out,
-        "  bounding box  x {:.5e} to {:.5e} m, y {:.5e} to {:.5e} m",
-        low[0], high[0], low[1], high[1]
-    )?;
-    writeln!(
-        out,
-        "  edges         shortest {shortest:.4e} m, longest {longest:.4e} m, ratio {:.2}",
-        longest / shortest
-    )?;
+    let mut entry = |name: &str, value: String| entry(out, 13, name, value);
+    entry("nodes", mesh.positions.len().to_string())?;
+    let kinds = format!("{triangles} triangles, {quadrangles} quadrangles");
+    entry("cells", format!("{cells} ({kinds})"))?;
+    entry("area", format!("{:.6e} m^2", mesh.area()))?;
+    let [[x0, y0], [x1, y1]] = [low, high];
+    let sides = format!("x {x0:.5e} to {x1:.5e} m, y {y0:.5e} to {y1:.5e} m");
+    entry("bounding box", sides)?;
+    let ratio = longest / shortest;
+    let lengths = format!("shortest {shortest:.4e} m, longest {longest:.4e} m, ratio {ratio:.2}");
+    entry("edges", lengths)?;
     write_groups(out, mesh)?;
     for field in &mesh.fields {
         let values = field.components;
@@ -57,18 +50,15 @@ pub fn write_summary(out: &mut dyn Write, path: &Path, mesh: &Mesh) -> io::Resul
 
 fn write_groups(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
     if mesh.groups.is_empty() {
-        return writeln!(
+        return entry(
             out,
-            "  groups        none: a case can select by `box` or `at` only"
+            13,
+            "groups",
+            "none: a case can select by `box` or `at` only",
         );
     }
-    let width = mesh
-        .groups
-        .iter()
-        .map(|group| group.name.chars().count())
-        .max()
-        .unwrap_or(0)
-        .max(4);
+    let letters = mesh.groups.iter().map(|group| group.name.chars().count());
+    let width = letters.fold(4, usize::max);
     writeln!(out, "  groups")?;
     writeln!(
         out,
@@ -88,10 +78,8 @@ fn kind_and_size(group: &Group, mesh: &Mesh) -> (&'static str, String) {
     match group.dimension {
         0 => ("points", String::new()),
         1 => {
-            let lengths = group
-                .edges
-                .iter()
-                .map(|&edge| edge_length(&mesh.positions, edge));
+            let edges = group.edges.iter();
+            let lengths = edges.map(|&edge| edge_length(&mesh.positions, edge));
             ("curve", format!("{:.6e} m", lengths.sum::<f64>()))
         }
         _ => {
@@ -112,9 +100,8 @@ fn edge_lengths(mesh: &Mesh) -> (f64, f64) {
             edges.insert([from.min(to), from.max(to)]);
         }
     }
-    let lengths = edges
-        .into_iter()
-        .map(|edge| edge_length(&mesh.positions, edge));
+    let edges = edges.into_iter();
+    let lengths = edges.map(|edge| edge_length(&mesh.positions, edge));
     lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), length| {
         (f64::min(shortest, length), f64::max(longest, length))
     })

@@ -6,6 +6,7 @@
 //! | [`check`] | what `ligament check` tells of a case |
 //! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
+//! | `lines` | lines of reports: names with what they are, aligned columns |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -15,5 +16,6 @@ pub mod check;
 pub mod commands;
 pub mod explain;
 pub mod inspect;
+mod lines;
 
 pub use commands::Cli;

@@ -2,21 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::cholesky::Cholesky;
 use crate::factor_error::FactorError;
 use crate::factorisation::Factorisation;
-use crate::ldlt::Ldlt;
-use crate::llt::Llt;
 use crate::matrix::SymmetricMatrix;
+use crate::panels::FactorKind;
 use crate::symbolic::Symbolic;
-
-/// The factorisations to choose from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FactorKind {
-    /// L L^T, for positive definite matrices.
-    Llt,
-    /// L D L^T without pivoting, for matrices that may be indefinite.
-    Ldlt,
-}
 
 impl FactorKind {
     /// Factorises a matrix whose pattern was analysed before.
@@ -25,10 +16,7 @@ impl FactorKind {
         symbolic: &Arc<Symbolic>,
         matrix: &SymmetricMatrix,
     ) -> Result<Box<dyn Factorisation>, FactorError> {
-        let mut factor: Box<dyn Factorisation> = match self {
-            Self::Llt => Box::new(Llt::new(symbolic.clone())?),
-            Self::Ldlt => Box::new(Ldlt::new(symbolic.clone())?),
-        };
+        let mut factor = Box::new(Cholesky::new(self, symbolic.clone())?);
         factor.refactorise(matrix)?;
         Ok(factor)
     }

@@ -6,6 +6,7 @@
 //! a factor [`largest_eigenpairs`] finds the lowest modes. Everything runs on one thread in a fixed order, so that the same
 //! matrix gives the same bits.
 
+mod cholesky;
 mod eigen;
 mod factor_error;
 mod factor_kind;
@@ -18,18 +19,17 @@ mod matrix;
 mod modification;
 mod panels;
 mod rank_one;
-mod storage;
 mod substitution;
 mod supernodes;
 mod symbolic;
 
 pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
 pub use factor_error::FactorError;
-pub use factor_kind::FactorKind;
 pub use factorisation::{Factorisation, HalfSolved, Inertia};
 pub use general::GeneralMatrix;
 pub use lu::Lu;
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};
 pub use modification::VANISHING_PIVOT;
+pub use panels::FactorKind;
 pub use rank_one::RankOne;
 pub use symbolic::{Elimination, Symbolic};

@@ -2,7 +2,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::panels::{Form, Panels};
+use crate::panels::{FactorKind, Panels};
 
 /// Columns of a panel that are read together: as many streams from memory.
 const BLOCK: usize = 8;
@@ -61,7 +61,7 @@ pub(crate) fn forward<S: Simd>(
     column: &mut Vec<f64>,
 ) {
     let Panels {
-        form,
+        kind,
         supernodes,
         values,
     } = panels;
@@ -77,7 +77,7 @@ pub(crate) fn forward<S: Simd>(
         let end = first + block.len() / height;
         for (k, l) in block.chunks_exact(height).enumerate() {
             let row = first + k;
-            if form == Form::Llt {
+            if kind == FactorKind::Llt {
                 column[row] /= l[row];
             }
             for r in row + 1..end {
@@ -113,7 +113,7 @@ fn backward<S: Simd>(
     column: &mut Vec<f64>,
 ) {
     let Panels {
-        form,
+        kind,
         supernodes,
         values,
     } = panels;
@@ -143,9 +143,9 @@ fn backward<S: Simd>(
             let row = first + k;
             let in_block: f64 = (row + 1..end).map(|r| l[r] * column[r]).sum();
             let known = sums[k] + in_block;
-            column[row] = match form {
-                Form::Llt => (column[row] - known) / l[row],
-                Form::Ldlt => column[row] / l[row] - known,
+            column[row] = match kind {
+                FactorKind::Llt => (column[row] - known) / l[row],
+                FactorKind::Ldlt => column[row] / l[row] - known,
             };
         }
     }

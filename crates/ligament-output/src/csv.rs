@@ -87,6 +87,11 @@ impl Table {
         Ok(table)
     }
 
+    /// Creates the file as [`Table::create`] does, with the columns of a header such as `step,load`.
+    pub fn with_header(path: impl Into<PathBuf>, header: &str) -> Result<Self, Error> {
+        Self::create(path, &header.split(',').collect::<Vec<_>>())
+    }
+
     /// Appends one row, one value per column of the header.
     pub fn append(&mut self, row: &[Value<'_>]) -> Result<(), Error> {
         let (found, expected) = (row.len(), self.n_columns);
@@ -146,33 +151,12 @@ fn push_text(line: &mut String, text: &str) {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
     use std::fs;
 
     fn printed(value: Value<'_>) -> String {
         let mut line = String::new();
         push_value(&mut line, value);
         line
-    }
-
-    proptest! {
-        #[test]
-        fn floats_read_back_to_the_same_bits(bits in any::<u64>()) {
-            let number = f64::from_bits(bits);
-            prop_assume!(!number.is_nan());
-            let read: f64 = printed(number.into()).parse().unwrap();
-            prop_assert_eq!(read.to_bits(), bits);
-        }
-
-        #[test]
-        fn texts_read_back_after_unquoting(text in any::<String>()) {
-            let printed = printed(text.as_str().into());
-            let read = match printed.strip_prefix('"') {
-                Some(rest) => rest.strip_suffix('"').unwrap().replace("\"\"", "\""),
-                None => printed,
-            };
-            prop_assert_eq!(read, text);
-        }
     }
 
     #[test]

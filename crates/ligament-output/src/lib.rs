@@ -5,6 +5,7 @@
 //! | [`vtu`] | the fields of one output on points and cells, for ParaView, VTK, PyVista and meshio |
 //! | [`pvd`] | the list of those outputs with their times, which ParaView opens as a series |
 //! | [`csv`] | tables of scalars over the steps |
+//! | [`columns`] | words in columns, for people |
 //! | [`folder`] | the folder that holds them, without destroying what was there |
 //! | [`results`] | all of these from a run, as its observer |
 //!
@@ -13,6 +14,7 @@
 //! slices.
 
 mod atomic;
+pub mod columns;
 pub mod csv;
 mod error;
 pub mod folder;

@@ -179,8 +179,3 @@ pub fn write_vtu(path: impl AsRef<Path>, grid: &UnstructuredGrid<'_>) -> Result<
     grid.check(path)?;
     replace_file(path, grid.to_xml().as_bytes())
 }
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-#[path = "vtu_tests.rs"]
-mod tests;

@@ -1,19 +1,18 @@
 //! What the XML formats share.
 
+/// Characters and what stands for them. The ampersand is escaped first and read back last: it stands in all others.
+const ESCAPED: [(&str, &str); 5] = [
+    ("&", "&amp;"),
+    ("<", "&lt;"),
+    (">", "&gt;"),
+    ("\"", "&quot;"),
+    ("'", "&apos;"),
+];
+
 /// The text as the value of an XML attribute in double quotes.
 pub(crate) fn escape_attribute(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&apos;"),
-            other => escaped.push(other),
-        }
-    }
-    escaped
+    let replace = |text: String, (plain, escaped): (&str, &str)| text.replace(plain, escaped);
+    ESCAPED.into_iter().fold(text.to_owned(), replace)
 }
 
 /// The value of an attribute in the text of a tag as this crate writes them, still escaped.
@@ -32,16 +31,8 @@ pub(crate) fn attribute<'a>(tag: &'a str, key: &str) -> Option<&'a str> {
 
 /// The text that [`escape_attribute`] escaped.
 pub(crate) fn unescape(text: &str) -> String {
-    let plain = [
-        ("&lt;", "<"),
-        ("&gt;", ">"),
-        ("&quot;", "\""),
-        ("&apos;", "'"),
-        // Last, or what it uncovers would be taken for another one.
-        ("&amp;", "&"),
-    ];
-    let replace = |text: String, (from, to): (&str, &str)| text.replace(from, to);
-    plain.into_iter().fold(text.to_owned(), replace)
+    let replace = |text: String, (plain, escaped): (&str, &str)| text.replace(escaped, plain);
+    ESCAPED.into_iter().rev().fold(text.to_owned(), replace)
 }
 
 #[cfg(test)]

@@ -52,8 +52,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         let trial = (template(case)?.trial())
             .on_lattice([cells, cells], 1e-3 * d)
             .set("fracture.stop.load_fraction", 0.8);
-        runs.result(trial.command(), || {
-            let failure = Failure::from_outcome(&trial.solve()?.outcome)?;
+        runs.reading(&trial, |it| {
+            let failure = Failure::from_outcome(&it.outcome)?;
             curves.push((format!("{case}, {d} mm"), failure.curve.clone()));
             Ok(failure)
         })
@@ -85,7 +85,10 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .map(|((label, curve), colour)| Series::curve(label, colour, curve))
             .collect(),
     );
-    Ok(Findings::new(vec![peaks, griffith], vec![plot]))
+    Ok(Findings {
+        tables: vec![peaks, griffith],
+        plots: vec![plot],
+    })
 }
 
 fn template(case: &str) -> anyhow::Result<&'static Template> {

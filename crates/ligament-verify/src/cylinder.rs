@@ -33,7 +33,10 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .set("material.poisson", nu);
         Ok(100.0 * difference(&trial.solve()?, nu))
     })?;
-    Ok(Findings::new(vec![table], Vec::new()))
+    Ok(Findings {
+        tables: vec![table],
+        plots: Vec::new(),
+    })
 }
 
 /// L2 norm over the points of the difference from Lame's u_r over that of u_r, where

@@ -48,7 +48,10 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     }
     let axes = ["horizon factor lambda", "peak load / (pi D t F_t/2)"];
     let plot = Plot::new("disk-peak", "Strength of the Brazilian disk", axes, series);
-    Ok(Findings::new(vec![table], vec![plot]))
+    Ok(Findings {
+        tables: vec![table],
+        plots: vec![plot],
+    })
 }
 
 fn relative_peak(labels: Labels<'_>) -> anyhow::Result<f64> {

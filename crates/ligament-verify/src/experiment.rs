@@ -45,10 +45,3 @@ pub struct Findings {
     /// Curves of them.
     pub plots: Vec<Plot>,
 }
-
-impl Findings {
-    /// Tables with curves of them.
-    pub(super) fn new(tables: Vec<Table>, plots: Vec<Plot>) -> Self {
-        Self { tables, plots }
-    }
-}

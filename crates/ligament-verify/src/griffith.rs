@@ -83,9 +83,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
     let mut separated = |labels: Labels<'_>| -> anyhow::Result<Separation> {
         let trial = with_labels(MODE_ONE.trial(), labels)?.on_mesh(mesh(labels)?);
-        memory.result(trial.command(), || {
-            Separation::from_solution(&trial.solve()?)
-        })
+        memory.reading(&trial, Separation::from_solution)
     };
     let work = published!("fracture-energy-released")
         .judge(extent, |labels| Ok(separated(labels)?.work))?;
@@ -95,7 +93,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         published!("mode-one").judge(extent, |labels| Ok(separated(labels)?.deviation))?;
     let plots = vec![plot(&strength)?];
     let tables = vec![strength, crossing, work, energy, deviation];
-    Ok(Findings::new(tables, plots))
+    Ok(Findings { tables, plots })
 }
 
 /// Curves of computed strengths, each with the labels of its entries.

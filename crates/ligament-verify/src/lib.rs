@@ -204,15 +204,4 @@ mod tests {
             "{error}"
         );
     }
-
-    #[test]
-    fn names_of_experiments_differ() {
-        let mut names: Vec<&str> = EXPERIMENTS
-            .iter()
-            .map(|experiment| experiment.name)
-            .collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), EXPERIMENTS.len());
-    }
 }

@@ -42,9 +42,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut across = |labels: Labels<'_>| -> anyhow::Result<f64> {
         let (case, nu) = (tension(labels)?, labels.number("nu")?);
         let trial = on_lattice(case.trial(), spacing(labels)?).set("material.poisson", nu);
-        let half = narrowing.result(trial.command(), || {
-            Ok(0.5 * probe(&trial.solve()?, "narrowing")?)
-        })?;
+        let half = narrowing.reading(&trial, |it| Ok(0.5 * probe(it, "narrowing")?))?;
         Ok(MICROMETRES * half)
     };
     let mut tables = vec![
@@ -58,8 +56,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut plate = |labels: Labels<'_>| -> anyhow::Result<Compared> {
         let trial = on_lattice(problem(labels)?, spacing(labels)?);
         let wanted = (labels.text("problem")?, labels.number("d")?);
-        states.result(trial.command(), || {
-            Compared::with_elements(&trial.solve()?, spacing(labels)?, &elements, wanted)
+        states.reading(&trial, |it| {
+            Compared::with_elements(it, spacing(labels)?, &elements, wanted)
         })
     };
     tables.push(published!("mbb-plates").judge(extent, |labels| {

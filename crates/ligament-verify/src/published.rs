@@ -71,42 +71,7 @@ pub(super) struct TableError {
     /// Line, from 1.
     pub(super) line: usize,
     /// What is wrong.
-    pub(super) fault: TableFault,
-}
-
-/// What is wrong with a table.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(super) enum TableFault {
-    /// A line of the heading is not there.
-    #[error("no line `# {key}: ...` stands above the columns")]
-    NoHeading {
-        /// Key of the missing line.
-        key: &'static str,
-    },
-    /// The columns are not those of a table of known values.
-    #[error("the columns should be labels, then {}", COLUMNS.join(","))]
-    Columns,
-    /// There is no entry.
-    #[error("the table has no entries")]
-    Empty,
-    /// A row has another number of cells than there are columns.
-    #[error("{found} cells, expected {expected}")]
-    Cells {
-        /// Columns.
-        expected: usize,
-        /// Cells.
-        found: usize,
-    },
-    /// A cell does not hold what its column takes.
-    #[error("`{found}` in column `{column}`, expected {expected}")]
-    Cell {
-        /// Column.
-        column: &'static str,
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: &'static str,
-    },
+    pub(super) fault: String,
 }
 
 /// The known values of a table in a file of this name.
@@ -124,29 +89,29 @@ pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> 
         .count();
     let below = text.splitn(n_notes + 1, '\n').last().unwrap_or_default();
     let mut rows = (n_notes..).zip(records(below));
-    let (line, columns) = rows.next().ok_or_else(|| at(0)(TableFault::Columns))?;
+    let (line, columns) = rows.next().ok_or_else(|| at(0)(unknown_columns()))?;
     let n_keys = columns.len().saturating_sub(COLUMNS.len());
     if columns[n_keys..] != COLUMNS || n_keys == 0 {
-        return Err(at(line)(TableFault::Columns));
+        return Err(at(line)(unknown_columns()));
     }
     let heading = heading(name, text, &columns[..n_keys]).map_err(at(line))?;
     let entries = rows
         .map(|(line, cells)| entry(&cells, n_keys).map_err(at(line)))
         .collect::<Result<Vec<_>, _>>()?;
     if entries.is_empty() {
-        return Err(at(line)(TableFault::Empty));
+        return Err(at(line)("the table has no entries".to_owned()));
     }
     Ok(Known { heading, entries })
 }
 
-fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, TableFault> {
+fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, String> {
     let notes = || text.lines().map_while(|line| line.strip_prefix('#'));
-    let told = |key: &'static str| {
+    let told = |key: &str| {
         notes()
             .filter_map(|note| note.split_once(':'))
             .find(|(word, _)| word.trim() == key)
             .map(|(_, told)| told.trim().to_owned())
-            .ok_or(TableFault::NoHeading { key })
+            .ok_or_else(|| format!("no line `# {key}: ...` stands above the columns"))
     };
     Ok(Heading {
         name: name.to_owned(),
@@ -159,12 +124,11 @@ fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, TableFaul
     })
 }
 
-fn entry(cells: &[String], n_keys: usize) -> Result<Entry, TableFault> {
+fn entry(cells: &[String], n_keys: usize) -> Result<Entry, String> {
     let expected = n_keys + COLUMNS.len();
     let (labels, rest) = cells.split_at_checked(n_keys).unwrap_or((cells, &[]));
     let [known, allowed, subset, standing, instead, reason] = rest else {
-        let found = cells.len();
-        return Err(TableFault::Cells { expected, found });
+        return Err(format!("{} cells, expected {expected}", cells.len()));
     };
     Ok(Entry {
         labels: labels.to_vec(),
@@ -179,7 +143,7 @@ fn entry(cells: &[String], n_keys: usize) -> Result<Entry, TableFault> {
     })
 }
 
-fn read_allowed(text: &str) -> Result<Allowed, TableFault> {
+fn read_allowed(text: &str) -> Result<Allowed, String> {
     let expected = "digits, a share such as 3 %, an amount, or any";
     let positive = |text: &str| text.trim().parse().ok().filter(|value: &f64| *value > 0.0);
     let read = match (text, text.strip_suffix('%')) {
@@ -191,7 +155,7 @@ fn read_allowed(text: &str) -> Result<Allowed, TableFault> {
     read.ok_or_else(|| fault("allowed", text, expected))
 }
 
-fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing, TableFault> {
+fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing, String> {
     if standing.is_empty() {
         let unused = [("instead", instead), ("reason", reason)];
         return match unused.iter().find(|(_, text)| !text.is_empty()) {
@@ -221,16 +185,16 @@ fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing
     }
 }
 
-fn number(column: &'static str, text: &str) -> Result<Printed, TableFault> {
+fn number(column: &str, text: &str) -> Result<Printed, String> {
     Printed::parse(text).ok_or_else(|| fault(column, text, "a number"))
 }
 
-fn fault(column: &'static str, found: &str, expected: &'static str) -> TableFault {
-    TableFault::Cell {
-        column,
-        found: found.to_owned(),
-        expected,
-    }
+fn fault(column: &str, found: &str, expected: &str) -> String {
+    format!("`{found}` in column `{column}`, expected {expected}")
+}
+
+fn unknown_columns() -> String {
+    format!("the columns should be labels, then {}", COLUMNS.join(","))
 }
 
 #[cfg(test)]
@@ -333,15 +297,13 @@ nu,law,known,allowed,subset,standing,instead,reason
         );
         let text = HEAD.replace("# known: printed\n", "");
         let error = known_values("t4", &text).unwrap_err();
-        assert_eq!(error.fault, TableFault::NoHeading { key: "known" });
+        let fault = "no line `# known: ...` stands above the columns";
+        assert_eq!(error.fault, fault);
         let text = HEAD.replace("nu,law,known", "nu,law,value");
         assert_eq!(
             known_values("t4", &text).unwrap_err().fault,
-            TableFault::Columns
+            unknown_columns()
         );
-        assert_eq!(
-            known_values("t4", "").unwrap_err().fault,
-            TableFault::Columns
-        );
+        assert_eq!(known_values("t4", "").unwrap_err().fault, unknown_columns());
     }
 }

@@ -40,7 +40,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         let trial = (case.trial())
             .set("material.poisson", labels.number("nu")?)
             .set("model.law", model.to_lowercase());
-        memory.result(trial.command(), || Reading::from_solution(&trial.solve()?))
+        memory.reading(&trial, Reading::from_solution)
     };
     let poisson = published!("mppd-table-1-poisson")
         .judge(extent, |labels| Ok(read(&TRACTION, labels, "PDS")?.poisson))?;

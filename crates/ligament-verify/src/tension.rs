@@ -47,17 +47,17 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let table = published!("omppd-tension").judge(extent, |labels| {
         let angle = labels.number("angle")?;
         let trial = CASE.trial().set("material.angle", angle.to_radians());
-        let edge = memory.result(trial.command(), || {
-            let edge = Edge::from_solution(&trial.solve()?, &elements, angle);
+        let edge = memory.reading(&trial, |it| {
+            let edge = Edge::from_solution(it, &elements, angle);
             edges.push(edge.clone());
             Ok(edge)
         })?;
         Ok(edge.difference(usize::from(labels.text("component")? == "u_y")))
     })?;
-    Ok(Findings::new(
-        vec![table],
-        vec![plot(&edges, 0), plot(&edges, 1)],
-    ))
+    Ok(Findings {
+        tables: vec![table],
+        plots: vec![plot(&edges, 0), plot(&edges, 1)],
+    })
 }
 
 impl Edge {

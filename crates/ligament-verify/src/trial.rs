@@ -215,6 +215,15 @@ impl<T: Clone> Memory<T> {
         self.0.insert(command, result.clone());
         Ok(result)
     }
+
+    /// What is read in the run of a trial, which is done if it was not yet.
+    pub(super) fn reading(
+        &mut self,
+        trial: &Trial,
+        read: impl FnOnce(&Solution) -> anyhow::Result<T>,
+    ) -> anyhow::Result<T> {
+        self.result(trial.command(), || read(&trial.solve()?))
+    }
 }
 
 impl<T> Default for Memory<T> {

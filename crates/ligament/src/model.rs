@@ -79,7 +79,6 @@ impl Model {
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
-
         let no_fail = loading::no_fail(&setup, &cloud)?;
         let fixed = FixedFields {
             horizon: horizons.radius,

@@ -3,9 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{Fault, KeyFault};
-use super::key_path::KeyPath;
-use super::sections::Case;
 use super::word::Word;
 use ligament::setup;
 use ligament_analysis::modal::{ModalSettings, Rotations};
@@ -64,66 +61,13 @@ impl Modal {
     }
 }
 
-impl Case {
-    /// Names the analysis: the one that the case says, or that its sections mean; all sections must go with it.
-    pub(super) fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
-        let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
-        let meant = match is_breaking {
-            true => Analysis::Fracture,
-            false => Analysis::Static,
-        };
-        let analysis = *self.analysis.get_or_insert(meant);
-        let modes = (
-            "modal",
-            is_modal,
-            "it says which modes are wanted, and only analysis = \"modal\" finds any",
-        );
-        let (word, unfit) = match analysis {
-            Analysis::Fracture if !is_breaking => {
-                let reason =
-                    "\"fracture\" needs a [fracture] section, which says how the loads rise";
-                return Err(KeyFault::new(KeyPath::default().child("analysis"), reason));
-            }
-            Analysis::Fracture => ("fracture", vec![modes]),
-            Analysis::Static => {
-                let reason = "no bond breaks in an elastic solution";
-                ("static", vec![("fracture", is_breaking, reason), modes])
-            }
-            Analysis::Modal => {
-                self.modal.get_or_insert_default();
-                let free = "modes are free vibrations without loads";
-                let sections = vec![
-                    ("fracture", is_breaking, "no bond breaks in a mode"),
-                    (
-                        "load",
-                        !self.loads.is_empty(),
-                        "modes are free vibrations without loads; supports hold",
-                    ),
-                    ("temperature", !self.temperatures.is_empty(), free),
-                    (
-                        "probe",
-                        !self.probes.is_empty(),
-                        "modes have no history to read",
-                    ),
-                    (
-                        "output",
-                        has_output,
-                        "every mode is written, to a file of its own",
-                    ),
-                ];
-                ("modal", sections)
-            }
-        };
-        match unfit.into_iter().find(|(_, is_given, _)| *is_given) {
-            None => Ok(()),
-            Some((key, _, reason)) => Err(KeyFault::new(
-                KeyPath::default().child(key),
-                Fault::NotWith {
-                    key,
-                    setting: format!("analysis = \"{word}\""),
-                    reason,
-                },
-            )),
+impl Analysis {
+    /// The word of the analysis.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Static => "static",
+            Self::Fracture => "fracture",
+            Self::Modal => "modal",
         }
     }
 }

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{first_given, require};
+use super::values::{refuse, require};
 use super::word::{Word, Worded};
 use ligament::setup::{self, Alpha, CorrectionDomain, Iteration, Law, Surface};
 use ligament_model::correction::StopRule;
@@ -47,17 +47,13 @@ impl Correction {
             ("tolerance", self.tolerance.is_some()),
             ("max_sweeps", self.max_sweeps.is_some()),
         ];
-        match first_given(given) {
-            None => Ok(()),
-            Some(name) => Err(KeyFault::new(
-                key.child(name),
-                Fault::NotWith {
-                    key: name,
-                    setting: format!("surface = \"{}\"", surface.0.word()[0]),
-                    reason: "only the domain correction is iterated",
-                },
-            )),
-        }
+        let setting = format!("surface = \"{}\"", surface.0.word()[0]);
+        refuse(
+            key,
+            given,
+            &setting,
+            "only the domain correction is iterated",
+        )
     }
 
     fn iteration(&mut self, key: &KeyPath) -> Result<Iteration, KeyFault> {

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use ligament::SetupError;
+
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
@@ -46,7 +48,10 @@ impl CaseFile {
         let case = check_ranges(document).and_then(|()| Case::read(document, folder));
         let case = case.map_err(|fault| source.error(fault))?;
         let file = Self { source, case };
-        let setup = file.case.stand_in().and_then(|body| file.case.setup(body));
+        let setup = file
+            .case
+            .stand_in()
+            .and_then(|body| file.case.setup_with(body));
         let setup = setup.map_err(|fault| file.source.error(fault))?;
         setup.check().map_err(|error| file.located(error))?;
         Ok(file)
@@ -61,6 +66,11 @@ impl CaseFile {
             Origin::File(offset) => Some(line_and_column(&self.source.text, offset)),
             Origin::Override(_) => None,
         }
+    }
+
+    /// The error of a faulty field of the setup at the key that it comes from.
+    pub fn located(&self, error: SetupError) -> CaseError {
+        self.case.located(&self.source, error)
     }
 
     /// The error for a fault found after loading, located at its key.

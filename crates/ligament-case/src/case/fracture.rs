@@ -13,9 +13,9 @@ use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::criterion::Criterion;
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{Numbers, first_given, missing, numbers, require};
+use super::values::{Numbers, missing, numbers, refuse, require};
 use super::word::Word;
 
 /// How bonds break while the load rises.
@@ -126,17 +126,12 @@ impl Fracture {
     pub(super) fn complete(&mut self, key: &KeyPath, law: &setup::Law) -> Result<(), KeyFault> {
         match self.control {
             Control::Stepped => {
-                let (default, count) = (stepped(), |number: usize| number as u32);
-                if self.steps.is_none() {
-                    return Err(missing(key, "steps"));
-                }
-                let most = default.rule.bonds_per_iteration;
-                self.bonds_per_iteration.get_or_insert(count(most));
-                self.order.get_or_insert(Word(default.rule.order));
-                self.max_iterations
-                    .get_or_insert(count(default.round_limit));
-                let parts = default.refine_first_break;
-                self.refine_first_break.get_or_insert(count(parts));
+                let settings = self.stepping(key)?;
+                let rule = settings.rule;
+                self.bonds_per_iteration = Some(rule.bonds_per_iteration as u32);
+                self.order = Some(Word(rule.order));
+                self.max_iterations = Some(settings.round_limit as u32);
+                self.refine_first_break = Some(settings.refine_first_break as u32);
             }
             Control::Event => self.refuse_stepping(key)?,
         }
@@ -160,43 +155,37 @@ impl Fracture {
             ("max_iterations", self.max_iterations.is_some()),
             ("refine_first_break", self.refine_first_break.is_some()),
         ];
-        match first_given(given) {
-            None => Ok(()),
-            Some(name) => Err(KeyFault::new(
-                key.child(name),
-                Fault::NotWith {
-                    key: name,
-                    setting: "control = \"event\"".to_owned(),
-                    reason: "the path goes from breakage to breakage without load steps",
-                },
-            )),
-        }
+        let reason = "the path goes from breakage to breakage without load steps";
+        refuse(key, given, "control = \"event\"", reason)
     }
 
-    pub(super) fn setup(&self) -> Analysis {
-        let (tie_tolerance, energy_tolerance) = (self.tie_tolerance, self.energy_tolerance);
-        let stop = self.stop.setup();
-        if self.control == Control::Event {
-            return Analysis::Event(EventSettings {
-                tie_tolerance,
-                energy_tolerance,
-                stop,
-            });
-        }
-        let (default, steps) = (stepped(), self.steps.as_ref());
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<Analysis, KeyFault> {
+        Ok(match self.control {
+            Control::Stepped => Analysis::Stepped(self.stepping(key)?),
+            Control::Event => Analysis::Event(EventSettings {
+                tie_tolerance: self.tie_tolerance,
+                energy_tolerance: self.energy_tolerance,
+                stop: self.stop.setup(),
+            }),
+        })
+    }
+
+    fn stepping(&self, key: &KeyPath) -> Result<SteppedSettings, KeyFault> {
+        let steps = self.steps.as_ref().ok_or_else(|| missing(key, "steps"))?;
+        let default = stepped();
         let count = |given: Option<u32>, default: usize| given.map_or(default, |it| it as usize);
         let bonds_per_iteration = count(self.bonds_per_iteration, default.rule.bonds_per_iteration);
-        Analysis::Stepped(SteppedSettings {
-            load_factors: steps.map(Steps::load_factors).unwrap_or_default(),
+        Ok(SteppedSettings {
+            load_factors: steps.load_factors(),
             refine_first_break: count(self.refine_first_break, default.refine_first_break),
             rule: BreakingRule {
                 order: self.order.map_or(default.rule.order, |it| it.0),
                 bonds_per_iteration,
-                tie_tolerance,
+                tie_tolerance: self.tie_tolerance,
             },
-            energy_tolerance,
+            energy_tolerance: self.energy_tolerance,
             round_limit: count(self.max_iterations, default.round_limit),
-            stop,
+            stop: self.stop.setup(),
         })
     }
 }

@@ -4,10 +4,11 @@ mod kind;
 
 use ligament_model::material::OutOfPlane;
 use ligament_model::{Anisotropic, Elasticity, Expansion, Isotropic, Orthotropic};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::IgnoredAny;
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Map;
 
 use super::decode::decode;
 use super::document::{Node, Value};
@@ -15,7 +16,6 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{missing, require_unique};
 use kind::Kind;
-pub(super) use kind::schema;
 use ligament::setup::MaterialRegion;
 
 /// A linear elastic material with its strengths.
@@ -252,7 +252,7 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
 fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let key = key_of(name.as_ref());
     let kind = Kind::of_table(table);
-    kind.refuse_others(table, &key)?;
+    kind.refuse_others(table, &key, keys(&schemars::schema_for!(Material)))?;
     let mut material: Material = decode(table, &key)?;
     if kind.has_angle() {
         material.angle.get_or_insert(0.0);
@@ -262,6 +262,17 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     }
     material.name = name;
     Ok(material)
+}
+
+/// The schema of the section.
+pub(super) fn schema(generator: &mut SchemaGenerator) -> Schema {
+    kind::schema(keys(&generator.subschema_for::<Material>()))
+}
+
+/// The keys of a table by its schema.
+fn keys(table: &Schema) -> Map<String, serde_json::Value> {
+    let found = table.get("properties").and_then(|it| it.as_object());
+    found.cloned().unwrap_or_default()
 }
 
 /// Leaves the section for [`read`], which knows its two forms.

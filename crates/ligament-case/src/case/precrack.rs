@@ -5,9 +5,10 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{Point, exactly_one, first_given, missing, not_exactly_one, require};
+use super::values::{Point, exactly_one, first_given, missing};
+use super::values::{not_exactly_one, refuse, require};
 use super::word::Word;
 use ligament_model::bonds::precrack::{Ends, PreCrack};
 
@@ -38,25 +39,21 @@ pub struct Precrack {
 
 impl Precrack {
     pub(super) fn setup(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
-        let straight = first_given([
+        let straight = [
             ("centre", self.centre.is_some()),
             ("length", self.length.is_some()),
             ("angle", self.angle.is_some()),
-        ]);
-        let points = match (&self.points, straight) {
-            (Some(points), None) => points.clone(),
-            (None, Some(_)) => self.ends_of_line(key)?.to_vec(),
-            (None, None) => {
+        ];
+        let points = match &self.points {
+            Some(points) => {
+                let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
+                refuse(key, straight, "`points`", reason)?;
+                points.clone()
+            }
+            None if first_given(straight).is_some() => self.ends_of_line(key)?.to_vec(),
+            None => {
                 let keys = [("points", false), ("centre", false)];
                 return Err(not_exactly_one(key, &keys));
-            }
-            (Some(_), Some(name)) => {
-                let fault = Fault::NotWith {
-                    key: name,
-                    setting: "`points`".to_owned(),
-                    reason: "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line",
-                };
-                return Err(KeyFault::new(key.child(name), fault));
             }
         };
         let ends = self.ends.0;

@@ -29,7 +29,7 @@ use super::probe::Probe;
 use super::region::Region;
 use super::solver::{self, Solver};
 use super::temperature::Temperature;
-use super::values::exactly_one;
+use super::values::{exactly_one, refuse};
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -123,6 +123,48 @@ impl Case {
         Ok(case)
     }
 
+    /// Names the analysis: the one that the case says, or that its sections mean; all sections must go with it.
+    fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
+        let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
+        let meant = match is_breaking {
+            true => Analysis::Fracture,
+            false => Analysis::Static,
+        };
+        let analysis = *self.analysis.get_or_insert(meant);
+        let refuse = |key, is_given, reason| {
+            let setting = format!("analysis = \"{}\"", analysis.word());
+            refuse(&root(), [(key, is_given)], &setting, reason)
+        };
+        if analysis != Analysis::Modal {
+            let reason = "it says which modes are wanted, and only analysis = \"modal\" finds any";
+            refuse("modal", is_modal, reason)?;
+        }
+        match analysis {
+            Analysis::Fracture if !is_breaking => {
+                let reason =
+                    "\"fracture\" needs a [fracture] section, which says how the loads rise";
+                Err(KeyFault::new(root().child("analysis"), reason))
+            }
+            Analysis::Fracture => Ok(()),
+            Analysis::Static => {
+                let reason = "no bond breaks in an elastic solution";
+                refuse("fracture", is_breaking, reason)
+            }
+            Analysis::Modal => {
+                self.modal.get_or_insert_default();
+                let (loads, free) = (&self.loads, "modes are free vibrations without loads");
+                refuse("fracture", is_breaking, "no bond breaks in a mode")?;
+                let held = "modes are free vibrations without loads; supports hold";
+                refuse("load", !loads.is_empty(), held)?;
+                refuse("temperature", !self.temperatures.is_empty(), free)?;
+                let reason = "modes have no history to read";
+                refuse("probe", !self.probes.is_empty(), reason)?;
+                let reason = "every mode is written, to a file of its own";
+                refuse("output", has_output, reason)
+            }
+        }
+    }
+
     fn require_one_body(&self) -> Result<(), KeyFault> {
         match (&self.mesh, &self.lattice) {
             (Some(_), None) | (None, Some(_)) => Ok(()),
@@ -148,7 +190,7 @@ impl Case {
     }
 
     /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
-    pub(crate) fn setup(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
+    pub(crate) fn setup_with(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
         let law = self.model.law.0;
         let of_mesh = self.mesh.as_ref().map(|it| it.thickness);
         let of_lattice = self.lattice.as_ref().map(|it| it.thickness);
@@ -179,7 +221,7 @@ impl Case {
             probes: each("probe", &self.probes, Probe::setup)?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
-                (None, Some(fracture)) => fracture.setup(),
+                (None, Some(fracture)) => fracture.setup(&root().child("fracture"))?,
                 (None, None) => setup::Analysis::default(),
             },
             solver: self.solver.setup(),

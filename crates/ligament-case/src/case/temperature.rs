@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
 use super::region::{Rectangle, Region};
-use super::values::{exactly_one, first_given, one_of};
+use super::values::{exactly_one, first_given, one_of, refuse};
 use ligament::setup::{self, Place, TemperatureChange};
 
 /// A change of temperature at load factor 1. Where several reach, the last of them holds.
@@ -49,17 +49,8 @@ impl Temperature {
             ("time_step", self.time_step.is_some()),
             ("reference", self.reference.is_some()),
         ];
-        match first_given(given) {
-            None => Ok(()),
-            Some(name) => {
-                let fault = Fault::NotWith {
-                    key: name,
-                    setting: "`change` or `file`".to_owned(),
-                    reason: "it belongs to a `mesh_field`",
-                };
-                Err(KeyFault::new(key.child(name), fault))
-            }
-        }
+        let reason = "it belongs to a `mesh_field`";
+        refuse(key, given, "`change` or `file`", reason)
     }
 
     /// The change; of a file without its rows, which are there once it is read.

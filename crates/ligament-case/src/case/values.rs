@@ -68,6 +68,25 @@ pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     KeyFault::new(table.clone(), fault)
 }
 
+/// Fails at the first of some keys that is given, because none of them goes with a setting.
+pub(super) fn refuse<const N: usize>(
+    table: &KeyPath,
+    keys: [(&'static str, bool); N],
+    setting: &str,
+    reason: &'static str,
+) -> Result<(), KeyFault> {
+    let Some(key) = first_given(keys) else {
+        return Ok(());
+    };
+    let setting = setting.to_owned();
+    let fault = Fault::NotWith {
+        key,
+        setting,
+        reason,
+    };
+    Err(KeyFault::new(table.child(key), fault))
+}
+
 /// The fault of a key that a table must have.
 pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
     let fault = Fault::MissingKey {

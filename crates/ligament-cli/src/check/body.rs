@@ -6,6 +6,8 @@ use ligament::body::{Body, Origin};
 use ligament_mesh::Mesh;
 use ligament_model::Lattice;
 
+use super::entry::entry;
+
 /// Writes what a body is made of, with the volume of its points.
 pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Result<()> {
     match body.origin() {
@@ -16,17 +18,16 @@ pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Re
 }
 
 fn write_mesh(out: &mut dyn Write, mesh: &Mesh, volume: f64) -> io::Result<()> {
-    let (nodes, cells) = (mesh.positions.len(), mesh.cells.len());
     writeln!(out, "mesh")?;
-    writeln!(out, "  nodes, cells          {nodes}, {cells}")?;
-    writeln!(out, "  area                  {:.6e} m^2", mesh.area())?;
-    writeln!(out, "  volume of the points  {volume:.6e} m^3")?;
+    let [nodes, cells] = [mesh.positions.len(), mesh.cells.len()];
+    entry(out, "nodes, cells", format!("{nodes}, {cells}"))?;
+    entry(out, "area", format!("{:.6e} m^2", mesh.area()))?;
+    entry(out, "volume of the points", format!("{volume:.6e} m^3"))?;
     for group in &mesh.groups {
-        let kind = ["points", "curve", "surface"]
-            .get(usize::from(group.dimension))
-            .unwrap_or(&"group");
-        let (name, nodes) = (&group.name, group.nodes.len());
-        writeln!(out, "  group {name:<15} {kind} of {nodes} nodes")?;
+        let kinds = ["points", "curve", "surface"];
+        let kind = kinds.get(usize::from(group.dimension)).unwrap_or(&"group");
+        let of_nodes = format!("{kind} of {} nodes", group.nodes.len());
+        entry(out, &format!("group {}", group.name), of_nodes)?;
     }
     Ok(())
 }
@@ -43,24 +44,19 @@ fn write_lattice(
     let [right, top] = [x + f64::from(nx) * dx, y + f64::from(ny) * dy];
     let area = left as f64 * dx * dy;
     writeln!(out, "lattice")?;
-    writeln!(
-        out,
-        "  cells                 {left} of {nx} x {ny} ({removed} removed)"
-    )?;
-    writeln!(out, "  spacing               {dx:.6e} x {dy:.6e} m")?;
-    writeln!(
-        out,
-        "  rectangle             x {x:.5e} to {right:.5e} m, y {y:.5e} to {top:.5e} m"
-    )?;
-    writeln!(out, "  area                  {area:.6e} m^2")?;
-    writeln!(out, "  volume of the points  {volume:.6e} m^3")?;
+    let cells = format!("{left} of {nx} x {ny} ({removed} removed)");
+    entry(out, "cells", cells)?;
+    entry(out, "spacing", format!("{dx:.6e} x {dy:.6e} m"))?;
+    let sides = format!("x {x:.5e} to {right:.5e} m, y {y:.5e} to {top:.5e} m");
+    entry(out, "rectangle", sides)?;
+    entry(out, "area", format!("{area:.6e} m^2"))?;
+    entry(out, "volume of the points", format!("{volume:.6e} m^3"))?;
     for name in body.group_names() {
-        let points = body.points_of(&name).unwrap_or_default().len();
-        write!(out, "  set {name:<17} {points} points")?;
-        match body.lengths_of(&name).first() {
-            Some((_, length)) => writeln!(out, ", {length:.4e} m of a side each")?,
-            None => writeln!(out)?,
+        let mut words = format!("{} points", body.points_of(&name).unwrap_or_default().len());
+        if let Some((_, length)) = body.lengths_of(&name).first() {
+            words += &format!(", {length:.4e} m of a side each");
         }
+        entry(out, &format!("set {name}"), words)?;
     }
     Ok(())
 }
@@ -76,5 +72,5 @@ pub(super) fn write_group(
         [only] => body.place(*only),
         points => format!("{} points", points.len()),
     };
-    writeln!(out, "  {name:<21} {where_at}")
+    entry(out, name, where_at)
 }

@@ -66,11 +66,13 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
     let setup = &model.setup;
     for material in setup.materials() {
         let energy = material.fracture_energy.unwrap_or_default();
+        write!(out, "{:<24}", "")?;
+        if !material.name.is_empty() {
+            write!(out, "{}: ", material.name)?;
+        }
         writeln!(
             out,
-            "{:<24}{}separating a body takes G_c = {energy:.4e} J/m^2 ({shear})",
-            "",
-            prefix(&material.name)
+            "separating a body takes G_c = {energy:.4e} J/m^2 ({shear})"
         )?;
     }
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
@@ -88,14 +90,6 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
         )?;
     }
     Ok(())
-}
-
-fn prefix(name: &str) -> String {
-    if name.is_empty() {
-        String::new()
-    } else {
-        format!("{name}: ")
-    }
 }
 
 /// Smallest, median (the lower of two) and largest of some numbers.

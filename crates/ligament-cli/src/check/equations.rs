@@ -3,23 +3,15 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use ligament_analysis::SetupError;
 use ligament_analysis::solver::{
     FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Update,
 };
 use ligament_analysis::stiffness::Stiffness;
 
+use super::entry::entry;
 use ligament::Setup;
 use ligament_run::memory;
 use ligament_run::model::Model;
-
-/// An ordering with what it costs.
-struct Analysis {
-    ordering: Ordering,
-    values: usize,
-    multiplications: f64,
-    seconds: f64,
-}
 
 /// Writes the size of the equations and the choice of the solver.
 pub(super) fn write(
@@ -32,30 +24,28 @@ pub(super) fn write(
     let factor = symbolic.n_factor_values();
     let bytes = memory::of_equations(&model.system, stiffness);
     writeln!(out, "equations")?;
-    writeln!(
+    entry(out, "unknowns", stiffness.unknowns().len())?;
+    let entries = format!("{matrix} in the matrix, {factor} in the factor");
+    entry(out, "entries", entries)?;
+    entry(
         out,
-        "  unknowns              {}",
-        stiffness.unknowns().len()
+        "estimated memory",
+        format!("{:.1} MB", bytes as f64 / 1e6),
     )?;
-    writeln!(
-        out,
-        "  entries               {matrix} in the matrix, {factor} in the factor"
-    )?;
-    writeln!(out, "  estimated memory      {:.1} MB", bytes as f64 / 1e6)?;
     write_choice(out, &model.setup, stiffness.choice())?;
-    let chosen = stiffness.choice().ordering;
-    writeln!(out, "  ordering              {}", ordering_reason(model))?;
+    entry(out, "ordering", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
-        write_ordering(out, &analyse(stiffness, ordering)?, ordering == chosen)?;
+        write_ordering(out, stiffness, ordering)?;
     }
     Ok(())
 }
 
 fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &SolverChoice) -> io::Result<()> {
     if choice.unsymmetric {
-        return writeln!(
+        return entry(
             out,
-            "  factorisation         L U: the printed forces are not those of an energy; entries and order are those of its energy form"
+            "factorisation",
+            "L U: the printed forces are not those of an energy; entries and order are those of its energy form",
         );
     }
     let is_named = setup.solver.factorisation.is_some();
@@ -72,35 +62,17 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &SolverChoice) -> io
         FactorKind::Llt => "L L^T",
         FactorKind::Ldlt => "L D L^T",
     };
-    writeln!(out, "  factorisation         {name}: {why}")?;
-    match (setup.analysis.is_fracture(), choice.update) {
-        (false, _) => writeln!(out, "  when bonds break      none breaks")?,
-        (true, Update::Refactor) => {
-            writeln!(out, "  when bonds break      the factor is made anew")?;
-        }
-        (true, Update::Incremental) => writeln!(
-            out,
-            "  when bonds break      the factor is changed in place, up to {} bonds at once (more cost less anew); made \
-             anew every {} bonds",
+    entry(out, "factorisation", format!("{name}: {why}"))?;
+    let when_broken = match (setup.analysis.is_fracture(), choice.update) {
+        (false, _) => "none breaks".to_owned(),
+        (true, Update::Refactor) => "the factor is made anew".to_owned(),
+        (true, Update::Incremental) => format!(
+            "the factor is changed in place, up to {} bonds at once (more cost less anew); made anew every {} bonds",
             choice.most_bonds_in_place, choice.rebuild_every
-        )?,
-    }
-    writeln!(
-        out,
-        "  threads               {}",
-        rayon::current_num_threads()
-    )
-}
-
-fn analyse(stiffness: &Stiffness, ordering: Ordering) -> Result<Analysis, SetupError> {
-    let start = Instant::now();
-    let symbolic = stiffness.analysed_with(ordering)?;
-    Ok(Analysis {
-        ordering,
-        values: symbolic.n_factor_values(),
-        multiplications: symbolic.n_multiplications(),
-        seconds: start.elapsed().as_secs_f64(),
-    })
+        ),
+    };
+    entry(out, "when bonds break", when_broken)?;
+    entry(out, "threads", rayon::current_num_threads())
 }
 
 fn ordering_reason(model: &Model) -> String {
@@ -115,20 +87,23 @@ fn ordering_reason(model: &Model) -> String {
     format!("{side} than {POINTS_FOR_DISSECTION} points")
 }
 
-fn write_ordering(out: &mut dyn Write, analysis: &Analysis, is_chosen: bool) -> io::Result<()> {
-    let name = match analysis.ordering {
-        Ordering::NestedDissection => "nested dissection",
-        Ordering::MinimumDegree => "minimum degree",
+fn write_ordering(
+    out: &mut dyn Write,
+    stiffness: &Stiffness,
+    ordering: Ordering,
+) -> anyhow::Result<()> {
+    let start = Instant::now();
+    let symbolic = stiffness.analysed_with(ordering)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let name = match ordering {
+        Ordering::NestedDissection => "  nested dissection",
+        Ordering::MinimumDegree => "  minimum degree",
     };
-    let Analysis {
-        values,
-        multiplications,
-        seconds,
-        ..
-    } = analysis;
-    writeln!(
-        out,
-        "    {name:<19} {values} values in the factor, {multiplications:.2e} multiplications, analysed in {seconds:.3} s{}",
-        if is_chosen { " (taken)" } else { "" }
-    )
+    let (values, multiplications) = (symbolic.n_factor_values(), symbolic.n_multiplications());
+    let is_chosen = ordering == stiffness.choice().ordering;
+    let taken = if is_chosen { " (taken)" } else { "" };
+    let costs = format!(
+        "{values} values in the factor, {multiplications:.2e} multiplications, analysed in {seconds:.3} s{taken}"
+    );
+    Ok(entry(out, name, costs)?)
 }

@@ -14,6 +14,7 @@ use ligament_run::stages::Stages;
 use ligament_run::summary::{Spread, temperature_change};
 
 use super::body::write_group;
+use super::entry::entry;
 use super::{Extent, equations, model};
 
 /// Checks supports, loads and equations.
@@ -52,30 +53,19 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
         write_group(out, body, &group.name, &group.points)?;
     }
     if let Some(Spread { min, mean, max }) = temperature_change(&loading.boundary) {
-        writeln!(
-            out,
-            "  temperature change    {min:.4e} to {max:.4e} K, mean {mean:.4e}"
-        )?;
+        let values = format!("{min:.4e} to {max:.4e} K, mean {mean:.4e}");
+        entry(out, "temperature change", values)?;
     }
     let control = &loading.boundary.control;
-    let (count, size, units) = (control.points.len(), control.magnitude, model.setup.units());
-    match control.kind {
-        ControlKind::Temperature => writeln!(
-            out,
-            "  controlled by         the temperature, size {size:.4e} {}",
-            units.displacement
-        )?,
-        ControlKind::Displacement => writeln!(
-            out,
-            "  controlled by         {count} points, size {size:.4e} {}",
-            units.displacement
-        )?,
-        ControlKind::Force => writeln!(
-            out,
-            "  controlled by         {count} points, size {size:.4e} {}",
-            units.force
-        )?,
-    }
+    let points = format!("{} points", control.points.len());
+    let units = model.setup.units();
+    let (what, unit) = match control.kind {
+        ControlKind::Temperature => ("the temperature", units.displacement),
+        ControlKind::Displacement => (points.as_str(), units.displacement),
+        ControlKind::Force => (points.as_str(), units.force),
+    };
+    let words = format!("{what}, size {:.4e} {unit}", control.magnitude);
+    entry(out, "controlled by", words)?;
     for probe in loading.probes.iter() {
         let reads = match &probe.reading {
             Reading::RelativeDisplacement { points, .. } => {
@@ -84,7 +74,7 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
             Reading::Field { point, .. } => body.place(*point),
             Reading::SectionForce { bonds, .. } => format!("{} bonds", bonds.len()),
         };
-        writeln!(out, "  probe {:<15} {reads}", probe.name)?;
+        entry(out, &format!("probe {}", probe.name), reads)?;
     }
     Ok(())
 }
@@ -99,5 +89,5 @@ fn write_loading(out: &mut dyn Write, analysis: &Analysis) -> io::Result<()> {
             "one elastic solution at load factor 1".to_owned()
         }
     };
-    writeln!(out, "  followed in           {loading}")
+    entry(out, "followed in", loading)
 }

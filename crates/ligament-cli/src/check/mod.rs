@@ -2,6 +2,7 @@
 
 mod body;
 mod criteria;
+mod entry;
 mod equations;
 mod extent;
 mod loading;
@@ -21,6 +22,7 @@ use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::{Stage, Stages};
 
+use entry::entry;
 pub use extent::Extent;
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
@@ -49,9 +51,8 @@ fn check_here(
         _ => loading::check(case, extent, &model, &mut stages, out)?,
     }
     write_stages(out, stages.done())?;
-    let loose = Fragments::find(&*model.system, &vec![true; model.system.bonds.len()])
-        .points
-        .len();
+    let intact = vec![true; model.system.bonds.len()];
+    let loose = Fragments::find(&*model.system, &intact).points.len();
     if loose > 1 {
         writeln!(
             out,
@@ -64,14 +65,8 @@ fn check_here(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join("points.vtu");
-        let cloud = &model.system.cloud;
-        point_grid(
-            &path,
-            &model.body().grid(),
-            &cloud.volumes,
-            &cloud.spacing,
-            &model.fixed,
-        )?;
+        let (grid, cloud) = (model.body().grid(), &model.system.cloud);
+        point_grid(&path, &grid, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())
@@ -80,12 +75,13 @@ fn check_here(
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
     writeln!(out, "time and memory")?;
     for stage in stages {
-        writeln!(out, "  time, {:<15} {:.3} s", stage.name, stage.seconds)?;
+        let name = format!("time, {}", stage.name);
+        entry(out, &name, format!("{:.3} s", stage.seconds))?;
     }
     let total: f64 = stages.iter().map(|stage| stage.seconds).sum();
-    writeln!(out, "  time, all             {total:.3} s")?;
+    entry(out, "time, all", format!("{total:.3} s"))?;
     if let Some(bytes) = stages.last().and_then(|stage| stage.peak_bytes) {
-        writeln!(out, "  peak memory           {:.1} MB", bytes as f64 / 1e6)?;
+        entry(out, "peak memory", format!("{:.1} MB", bytes as f64 / 1e6))?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
+use super::entry::entry;
 use super::{Extent, equations, model};
 use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
@@ -36,7 +37,7 @@ pub(super) fn check(
         writeln!(out, "  none: the body is free")?;
     }
     writeln!(out, "modes")?;
-    writeln!(out, "  wanted                {}", settings.modes)?;
+    entry(out, "wanted", settings.modes)?;
     if let Some(analysis) = &analysis {
         let why = match settings.rotations {
             Some(_) => "as the case says",
@@ -49,7 +50,7 @@ pub(super) fn check(
             Rotations::Inertia => "with inertia",
             Rotations::Massless => "without inertia",
         };
-        writeln!(out, "  rotations             {what}, {why}")?;
+        entry(out, "rotations", format!("{what}, {why}"))?;
         equations::write(out, model, analysis.stiffness())?;
     }
     Ok(())

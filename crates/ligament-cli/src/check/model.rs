@@ -7,6 +7,7 @@ use ligament_model::Elasticity;
 use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
 
+use super::entry::{entry, spread};
 use super::{body, criteria};
 
 /// Writes what is known before supports and loads.
@@ -76,49 +77,23 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 }
 
 fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let spread = |out: &mut dyn Write, name: &str, values: Spread, unit: &str| {
-        writeln!(
-            out,
-            "  {name:<21} {:.4e} to {:.4e}{unit}, mean {:.4e}",
-            values.min, values.max, values.mean
-        )
-    };
+    let (system, fixed) = (&model.system, &model.fixed);
+    let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
-    writeln!(
-        out,
-        "  bonds                 {} ({} cut by pre-cracks)",
-        model.system.bonds.len(),
-        model.cut_bonds
-    )?;
+    let (bonds, cut) = (system.bonds.len(), model.cut_bonds);
+    entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
     if !model.body().holes().is_empty() {
-        writeln!(out, "  pairs across holes    {}", model.across_holes)?;
+        entry(out, "pairs across holes", model.across_holes)?;
     }
-    writeln!(out, "  points with no_fail   {}", model.no_fail_points)?;
-    spread(
-        out,
-        "nearest distance",
-        Spread::over(model.system.cloud.spacing.iter().copied()),
-        " m",
-    )?;
-    spread(
-        out,
-        "horizon",
-        Spread::over(model.fixed.horizon.iter().copied()),
-        " m",
-    )?;
+    entry(out, "points with no_fail", model.no_fail_points)?;
+    spread(out, "nearest distance", over(&system.cloud.spacing), " m")?;
+    spread(out, "horizon", over(&fixed.horizon), " m")?;
     spread(out, "bonds of a point", family(model), "")?;
-    writeln!(out, "  {}", formulation_line(model.setup.law))?;
-    writeln!(
-        out,
-        "  {}",
-        correction_line(&model.setup.correction, model.correction.as_ref())
-    )?;
-    spread(
-        out,
-        "correction factor",
-        Spread::over(model.fixed.domain_factor.iter().copied()),
-        "",
-    )
+    let formulation = formulation_line(model.setup.law);
+    writeln!(out, "  {formulation}")?;
+    let correction = correction_line(&model.setup.correction, model.correction.as_ref());
+    writeln!(out, "  {correction}")?;
+    spread(out, "correction factor", over(&fixed.domain_factor), "")
 }
 
 fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
@@ -126,7 +101,7 @@ fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
     for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
         let Spread { min, mean, max } = Spread::over(ratios.iter().copied());
-        writeln!(out, "  {mode:<21} {min:.6} to {max:.6}, mean {mean:.6}")?;
+        entry(out, mode, format!("{min:.6} to {max:.6}, mean {mean:.6}"))?;
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::numbers::{number, positive};
 use ligament_case::case::{CaseFile, MOST_THREADS};
 use ligament_study::calibrate::{Request, calibrate, line};
 
@@ -102,9 +103,9 @@ pub struct LineArgs {
 }
 
 impl RunsArgs {
-    /// One of these options that is given.
+    /// The first of these options that is given.
     fn given(&self) -> Option<&'static str> {
-        first_given([
+        let options = [
             ("--set", !self.overrides.is_empty()),
             ("--within", self.within.is_some()),
             ("--from", self.from.is_some()),
@@ -113,49 +114,44 @@ impl RunsArgs {
             ("--threads", self.threads.is_some()),
             ("--out", self.out.is_some()),
             ("--force", self.force),
-        ])
+        ];
+        options
+            .into_iter()
+            .find_map(|(name, is_given)| is_given.then_some(name))
     }
 }
 
 impl LineArgs {
-    /// One of these options that is given.
+    /// The first of these options that is given.
     fn given(&self) -> Option<&'static str> {
-        first_given([
+        let options = [
             ("--x", self.x.is_some()),
             ("--by", !self.by.is_empty()),
             ("--over", self.over.is_some()),
             ("--at", !self.at.is_empty()),
-        ])
+        ];
+        options
+            .into_iter()
+            .find_map(|(name, is_given)| is_given.then_some(name))
     }
-}
-
-fn first_given<const N: usize>(options: [(&'static str, bool); N]) -> Option<&'static str> {
-    options
-        .into_iter()
-        .find_map(|(name, given)| given.then_some(name))
 }
 
 impl CalibrateArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
-        let is_table = line::is_table(&self.subject);
-        let stray = if is_table {
-            self.runs.given()
-        } else {
-            self.line.given()
-        };
-        if let Some(option) = stray {
-            let takes = if is_table {
-                "a case to run; this is a sweep or its table, of which a line is made"
-            } else {
-                "the folder or the table of a sweep; this is a case, which is run"
+        if line::is_table(&self.subject) {
+            return match self.runs.given() {
+                Some(option) => anyhow::bail!(
+                    "{option} goes with a case to run; this is a sweep or its table, of which a line is made"
+                ),
+                None => self.by_line(),
             };
-            anyhow::bail!("{option} goes with {takes}");
         }
-        if is_table {
-            self.by_line()
-        } else {
-            self.by_runs()
+        match self.line.given() {
+            Some(option) => anyhow::bail!(
+                "{option} goes with the folder or the table of a sweep; this is a case, which is run"
+            ),
+            None => self.by_runs(),
         }
     }
 
@@ -183,10 +179,7 @@ impl CalibrateArgs {
     fn by_line(self) -> anyhow::Result<()> {
         let request = line::Request {
             table: self.subject,
-            x: self
-                .line
-                .x
-                .unwrap_or_else(|| "model.horizon_factor".to_owned()),
+            x: (self.line.x).unwrap_or_else(|| "model.horizon_factor".to_owned()),
             of: self.of,
             by: self.line.by,
             over: self.line.over.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
@@ -201,8 +194,7 @@ impl CalibrateArgs {
 
 /// A share on the command line, more than 0.
 fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse::<f64>().ok();
-    let share = share.filter(|share| share.is_finite() && *share > 0.0);
+    let share = positive(text);
     share.ok_or_else(|| "expected a share greater than 0, such as 0.01 for 1 %".to_owned())
 }
 
@@ -210,7 +202,7 @@ fn share(text: &str) -> Result<f64, String> {
 fn range(text: &str) -> Result<[f64; 2], String> {
     let end = |text: &str, open: f64| match text.trim() {
         "" => Some(open),
-        text => text.parse::<f64>().ok().filter(|it| it.is_finite()),
+        text => number(text),
     };
     let ends = text
         .split_once(',')

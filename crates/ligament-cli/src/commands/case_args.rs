@@ -1,4 +1,4 @@
-//! What several commands take: a case with changes to it, and a position.
+//! What several commands take: a case with changes to it.
 
 use std::path::PathBuf;
 
@@ -26,31 +26,5 @@ impl CaseArgs {
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
         Ok(case)
-    }
-}
-
-/// A position on the command line, m.
-pub(super) fn position(text: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
-    let numbers = text
-        .split_once(',')
-        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
-    numbers.ok_or_else(|| "expected X,Y in m, such as 0.01,-0.02".to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn positions_are_two_numbers() {
-        assert_eq!(position("-0.01, 2e-3"), Ok([-0.01, 2e-3]));
-        assert_eq!(position("1e-2, -0.5"), Ok([0.01, -0.5]));
-        for wrong in ["0.1", "0.01,", "1,2,3", "0.1,nan"] {
-            assert!(
-                position(wrong).is_err_and(|error| error.contains("X,Y")),
-                "{wrong}"
-            );
-        }
     }
 }

@@ -33,10 +33,9 @@ impl CheckArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let case = self.case.load()?;
-        let extent = if self.model_only {
-            Extent::Model
-        } else {
-            Extent::Matrix
+        let extent = match self.model_only {
+            true => Extent::Model,
+            false => Extent::Matrix,
         };
         check(&case, extent, self.out.as_deref(), &mut io::stdout())
     }

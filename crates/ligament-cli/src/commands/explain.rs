@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::case_args::position;
+use super::numbers::position;
 use crate::explain::{Request, Subject, explain};
 
 pub(super) const EXAMPLES: &str = "\

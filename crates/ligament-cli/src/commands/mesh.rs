@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::numbers::number;
 use crate::inspect::write_summary;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 use ligament_study::meshing::via_meshio::{ConversionRequest, convert, default_out};
@@ -101,12 +102,7 @@ fn number_setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text
         .split_once('=')
         .ok_or("expected NAME=VALUE, such as h=0.001")?;
-    let number = value
-        .trim()
-        .parse::<f64>()
-        .ok()
-        .filter(|number| number.is_finite());
-    let number = number.ok_or_else(|| format!("`{value}` is not a number"))?;
+    let number = number(value).ok_or_else(|| format!("`{value}` is not a number"))?;
     match name.trim() {
         "" => Err("there is no name before `=`".to_owned()),
         name => Ok((name.to_owned(), number)),

@@ -8,6 +8,7 @@ mod explain;
 mod inspect;
 mod mesh;
 mod new;
+mod numbers;
 mod plot;
 mod run;
 mod schema;
@@ -30,7 +31,7 @@ pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use sweep::SweepArgs;
 pub use verify::VerifyArgs;
-pub use yielding::{YieldArgs, YieldCalibration};
+pub use yielding::YieldArgs;
 
 /// Peridynamics for the plane: mesh in, cracks out.
 ///

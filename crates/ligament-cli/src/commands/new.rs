@@ -8,6 +8,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament_output::replace_file;
 
+use super::numbers::positive;
 use ligament::setup::Law;
 use ligament_case::case::MOST_CELLS;
 use ligament_case::starter::{of_lattice, of_mesh};
@@ -95,10 +96,7 @@ fn lattice(text: &str) -> Result<([u32; 2], f64), String> {
     if u64::from(columns) * u64::from(rows) > MOST_CELLS {
         return Err(format!("a lattice has at most {MOST_CELLS} cells"));
     }
-    let spacing = spacing
-        .parse::<f64>()
-        .ok()
-        .filter(|it| it.is_normal() && *it > 0.0);
+    let spacing = positive(spacing).filter(|it| it.is_normal());
     let spacing = spacing.ok_or(format!("{expected}, with a spacing greater than 0"))?;
     Ok(([columns, rows], spacing))
 }

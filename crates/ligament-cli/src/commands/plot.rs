@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use super::numbers;
 use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
@@ -112,15 +113,11 @@ impl PlotArgs {
                 target,
             })?
         } else {
-            let choice = match (
-                self.strip,
-                self.step.is_empty(),
-                self.displacements.is_empty(),
-            ) {
-                (Some(count), ..) => Choice::Strip(count as usize),
-                (None, false, _) => Choice::Steps(self.step),
-                (None, true, false) => Choice::Displacements(self.displacements),
-                (None, true, true) => Choice::Default,
+            let choice = match self.strip {
+                Some(count) => Choice::Strip(count as usize),
+                None if !self.step.is_empty() => Choice::Steps(self.step),
+                None if !self.displacements.is_empty() => Choice::Displacements(self.displacements),
+                None => Choice::Default,
             };
             draw_fields(&FieldRequest {
                 folders: self.results,
@@ -142,45 +139,33 @@ impl PlotArgs {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse::<f64>().ok().filter(|it| it.is_finite());
-    number.ok_or_else(|| format!("`{text}` is not a number"))
+    numbers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
 }
 
 fn positive(text: &str) -> Result<f64, String> {
     let number = number(text)?;
-    let is_positive = number > 0.0;
-    is_positive
-        .then_some(number)
-        .ok_or_else(|| "it must be above zero".to_owned())
+    let positive = (number > 0.0).then_some(number);
+    positive.ok_or_else(|| "it must be above zero".to_owned())
 }
 
 fn magnification(text: &str) -> Result<Magnification, String> {
+    let factor = numbers::number(text).map(Magnification::Times);
     match text {
         "auto" => Ok(Magnification::Auto),
-        text => match number(text) {
-            Ok(factor) => Ok(Magnification::Times(factor)),
-            Err(_) => Err("expected a number, or auto".to_owned()),
-        },
+        _ => factor.ok_or_else(|| "expected a number, or auto".to_owned()),
     }
 }
 
-fn numbers<const COUNT: usize>(text: &str) -> Option<[f64; COUNT]> {
-    let numbers: Result<Vec<f64>, String> = text.split(',').map(number).collect();
-    numbers.ok()?.try_into().ok()
-}
-
 fn range(text: &str) -> Result<[f64; 2], String> {
-    let range = numbers::<2>(text).filter(|[low, high]| low < high);
+    let range = numbers::numbers(text).filter(|[low, high]| low < high);
     range.ok_or_else(|| "expected MIN,MAX with MIN below MAX, such as 0,0.5".to_owned())
 }
 
 fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
-    let window = numbers::<4>(text).filter(|[x0, y0, x1, y1]| x0 < x1 && y0 < y1);
-    window
-        .map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]])
-        .ok_or_else(|| {
-            "expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()
-        })
+    match numbers::numbers(text) {
+        Some([x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok([[x0, y0], [x1, y1]]),
+        _ => Err("expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()),
+    }
 }
 
 /// Colour maps by their names.
@@ -188,9 +173,8 @@ fn maps() -> impl TypedValueParser<Value = ColourMap> {
     let possible = ColourMap::ALL.map(ColourMap::words);
     let possible = possible.map(|[name, help]| PossibleValue::new(name).help(help));
     PossibleValuesParser::new(possible).try_map(|name| {
-        let map = ColourMap::ALL
-            .into_iter()
-            .find(|map| map.words()[0] == name);
+        let mut all = ColourMap::ALL.into_iter();
+        let map = all.find(|map| map.words()[0] == name);
         map.ok_or("no such map")
     })
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::numbers::positive;
 use ligament_run::progress::ProgressMode;
 use ligament_study::sweep::folder::Shard;
 use ligament_study::sweep::{Request, Settings, Task, sweep};
@@ -100,9 +101,7 @@ impl SweepArgs {
 }
 
 fn gigabytes(text: &str) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok();
-    let positive = number.filter(|number| number.is_finite() && *number > 0.0);
-    positive.ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
+    positive(text).ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
 }
 
 fn shard(text: &str) -> Result<Shard, String> {
@@ -123,13 +122,8 @@ mod tests {
 
     #[test]
     fn shards_count_from_one() {
-        assert_eq!(
-            shard("3/16"),
-            Ok(Shard {
-                number: 3,
-                count: 16
-            })
-        );
+        let (number, count) = (3, 16);
+        assert_eq!(shard("3/16"), Ok(Shard { number, count }));
         for wrong in ["0/4", "5/4", "1/0", "3", "a/b", "1/2/3"] {
             assert!(shard(wrong).is_err(), "{wrong}");
         }

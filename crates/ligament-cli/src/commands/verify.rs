@@ -44,13 +44,13 @@ impl VerifyArgs {
         if self.list {
             return Ok(console::list(&mut stdout, &EXPERIMENTS)?);
         }
+        let extent = match self.fast {
+            true => Extent::Fast,
+            false => Extent::Full,
+        };
         let request = Request {
             names: self.names,
-            extent: if self.fast {
-                Extent::Fast
-            } else {
-                Extent::Full
-            },
+            extent,
             out: self.out,
             force: self.force,
         };

@@ -3,10 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use ligament_model::failure::frictional::Calibration;
 
-use super::case_args::{CaseArgs, position};
+use super::case_args::CaseArgs;
+use super::numbers::position;
 use ligament_case::case::MOST_THREADS;
 use ligament_study::yielding::criteria::Combination;
 use ligament_study::yielding::{Families, Place, Request, yielding};
@@ -57,8 +59,8 @@ pub struct YieldArgs {
     )]
     pub ratio: f64,
     /// How the friction of `frictional` comes from the strengths
-    #[arg(long, value_enum, default_value_t = YieldCalibration::Printed)]
-    pub calibration: YieldCalibration,
+    #[arg(long, default_value = "printed", value_parser = calibrations())]
+    pub calibration: Calibration,
     /// Threads to compute with [default: solver.threads of the case, or one per processor]
     #[arg(long, value_name = "N", requires = "case", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
@@ -70,13 +72,16 @@ pub struct YieldArgs {
     pub force: bool,
 }
 
-/// How the friction of bonds comes from two strengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum YieldCalibration {
-    /// As printed: exact for a bar at nu = 0 alone
-    Printed,
-    /// Exact for a bar in tension and compression
-    TwoPoint,
+fn calibrations() -> impl TypedValueParser<Value = Calibration> {
+    let possible = [
+        ("printed", "As printed: exact for a bar at nu = 0 alone"),
+        ("two-point", "Exact for a bar in tension and compression"),
+    ];
+    let possible = possible.map(|(name, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(possible).map(|name| match name.as_str() {
+        "printed" => Calibration::Printed,
+        _ => Calibration::TwoPoint,
+    })
 }
 
 impl YieldArgs {
@@ -85,14 +90,12 @@ impl YieldArgs {
         let (of, default_out) = match self.case {
             None => (Families::Lattices(self.m), PathBuf::from("results/yield")),
             Some(file) => {
-                let case = Box::new(
-                    CaseArgs {
-                        file,
-                        overrides: self.overrides,
-                        threads: self.threads,
-                    }
-                    .load()?,
-                );
+                let case = CaseArgs {
+                    file,
+                    overrides: self.overrides,
+                    threads: self.threads,
+                };
+                let case = Box::new(case.load()?);
                 let out = Path::new("results").join(format!("{}-yield", case.name()));
                 let place = self.at.map(Place::At).or(self.point.map(Place::Tag));
                 let of = match place {
@@ -107,10 +110,7 @@ impl YieldArgs {
             combinations: self.criteria,
             poisson: self.nu,
             ratio: self.ratio,
-            calibration: match self.calibration {
-                YieldCalibration::Printed => Calibration::Printed,
-                YieldCalibration::TwoPoint => Calibration::TwoPoint,
-            },
+            calibration: self.calibration,
             out: self.out.unwrap_or(default_out),
             force: self.force,
         };

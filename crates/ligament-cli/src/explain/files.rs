@@ -54,9 +54,8 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
                 let measure = limit.measure(deformation);
                 row.extend([limit.limit, measure, utilisation].map(Value::from));
                 if !limit.after.is_brittle() {
-                    let softened = life.softened(criterion, &lives.moments, place);
-                    let left = |value: f64| Value::from(if is_intact { value } else { 0.0 });
-                    row.extend([left(softened.force), left(softened.secant)]);
+                    let left = life.left(criterion, &lives.moments, place);
+                    row.extend([left.force, left.secant].map(Value::from));
                 }
             }
             table.append(&row)?;

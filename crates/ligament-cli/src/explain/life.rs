@@ -1,16 +1,16 @@
 //! What bonds went through.
 
+use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
 use ligament_model::element::pair::{Pair, PairKinematics};
 use ligament_model::element::spring::SpringBond;
-use ligament_model::element::{BondDeformation, Element};
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_output::Error;
 use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
-use super::strains::Strains;
+use super::strains::{Strains, without_heat};
 use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
 
@@ -203,11 +203,7 @@ impl Life {
             [x, y, motions.rotation[end as usize]]
         });
         let whole = pair.bond.deformation(&a, &b);
-        if motions.thermal_strain.is_empty() {
-            return whole;
-        }
-        let [a, b] = self.ends.map(|end| motions.thermal_strain[end as usize]);
-        whole.less(&pair.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
+        without_heat(whole, &pair, self.ends, motions)
     }
 
     /// What follows from all moments.
@@ -268,6 +264,19 @@ impl Life {
             }
         }
         nearest
+    }
+
+    /// The rest of the bond by a criterion in a moment: nothing once it is broken.
+    pub(super) fn left(&self, criterion: usize, moments: &[StoredStep], moment: usize) -> Softened {
+        let softened = self.softened(criterion, moments, moment);
+        if moment < self.n_intact {
+            return softened;
+        }
+        Softened {
+            force: 0.0,
+            secant: 0.0,
+            ..softened
+        }
     }
 
     /// State of the bond by a criterion in a moment, from the largest utilisation that is known up to it.

@@ -7,7 +7,6 @@ mod files;
 mod life;
 mod report;
 mod strains;
-mod table;
 mod words;
 
 use std::io::Write;
@@ -84,17 +83,14 @@ fn nearest_words(nearest: &[i64]) -> String {
 pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
-    let (text, lives) = match request.subject {
-        Subject::Point(tag) => {
-            let point = point_of(&run, tag)?;
-            let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
-            (report::family(&run, point, None, &lives), lives)
-        }
-        Subject::At(position) => {
-            let point = nearest_point(&run, position);
-            let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
-            (report::family(&run, point, Some(position), &lives), lives)
-        }
+    let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 2]>| {
+        let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
+        report::family(out, &run, point, sought, &lives)?;
+        anyhow::Ok(lives)
+    };
+    let lives = match request.subject {
+        Subject::Point(tag) => family(out, point_of(&run, tag)?, None)?,
+        Subject::At(position) => family(out, nearest_point(&run, position), Some(position))?,
         Subject::Bond(tags) => {
             let [a, b] = [point_of(&run, tags[0])?, point_of(&run, tags[1])?];
             if a == b {
@@ -104,11 +100,10 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             let ends = [a.min(b), a.max(b)];
             let pair = pair_of(&run, ends);
             let lives = Lives::read(&run, pair.into_iter().collect(), loading)?;
-            (report::bond(&run, ends, &lives), lives)
+            report::bond(out, &run, ends, &lives)?;
+            lives
         }
     };
-    let title = format!("{} in {}", text.title, request.folder.display());
-    writeln!(out, "{title}\n{}", text.body)?;
     if let Some(path) = &request.csv {
         files::write_csv(path, &run, &lives)?;
         writeln!(out, "\ntable in {}", path.display())?;
@@ -122,20 +117,16 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
 
 /// The point with a tag.
 fn point_of(run: &StoredRun, tag: i64) -> Result<u32, ExplainError> {
-    let tags = &run.model.tags;
-    if let Some(point) = tags.iter().position(|it| *it == tag) {
+    let tags = || run.model.tags.iter().copied();
+    if let Some(point) = tags().position(|it| it == tag) {
         return Ok(point as u32);
     }
-    let below = tags.iter().copied().filter(|it| *it < tag).max();
-    let above = tags.iter().copied().filter(|it| *it > tag).min();
-    let bound = |bound: Option<i64>| bound.unwrap_or_default();
+    let below = tags().filter(|it| *it < tag).max();
+    let above = tags().filter(|it| *it > tag).min();
     Err(ExplainError::UnknownTag {
         tagged: run.model.tagged,
         tag,
-        range: [
-            bound(tags.iter().copied().min()),
-            bound(tags.iter().copied().max()),
-        ],
+        range: [tags().min(), tags().max()].map(Option::unwrap_or_default),
         nearest: below.into_iter().chain(above).collect(),
     })
 }

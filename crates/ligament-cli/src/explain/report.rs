@@ -1,105 +1,93 @@
-//! The text of an explanation.
+//! An explanation as text.
 
+use std::fmt::Display;
+use std::io::{self, Write};
 use std::ops::Add;
 
 use ligament_model::Absence;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
 use super::life::{Life, Lives};
-use super::table::Columns;
 use super::words::{self, label, number, place};
+use crate::lines::{self, Columns};
 use ligament::units::Units;
 
-/// An explanation.
-pub(super) struct Text {
-    /// Title: the bond or point that is explained.
-    pub(super) title: String,
-    /// All lines below the title.
-    pub(super) body: String,
-}
-
-/// The life of the bond between two points, or why there is none.
-pub(super) fn bond(run: &StoredRun, [a, b]: [u32; 2], lives: &Lives) -> Text {
+/// Writes the life of the bond between two points, or why there is none.
+pub(super) fn bond(
+    out: &mut dyn Write,
+    run: &StoredRun,
+    [a, b]: [u32; 2],
+    lives: &Lives,
+) -> io::Result<()> {
     let title = format!("bond {} - {}", label(run, a), label(run, b));
-    let mut lines = vec![entry("from", &place(run, a)), entry("to", &place(run, b))];
+    writeln!(out, "{title} in {}", run.folder.display())?;
+    entry(out, "from", place(run, a))?;
+    entry(out, "to", place(run, b))?;
     let Some(life) = lives.of_bonds.first() else {
         let pair = lives.absent.first().copied();
-        lines.extend(
-            words::no_bond(run, [a, b], pair)
-                .iter()
-                .map(|it| indented(it)),
-        );
-        return text(title, lines);
+        return sentences(out, words::no_bond(run, [a, b], pair));
     };
-    let [h_a, h_b] = [a, b].map(|end| run.model.horizon[end as usize]);
+    let (length, degrees) = (number(life.length), angle(life));
+    entry(
+        out,
+        "length",
+        format!("{length} m, {degrees:.2} degrees from x"),
+    )?;
+    let [h_a, h_b] = [a, b].map(|end| number(run.model.horizon[end as usize]));
     let bonds = &run.model.bonds;
-    let measures = format!(
-        "{} m, {:.2} degrees from x",
-        number(life.length),
-        angle(life)
-    );
-    lines.push(entry("length", &measures));
-    let horizons = format!(
-        "{} m (horizons of its ends {} and {} m)",
-        number(bonds.horizon[life.pair]),
-        number(h_a),
-        number(h_b)
-    );
-    lines.push(entry("bond horizon H", &horizons));
-    lines.push(entry(
-        "alpha, Omega",
-        &format!(
-            "{:.5}, {:.5}",
-            bonds.length_factor[life.pair], bonds.domain_factor[life.pair]
-        ),
-    ));
-    let limits = words::limits(life).into_iter();
-    lines.extend(limits.map(|(name, words)| entry(&name, &words)));
-    lines.push("what happened".to_owned());
-    lines.extend(words::fate(run, lives, life).iter().map(|it| indented(it)));
-    lines.extend(missing(run, lives));
-    lines.push(path_title(lives));
-    lines.extend(bond_path(lives, life).lines());
-    text(title, lines)
+    let horizon = number(bonds.horizon[life.pair]);
+    let horizons = format!("{horizon} m (horizons of its ends {h_a} and {h_b} m)");
+    entry(out, "bond horizon H", horizons)?;
+    let [alpha, omega] = [&bonds.length_factor, &bonds.domain_factor].map(|it| it[life.pair]);
+    entry(out, "alpha, Omega", format!("{alpha:.5}, {omega:.5}"))?;
+    for (name, words) in words::limits(life) {
+        entry(out, &name, words)?;
+    }
+    writeln!(out, "what happened")?;
+    sentences(out, words::fate(run, lives, life))?;
+    missing(out, run, lives)?;
+    write_path(out, lives, &bond_path(lives, life))
 }
 
-/// The family of a point, which may be the one nearest to a position.
-pub(super) fn family(run: &StoredRun, point: u32, sought: Option<[f64; 2]>, lives: &Lives) -> Text {
+/// Writes the family of a point, which may be the one nearest to a position.
+pub(super) fn family(
+    out: &mut dyn Write,
+    run: &StoredRun,
+    point: u32,
+    sought: Option<[f64; 2]>,
+    lives: &Lives,
+) -> io::Result<()> {
     let model = &run.model;
-    let title = label(run, point);
+    writeln!(out, "{} in {}", label(run, point), run.folder.display())?;
     let [x, y] = model.positions[point as usize];
-    let mut lines = vec![entry("position", &format!("({x:.6}, {y:.6}) m"))];
+    entry(out, "position", format!("({x:.6}, {y:.6}) m"))?;
     if let Some([at_x, at_y]) = sought {
-        let distance = (at_x - x).hypot(at_y - y);
-        let words = format!("({at_x:.6}, {at_y:.6}) m, {} m from it", number(distance));
-        lines.push(entry("nearest to", &words));
+        let distance = number((at_x - x).hypot(at_y - y));
+        let words = format!("({at_x:.6}, {at_y:.6}) m, {distance} m from it");
+        entry(out, "nearest to", words)?;
     }
-    let [volume, horizon] = [&model.volumes, &model.horizon].map(|it| it[point as usize]);
-    lines.push(entry("volume", &format!("{} m^3", number(volume))));
-    lines.push(entry("horizon", &format!("{} m", number(horizon))));
-    lines.push(entry("bonds", &counts(run, lives)));
+    let [volume, horizon] = [&model.volumes, &model.horizon].map(|it| number(it[point as usize]));
+    entry(out, "volume", format!("{volume} m^3"))?;
+    entry(out, "horizon", format!("{horizon} m"))?;
+    entry(out, "bonds", counts(run, lives))?;
     if model.no_fail[point as usize] {
-        lines.push(entry("no_fail", "its bonds never fail"));
+        entry(out, "no_fail", "its bonds never fail")?;
     }
-    lines.extend(missing(run, lives));
-    lines.push("bonds, as they broke; then by their largest utilisation".to_owned());
-    lines.extend(family_table(run, point, lives).lines());
-    lines.push(path_title(lives));
-    lines.extend(family_path(run, point, lives).lines());
-    text(title, lines)
+    missing(out, run, lives)?;
+    writeln!(
+        out,
+        "bonds, as they broke; then by their largest utilisation"
+    )?;
+    family_table(run, point, lives).write(out)?;
+    write_path(out, lives, &family_path(run, point, lives))
 }
 
-fn text(title: String, lines: Vec<String>) -> Text {
-    let body = lines.join("\n");
-    Text { title, body }
+fn entry(out: &mut dyn Write, name: &str, words: impl Display) -> io::Result<()> {
+    lines::entry(out, 17, name, words)
 }
 
-fn entry(name: &str, words: &str) -> String {
-    format!("  {name:<16}  {words}")
-}
-
-fn indented(words: &str) -> String {
-    format!("  {words}")
+fn sentences(out: &mut dyn Write, sentences: Vec<String>) -> io::Result<()> {
+    (sentences.iter()).try_for_each(|sentence| writeln!(out, "  {sentence}"))
 }
 
 /// Direction of a bond, degrees above -90 up to 90.
@@ -118,26 +106,16 @@ pub(super) fn angle(life: &Life) -> f64 {
 /// How many bonds broke, and what else became of pairs.
 fn counts(run: &StoredRun, lives: &Lives) -> String {
     let n_bonds = lives.of_bonds.len();
-    let orders = lives.of_bonds.iter().filter_map(|life| {
-        let (broke, _) = life.breakage.as_ref()?;
-        Some((broke.order, broke.at.step))
-    });
-    let orders: Vec<(usize, usize)> = orders.collect();
-    let mut words = format!("{n_bonds}");
-    match (orders.iter().min(), orders.iter().max()) {
-        (Some(first), Some(last)) => {
-            words += &format!(
-                ": {} broke, from number {} (step {}) to number {} (step {}) of {}",
-                orders.len(),
-                first.0,
-                first.1,
-                last.0,
-                last.1,
-                run.breaks.len()
-            );
-        }
-        _ => words += ", all intact",
-    }
+    let broken = lives.of_bonds.iter().filter_map(|it| it.breakage.as_ref());
+    let orders: Vec<(usize, usize)> = broken.map(|(it, _)| (it.order, it.at.step)).collect();
+    let mut words = match (orders.iter().min(), orders.iter().max()) {
+        (Some((first, in_step)), Some((last, to_step))) => format!(
+            "{n_bonds}: {} broke, from number {first} (step {in_step}) to number {last} (step {to_step}) of {}",
+            orders.len(),
+            run.breaks.len()
+        ),
+        _ => format!("{n_bonds}, all intact"),
+    };
     for (absence, why) in [
         (Absence::PreCrack, "cut by a pre-crack"),
         (Absence::Hole, "across a hole"),
@@ -151,32 +129,34 @@ fn counts(run: &StoredRun, lives: &Lives) -> String {
     words
 }
 
-/// Lines on what the results leave out, and how to get it.
-fn missing(run: &StoredRun, lives: &Lives) -> Vec<String> {
-    let mut lines = Vec::new();
+/// Writes what the results leave out, and how to get it.
+fn missing(out: &mut dyn Write, run: &StoredRun, lives: &Lives) -> io::Result<()> {
     let may_fail = !run.model.criteria.is_empty();
     if may_fail && run.model.largest.is_none() {
-        lines.push(
+        writeln!(
+            out,
             "note: the run did not get to its end; largest utilisations are those of steps with fields alone"
-                .to_owned(),
-        );
+        )?;
     }
     let (shown, all) = (lives.moments.len(), run.history.len());
     if shown < all {
-        lines.push(format!(
+        writeln!(
+            out,
             "note: {shown} of {all} steps have fields; for the others run again with --set output.fields_every=1"
-        ));
+        )?;
     }
-    lines
+    Ok(())
 }
 
-fn path_title(lives: &Lives) -> String {
+/// Writes a table with a row for each moment.
+fn write_path(out: &mut dyn Write, lives: &Lives, rows: &Columns) -> io::Result<()> {
     let when = if lives.before_breakages {
         "events with fields, just before their bonds break"
     } else {
         "steps with fields, at their end"
     };
-    format!("path ({when})")
+    writeln!(out, "path ({when})")?;
+    rows.write(out)
 }
 
 fn load_header(units: Units) -> Vec<String> {
@@ -224,9 +204,8 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
                 "broken".to_owned()
             });
             if !limit.after.is_brittle() {
-                let softened = life.softened(criterion, &lives.moments, place);
-                let value = |value: f64| if is_intact { value } else { 0.0 };
-                row.extend([softened.force, softened.secant].map(|it| format!("{:.4}", value(it))));
+                let left = life.left(criterion, &lives.moments, place);
+                row.extend([left.force, left.secant].map(|it| format!("{it:.4}")));
             }
         }
         table.push(row);
@@ -237,22 +216,10 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
 /// All bonds of a point: those that broke in their order, then the nearest to breakage first.
 fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     let bonds = &run.model.bonds;
-    let mut header = [
-        run.model.tagged,
-        "length m",
-        "angle",
-        "H m",
-        "alpha",
-        "Omega",
-    ]
-    .map(str::to_owned)
-    .to_vec();
-    header.extend(
-        run.model
-            .criteria
-            .iter()
-            .map(|it| format!("limit {}", it.name)),
-    );
+    let mut header = vec![run.model.tagged.to_owned()];
+    header.extend(["length m", "angle", "H m", "alpha", "Omega"].map(str::to_owned));
+    let criteria = run.model.criteria.iter();
+    header.extend(criteria.map(|it| format!("limit {}", it.name)));
     header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
     let mut table = Columns::new(header);
     let mut order: Vec<&Life> = lives.of_bonds.iter().collect();

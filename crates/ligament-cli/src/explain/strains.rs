@@ -81,12 +81,22 @@ impl Strains {
         let none = Rigidities::default();
         let element = (self.elements).element(&self.bonds, &none, &self.intact, bond);
         let whole = element.deformation(motions.displacement.as_flattened());
-        if motions.thermal_strain.is_empty() {
-            return whole;
-        }
-        let [a, b] = self.bonds.ends[bond].map(|end| motions.thermal_strain[end as usize]);
-        whole.less(&element.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
+        without_heat(whole, &element, self.bonds.ends[bond], motions)
     }
+}
+
+/// A deformation of a bond between two points without what the temperature gives it.
+pub(super) fn without_heat<const M: usize>(
+    whole: BondDeformation,
+    element: &impl Element<M>,
+    ends: [u32; 2],
+    motions: &Motions,
+) -> BondDeformation {
+    if motions.thermal_strain.is_empty() {
+        return whole;
+    }
+    let [a, b] = ends.map(|end| motions.thermal_strain[end as usize]);
+    whole.less(&element.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
 }
 
 /// Step in which each bond broke, shape (n_bonds).

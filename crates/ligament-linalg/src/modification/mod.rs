@@ -14,7 +14,7 @@ use std::collections::BinaryHeap;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::panels::{Form, Panels};
+use crate::panels::{FactorKind, Panels};
 use crate::rank_one::RankOne;
 use crate::substitution;
 use crate::supernodes::Supernodes;
@@ -37,7 +37,7 @@ pub(crate) struct Modification {
 
 /// The factor that is changed.
 pub(crate) struct Target<'a> {
-    pub(crate) form: Form,
+    pub(crate) kind: FactorKind,
     pub(crate) supernodes: Supernodes<'a>,
     pub(crate) values: &'a mut [f64],
     /// Diagonal of the matrix in the order of elimination, shape (n); changed along.
@@ -145,14 +145,14 @@ impl WithSimd for Walk<'_, '_> {
             self.modification.is_touched[supernode] = false;
             self.change_panel(simd, supernode)?;
             let Target {
-                form,
+                kind,
                 supernodes,
                 values,
                 ..
             } = &*self.target;
             if let Some(right_hand_side) = &mut self.right_hand_side {
                 let panels = Panels {
-                    form: *form,
+                    kind: *kind,
                     supernodes: *supernodes,
                     values,
                 };
@@ -171,7 +171,7 @@ impl Walk<'_, '_> {
     #[inline(always)]
     fn change_panel<S: Simd>(&mut self, simd: S, supernode: usize) -> Result<(), VanishingPivot> {
         let Target {
-            form,
+            kind,
             supernodes,
             values,
             diagonal,
@@ -187,7 +187,7 @@ impl Walk<'_, '_> {
         }
         let panel = &mut values[supernodes.panel(supernode)];
         let diagonal = &diagonal[columns.clone()];
-        let change = terms.change(simd, *form, panel, diagonal);
+        let change = terms.change(simd, *kind, panel, diagonal);
         match change {
             Ok(more_negative) => {
                 **negative_pivots = negative_pivots.wrapping_add_signed(more_negative);

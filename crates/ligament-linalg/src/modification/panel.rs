@@ -5,7 +5,7 @@ use std::ops::Range;
 use pulp::Simd;
 
 use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
-use crate::panels::Form;
+use crate::panels::FactorKind;
 
 /// Terms that go through the factor at once: their part of a panel stays in the cache.
 pub(super) const TERMS_AT_ONCE: usize = 32;
@@ -85,7 +85,7 @@ impl Terms {
     pub(super) fn change<S: Simd>(
         &mut self,
         simd: S,
-        form: Form,
+        kind: FactorKind,
         panel: &mut [f64],
         diagonal: &[DiagonalEntry],
     ) -> Result<isize, usize> {
@@ -93,7 +93,7 @@ impl Terms {
         for (index, block) in panel.chunks_mut(BLOCK * self.height).enumerate() {
             let first = BLOCK * index;
             let width = block.len() / self.height;
-            more_negative += self.change_pivots(form, block, first, width, diagonal)?;
+            more_negative += self.change_pivots(kind, block, first, width, diagonal)?;
             match width {
                 4 => self.change_below::<S, 4>(simd, block, first + 4),
                 3 => self.change_below::<S, 3>(simd, block, first + 3),
@@ -108,7 +108,7 @@ impl Terms {
     #[inline(always)]
     fn change_pivots(
         &mut self,
-        form: Form,
+        kind: FactorKind,
         block: &mut [f64],
         first: usize,
         width: usize,
@@ -126,13 +126,13 @@ impl Terms {
             for (place, &term) in self.active.iter().enumerate() {
                 let w = &mut self.rows[place * height..][..height];
                 let weight = &mut self.weights[term];
-                let (rotation, pivot) = match form {
-                    Form::Llt => rotate_root(&mut column[row], weight, w[row]),
-                    Form::Ldlt => rotate(&mut column[row], weight, w[row]),
+                let (rotation, pivot) = match kind {
+                    FactorKind::Llt => rotate_root(&mut column[row], weight, w[row]),
+                    FactorKind::Ldlt => rotate(&mut column[row], weight, w[row]),
                 };
-                let size = match form {
-                    Form::Llt => pivot,
-                    Form::Ldlt => pivot.abs(),
+                let size = match kind {
+                    FactorKind::Llt => pivot,
+                    FactorKind::Ldlt => pivot.abs(),
                 };
                 // After each term: what is lost with one does not come back with the next.
                 if size.is_nan() || size <= vanishing {

@@ -98,29 +98,18 @@ impl<'a> ResultWriter<'a> {
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let (system, balanced) = (view.system, view.balanced);
         let names = deformation_names(system);
-        let deformations: Vec<Vec<f64>> = (0..names.len())
-            .map(|place| {
-                let deformations = balanced.deformations.iter();
-                deformations
-                    .map(|deformation| deformation.strains()[place])
-                    .collect()
-            })
+        let component = |place: usize| {
+            let deformations = balanced.deformations.iter();
+            deformations.map(|it| it.strains()[place]).collect()
+        };
+        let deformations: Vec<Vec<f64>> = (0..names.len()).map(component).collect();
+        let utilisation: Vec<f64> = (balanced.deformations.iter().enumerate())
+            .map(|(bond, deformation)| view.criteria.utilisation(bond, deformation))
             .collect();
-        let utilisation: Vec<f64> = (0..system.ends().len())
-            .map(|bond| (view.criteria).utilisation(bond, &balanced.deformations[bond]))
-            .collect();
-        let state: Vec<i64> = view
-            .state
-            .intact
-            .iter()
-            .map(|&intact| i64::from(intact))
-            .collect();
+        let intact = view.state.intact.iter();
+        let state: Vec<i64> = intact.map(|&intact| i64::from(intact)).collect();
         let displacement = point_fields::displacements(view);
-        let lines: Vec<vtu::Cell> = system
-            .ends()
-            .iter()
-            .map(|&ends| vtu::Cell::Line(ends))
-            .collect();
+        let lines: Vec<vtu::Cell> = system.ends().iter().copied().map(vtu::Cell::Line).collect();
         let mut cell_fields = vec![
             Field::integer("intact", &state),
             Field::scalar("utilisation", &utilisation),

@@ -42,7 +42,8 @@ pub(super) fn write(
     let n_absent = absent.len();
     let lines: Vec<vtu::Cell> = (system.ends().iter())
         .chain(absent.iter().map(|pair| &pair.ends))
-        .map(|&ends| vtu::Cell::Line(ends))
+        .copied()
+        .map(vtu::Cell::Line)
         .collect();
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let absence: Vec<i64> = std::iter::repeat_n(0, system.ends().len())

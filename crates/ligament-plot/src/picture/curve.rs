@@ -87,13 +87,8 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         series.push(Series::new(label, Mark::Circles, colour, vec![place(peak)]));
     }
     let words = |column: &str| column.replace('_', " ");
-    let plot = Plot {
-        name: "curves".to_owned(),
-        title,
-        x: shown[0].label(&words(&request.columns[0])),
-        y: shown[1].label(&words(&request.columns[1])),
-        series,
-    };
+    let [x, y] = [0, 1].map(|axis| shown[axis].label(&words(&request.columns[axis])));
+    let plot = Plot::new("curves", title, [&x, &y], series);
     let width = request
         .target
         .width

@@ -24,12 +24,10 @@ const LETTER_WIDTHS: [u8; 95] = [
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let width = |letter: char| {
         let place = (letter as usize).checked_sub(32);
-        place
-            .and_then(|it| LETTER_WIDTHS.get(it))
-            .copied()
-            .unwrap_or(64)
+        let width = place.and_then(|it| LETTER_WIDTHS.get(it));
+        usize::from(width.copied().unwrap_or(64))
     };
-    let hundredths: usize = text.chars().map(|letter| usize::from(width(letter))).sum();
+    let hundredths: usize = text.chars().map(width).sum();
     size * hundredths as f64 / 100.0
 }
 
@@ -70,20 +68,18 @@ impl Document {
     }
 
     /// A filled rectangle from its upper left corner.
-    pub(super) fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], fill: &str) {
+    pub(super) fn rectangle(&mut self, at: [f64; 2], size: [f64; 2], fill: &str) {
+        let area = area(at, size);
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            self.body,
-            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{fill}\"/>"
-        );
+        let _ = writeln!(self.body, "<rect {area} fill=\"{fill}\"/>");
     }
 
     /// A rectangle of thin grey lines.
-    pub(super) fn frame(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
+    pub(super) fn frame(&mut self, at: [f64; 2], size: [f64; 2]) {
+        let area = area(at, size);
         let _ = writeln!(
             self.body,
-            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"none\" \
-             stroke=\"#404040\" stroke-width=\"0.6\"/>"
+            "<rect {area} fill=\"none\" stroke=\"#404040\" stroke-width=\"0.6\"/>"
         );
     }
 
@@ -116,11 +112,11 @@ impl Document {
     }
 
     /// Begins what is seen in a rectangle alone, to the matching [`end_window`](Self::end_window).
-    pub(super) fn begin_window(&mut self, name: &str, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
+    pub(super) fn begin_window(&mut self, name: &str, at: [f64; 2], size: [f64; 2]) {
+        let area = area(at, size);
         let _ = writeln!(
             self.body,
-            "<clipPath id=\"{name}\"><rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\"/></clipPath>\n\
-             <g clip-path=\"url(#{name})\">"
+            "<clipPath id=\"{name}\"><rect {area}/></clipPath>\n<g clip-path=\"url(#{name})\">"
         );
     }
 
@@ -166,6 +162,11 @@ impl Document {
     }
 }
 
+/// The attributes of a rectangle from its upper left corner.
+fn area([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
+    format!("x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\"")
+}
+
 impl Anchor {
     fn word(self) -> &'static str {
         match self {
@@ -177,17 +178,8 @@ impl Anchor {
 
 /// The text as content of an element; what XML cannot hold is left out.
 fn escape(text: &str) -> String {
-    let allowed = text.chars().filter(|letter| !letter.is_control());
-    let mut escaped = String::with_capacity(text.len());
-    for letter in allowed {
-        match letter {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            other => escaped.push(other),
-        }
-    }
-    escaped
+    let text = text.replace(char::is_control, "").replace('&', "&amp;");
+    text.replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// The data of a path: pieces in whole hundredths of a pixel, each relative to the point before.

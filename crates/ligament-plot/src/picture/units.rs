@@ -31,23 +31,18 @@ impl Shown {
         let prefix = usize::try_from(thousands + 4)
             .ok()
             .and_then(|it| PREFIXES.get(it));
+        let scaled = |before: &str| Self {
+            factor: 10f64.powi(-3 * thousands),
+            unit: format!("{before}{symbol}"),
+        };
         match prefix {
-            Some(prefix) if takes_prefix => Self {
-                factor: 10f64.powi(-3 * thousands),
-                unit: format!("{prefix}{symbol}"),
-            },
+            Some(prefix) if takes_prefix => scaled(prefix),
             _ if (-3.0..5.0).contains(&exact) => Self {
                 factor: 1.0,
                 unit: symbol.to_owned(),
             },
-            _ => Self {
-                factor: 10f64.powi(-3 * thousands),
-                unit: format!(
-                    "{}{}{symbol}",
-                    power_of_ten(3 * thousands),
-                    if symbol.is_empty() { "" } else { " " }
-                ),
-            },
+            _ if symbol.is_empty() => scaled(&power_of_ten(3 * thousands)),
+            _ => scaled(&format!("{} ", power_of_ten(3 * thousands))),
         }
     }
 

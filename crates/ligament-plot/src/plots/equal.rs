@@ -114,7 +114,7 @@ fn clipped(from: [f64; 2], to: [f64; 2], [lower, upper]: [[f64; 2]; 2]) -> Optio
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Colour, Mark};
+    use super::super::Colour;
     use super::*;
 
     #[test]
@@ -142,19 +142,8 @@ mod tests {
 
     #[test]
     fn a_window_needs_room() {
-        let line = Series::new(
-            "line",
-            Mark::Curve,
-            Colour::Blue,
-            vec![[0.0, 0.0], [9.0, 9.0]],
-        );
-        let plot = Plot {
-            name: "locus".to_owned(),
-            title: "Locus".to_owned(),
-            x: "s1".to_owned(),
-            y: "s2".to_owned(),
-            series: vec![line],
-        };
+        let line = Series::curve("line", Colour::Blue, vec![[0.0, 0.0], [9.0, 9.0]]);
+        let plot = Plot::new("locus", "Locus", ["s1", "s2"], vec![line]);
         let of = |window| {
             let plot = plot.clone();
             EqualScales { plot, window }.to_svg()

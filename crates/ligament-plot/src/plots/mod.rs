@@ -3,12 +3,15 @@
 //! A [`Plot`] has scales of its own along x and y; [`equal`] draws one with the same scale along both, [`polar`] draws
 //! curves around a centre.
 
+mod axis;
 pub mod equal;
 mod outlines;
 mod paper;
 pub mod png;
 pub mod polar;
 
+pub(crate) use axis::rounded_up;
+use axis::{decimals, range, tick};
 use paper::{Paper, Pen};
 
 use plotters::chart::{ChartBuilder, ChartContext};
@@ -282,10 +285,8 @@ type Drawn = Result<(), DrawingError>;
 impl Series {
     fn draw(&self, chart: &mut Chart<'_, '_>, pen: Pen) -> Drawn {
         let points = || {
-            self.points
-                .iter()
-                .map(|&[x, y]| (x, y))
-                .filter(|(x, y)| x.is_finite() && y.is_finite())
+            let points = self.points.iter().map(|&[x, y]| (x, y));
+            points.filter(|(x, y)| x.is_finite() && y.is_finite())
         };
         let (stroke, dot) = (self.stroke(pen), self.dot());
         match self.mark {
@@ -374,49 +375,12 @@ impl Colour {
     }
 }
 
-/// What an axis shows: all finite values and a twentieth more at each end; `None` without values.
-fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    let finite = values.filter(|value| value.is_finite());
-    let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    });
-    // A curve that is level, or a single point, needs some room as well.
-    let room = 0.05 * (high - low).max(1e-3 * low.abs().max(high.abs()).max(f64::MIN_POSITIVE));
-    (low <= high).then_some([low - room, high + room])
-}
-
-/// The least product of a factor (1 to 5, ascending) and a power of ten that is not below a number.
-pub(crate) fn rounded_up(least: f64, factors: &[f64]) -> f64 {
-    let power = 10f64.powf(least.log10().floor());
-    let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
-    let steps = factors.iter().map(|factor| factor * power);
-    { steps }.find(reaches).unwrap_or(10.0 * power)
-}
-
-/// Decimals that tell the labels of an axis apart.
-fn decimals([low, high]: [f64; 2]) -> usize {
-    let digits = (8.0 / (high - low)).log10().ceil();
-    digits.clamp(0.0, 9.0) as usize
-}
-
-/// A label of an axis, without the sign of a rounded zero.
-fn tick(value: f64, decimals: usize) -> String {
-    let unit = 10f64.powi(decimals as i32);
-    format!("{:.decimals$}", (value * unit).round() / unit + 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn plot(series: Vec<Series>) -> Plot {
-        Plot {
-            name: "peak".to_owned(),
-            title: "Peak & strength".to_owned(),
-            x: "lambda".to_owned(),
-            y: "F, N".to_owned(),
-            series,
-        }
+        Plot::new("peak", "Peak & strength", ["lambda", "F, N"], series)
     }
 
     #[test]
@@ -454,41 +418,20 @@ mod tests {
 
     #[test]
     fn a_plot_without_points_is_refused() {
-        let empty = plot(vec![Series::new(
-            "none",
-            Mark::Line,
-            Colour::Blue,
-            vec![[f64::NAN, 1.0]],
-        )]);
+        let points = vec![[f64::NAN, 1.0]];
+        let empty = plot(vec![Series::line("none", Colour::Blue, points)]);
         let name = "peak".to_owned();
         assert_eq!(empty.to_svg(), Err(PlotError::Empty { name }));
     }
 
     #[test]
-    fn labels_of_an_axis_differ_and_zero_has_no_sign() {
-        assert_eq!(tick(-1e-9, decimals([-0.5, 0.4])), "0.0");
-        assert_eq!(tick(1250.0, decimals([0.0, 5000.0])), "1250");
-        assert_eq!(tick(0.25, decimals([0.2, 0.3])), "0.25");
-    }
-
-    #[test]
     fn paper_has_its_width_and_room_for_the_legend() {
-        let series = Series::new(
-            "a long name",
-            Mark::Curve,
-            Colour::Blue,
-            vec![[0.0, 0.0], [1.0, 1.0]],
-        );
+        let points = vec![[0.0, 0.0], [1.0, 1.0]];
+        let series = Series::curve("a long name", Colour::Blue, points);
         let with = Paper::new(120.0, Some(11));
         let without = Paper::new(120.0, None);
         assert!(with.plane() < without.plane() && with.dots().0 == without.dots().0);
-        let plot = Plot {
-            name: "p".to_owned(),
-            title: String::new(),
-            x: "x".to_owned(),
-            y: "y".to_owned(),
-            series: vec![series],
-        };
+        let plot = Plot::new("p", "", ["x", "y"], vec![series]);
         let svg = plot.for_paper(120.0).unwrap();
         assert!(
             svg.starts_with("<svg width=\"120.000mm\" height=\""),

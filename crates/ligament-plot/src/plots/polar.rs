@@ -9,10 +9,9 @@ use plotters::prelude::{
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::axis::{decimals, rounded_up, tick};
 use super::paper::{LEGEND, Pen};
-use super::{
-    Chart, Drawn, GRID, PlotError, Series, TEXT, decimals, draw_legends, rounded_up, svg_text, tick,
-};
+use super::{Chart, Drawn, GRID, PlotError, Series, TEXT, draw_legends, svg_text};
 
 /// Width and height, in pixels: the room beside the legend is square.
 const SIZE: (u32, u32) = (570 + LEGEND as u32, 600);

@@ -1,6 +1,6 @@
 //! The curves of a study's plots: points of its table, and the lines fitted to them.
 
-use super::plan::Run;
+use super::plan::{Run, safe};
 use super::study::{Study, StudyPlot};
 use super::table::{NoColumn, StudyTable};
 use crate::line_fit::{FitError, LineFit};
@@ -79,7 +79,7 @@ impl<'a> Curves<'a> {
         };
         Ok(Self {
             plot,
-            name: format!("{}-over-{}", file_name(&plot.y), file_name(&plot.x)),
+            name: format!("{}-over-{}", safe(&plot.y), safe(&plot.x)),
             curves,
         })
     }
@@ -188,12 +188,4 @@ pub(super) fn rounded(value: f64) -> String {
 fn with_unit(name: &str) -> String {
     let unit = KeyPath::parse(name).and_then(|key| unit_of(&key));
     unit.map_or_else(|| name.to_owned(), |unit| format!("{name}, {unit}"))
-}
-
-fn file_name(column: &str) -> String {
-    let letter = |letter: char| match letter {
-        'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' => letter,
-        _ => '_',
-    };
-    column.chars().map(letter).collect()
 }

@@ -133,7 +133,7 @@ impl StudyFolder {
     ///
     /// If another process has it, or a file cannot be locked.
     pub fn claim(&self, shard: Option<Shard>) -> Result<Claim, StudyError> {
-        let mut locks = vec![self.lock("sweep", shard.is_some(), "the whole study")?];
+        let mut locks = vec![self.lock("sweep", shard.is_some())?];
         if shard.is_none() {
             self.remove_unfinished();
         }
@@ -142,7 +142,7 @@ impl StudyFolder {
             Some(Shard { number, count }) => {
                 self.other_counts_are_free(count)?;
                 let name = format!("shard-{number}-of-{count}");
-                locks.push(self.lock(&name, false, &name.replace('-', " "))?);
+                locks.push(self.lock(&name, false)?);
                 name
             }
         };
@@ -180,13 +180,13 @@ impl StudyFolder {
             };
             let is_shard = name.starts_with("shard-") && !name.ends_with("-runs");
             if is_shard && !name.ends_with(&format!("-of-{count}")) {
-                self.lock(name, true, &name.replace('-', " "))?;
+                self.lock(name, true)?;
             }
         }
         Ok(())
     }
 
-    fn lock(&self, name: &str, shared: bool, what: &str) -> Result<File, StudyError> {
+    fn lock(&self, name: &str, shared: bool) -> Result<File, StudyError> {
         let path = self.lock_path(name);
         let file = open_lock(&path)?;
         let locked = if shared {
@@ -198,7 +198,10 @@ impl StudyFolder {
             Ok(()) => Ok(file),
             Err(TryLockError::WouldBlock) => Err(StudyError::Busy {
                 folder: self.path.clone(),
-                what: what.to_owned(),
+                what: match name {
+                    "sweep" => "the whole study".to_owned(),
+                    shard => shard.replace('-', " "),
+                },
             }),
             Err(TryLockError::Error(source)) => Err(file_error("lock", &path, source)),
         }

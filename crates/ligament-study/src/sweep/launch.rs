@@ -1,6 +1,6 @@
 //! Runs as processes of their own: as many at once as there are cores and memory for.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
@@ -260,13 +260,9 @@ impl Launcher<'_> {
 
     /// The reason why a run failed: its error, or its last line and its exit status.
     fn last_words(&self, run: &Run, exit: ExitStatus) -> String {
-        let mut text = Vec::new();
         // Without a log the exit status is all there is.
-        let read = File::open(self.folder.log(run)).and_then(|mut log| log.read_to_end(&mut text));
-        let text = read.map_or_else(
-            |_| String::new(),
-            |_| String::from_utf8_lossy(&text).into_owned(),
-        );
+        let log = fs::read(self.folder.log(run)).unwrap_or_default();
+        let text = String::from_utf8_lossy(&log);
         let lines: Vec<&str> = text
             .lines()
             .map(str::trim)

@@ -308,7 +308,7 @@ pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
 }
 
 /// A text in letters that every file system takes.
-fn safe(text: &str) -> String {
+pub(super) fn safe(text: &str) -> String {
     let letter = |letter: char| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' | '+' => letter,
         _ => '_',

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use ligament_output::columns::aligned;
 use ligament_output::csv::{self, Value};
 use ligament_output::replace_file;
 
@@ -27,20 +28,8 @@ const DPI: f64 = 300.0;
 const LISTED: usize = 20;
 
 /// The columns of `fits.csv`.
-const FIT_COLUMNS: [&str; 12] = [
-    "plot",
-    "x",
-    "y",
-    "by",
-    "curve",
-    "slope",
-    "slope_error",
-    "intercept",
-    "intercept_error",
-    "r_squared",
-    "points",
-    "remark",
-];
+const FIT_COLUMNS: &str =
+    "plot,x,y,by,curve,slope,slope_error,intercept,intercept_error,r_squared,points,remark";
 
 /// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and what people want to see of them;
 /// gives what could not be made.
@@ -282,39 +271,14 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     write_aligned(&lines, out)
 }
 
-/// Columns of equal width; of the first, the text is at the left.
 fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
-    let columns = lines.iter().map(Vec::len).max().unwrap_or_default();
-    // A remark in place of numbers has no column.
-    let cells = |column: usize| {
-        lines
-            .iter()
-            .filter(move |line| line.len() > 2 || columns == 2)
-            .filter_map(move |line| line.get(column))
-    };
-    let width = |column: usize| {
-        cells(column)
-            .map(|cell| cell.chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    for line in lines {
-        let mut text = String::new();
-        for (column, (cell, &width)) in line.iter().zip(&widths).enumerate() {
-            text += &match column {
-                0 => format!("{cell:<width$}"),
-                _ => format!("  {cell:>width$}"),
-            };
-        }
-        writeln!(out, "  {}", text.trim_end())?;
-    }
-    Ok(())
+    let mut lines = aligned(lines, 1).into_iter();
+    lines.try_for_each(|line| writeln!(out, "  {line}"))
 }
 
 /// All fitted lines, and the known ones beside them.
 fn fits(all: &[Curves<'_>]) -> String {
-    let mut text = csv::line(&FIT_COLUMNS.map(Value::Text));
+    let mut text = format!("{FIT_COLUMNS}\n");
     let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
     for curves in all.iter().filter(|curves| curves.plot.fit.is_some()) {
         let plot = curves.plot;

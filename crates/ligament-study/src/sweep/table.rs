@@ -209,6 +209,8 @@ pub(super) fn inputs(run: &Run) -> Vec<(String, Cell)> {
     for (name, value) in case.as_object().into_iter().flatten() {
         flatten(name.clone(), value, &mut all);
     }
+    // A key that the case does not have is no input.
+    all.retain(|(_, cell)| !cell.is_null());
     all
 }
 

@@ -38,6 +38,12 @@ pub(super) const PATHS: [PrincipalStretches; 12] = [
     PrincipalStretches::new(-1.0, -1.0),
 ];
 
+/// The columns of the table of errors.
+const ERRORS: &str = "criterion,family,bonds,s1,s2,error,worst_orientation_deg,printed_measure,printed_orientation_deg";
+
+/// The columns of the table of loci.
+const LOCUS: &str = "criterion,family,path_deg,s1,s2,s1_effective,s2_effective,bond_stretch,bond_sliding,decides,error";
+
 /// Paths of a locus: one a degree.
 const LOCUS_PATHS: u32 = 360;
 
@@ -54,26 +60,11 @@ pub(super) fn write(
     strains: &[Strain],
 ) -> anyhow::Result<()> {
     write_summary(folder, comparisons)?;
-    let mut orientation = Table::create(
+    let mut orientation = Table::with_header(
         folder.file("orientation.csv"),
-        &["criterion", "family", "strain", "orientation_deg", "error"],
+        "criterion,family,strain,orientation_deg,error",
     )?;
-    let mut locus = Table::create(
-        folder.file("locus.csv"),
-        &[
-            "criterion",
-            "family",
-            "path_deg",
-            "s1",
-            "s2",
-            "s1_effective",
-            "s2_effective",
-            "bond_stretch",
-            "bond_sliding",
-            "decides",
-            "error",
-        ],
-    )?;
+    let mut locus = Table::with_header(folder.file("locus.csv"), LOCUS)?;
     for comparison in comparisons {
         for strain in strains {
             if let Some(plot) = polar(comparison, strain, &mut orientation)? {
@@ -88,18 +79,7 @@ pub(super) fn write(
 }
 
 fn write_summary(folder: &ResultFolder, comparisons: &[Comparison]) -> anyhow::Result<()> {
-    let columns = [
-        "criterion",
-        "family",
-        "bonds",
-        "s1",
-        "s2",
-        "error",
-        "worst_orientation_deg",
-        "printed_measure",
-        "printed_orientation_deg",
-    ];
-    let mut table = Table::create(folder.file(SUMMARY), &columns)?;
+    let mut table = Table::with_header(folder.file(SUMMARY), ERRORS)?;
     for comparison in comparisons {
         for subject in &comparison.subjects {
             let family = subject.family();
@@ -229,7 +209,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
     }
     let of_bond = "stretch and sliding of a bond";
     let mut plots = Vec::new();
-    for (kind, title, [x, y], curves, dashes) in [
+    for (kind, title, axes, curves, dashes) in [
         (
             "locus",
             "principal stretches",
@@ -244,16 +224,9 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
         };
         let mut series = vec![Series::curve("theory", Colour::Black, dashes)];
         series.extend(curves);
-        plots.push(EqualScales {
-            plot: Plot {
-                name: file_name(kind, criterion),
-                title: format!("First yield, {criterion}: {title}"),
-                x: x.to_owned(),
-                y: y.to_owned(),
-                series,
-            },
-            window,
-        });
+        let title = format!("First yield, {criterion}: {title}");
+        let plot = Plot::new(file_name(kind, criterion), title, axes, series);
+        plots.push(EqualScales { plot, window });
     }
     Ok(plots)
 }

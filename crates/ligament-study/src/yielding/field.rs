@@ -117,20 +117,8 @@ fn layers(
     Ok(layers)
 }
 
-const COLUMNS: [&str; 12] = [
-    "criterion",
-    "strain",
-    "points",
-    "count",
-    "mean",
-    "percentile_5",
-    "percentile_95",
-    "worst",
-    "worst_point",
-    "worst_orientation_deg",
-    "lattice_m",
-    "lattice",
-];
+const COLUMNS: &str = "criterion,strain,points,count,mean,percentile_5,percentile_95,worst\
+                       ,worst_point,worst_orientation_deg,lattice_m,lattice";
 
 /// Writes the errors of the interior points and of all into a table, and those of the interior points on the screen.
 fn write_summary(
@@ -146,7 +134,7 @@ fn write_summary(
         "largest error of first yield over the orientation at interior points, %\n  {:<20}{:<16}{:>8}{:>8}{:>8}{:>8}  where",
         "criterion", "strain", "mean", "5 %", "95 %", "worst"
     )?;
-    let mut table = Table::create(folder.file(SUMMARY), &COLUMNS)?;
+    let mut table = Table::with_header(folder.file(SUMMARY), COLUMNS)?;
     for layer in layers {
         let (criterion, words) = (&layer.criterion, layer.strain.words);
         for (points, marked) in [("interior", Some(is_interior)), ("all", None)] {
@@ -239,17 +227,16 @@ fn distribution(layers: &[Layer], is_interior: &[bool]) -> Plot {
         let name = format!("{}, {}", layer.criterion, layer.strain.name);
         Series::curve(name, *colour, points.collect())
     };
-    Plot {
-        name: "distribution".to_owned(),
-        title: "Anisotropy of first yield at interior points".to_owned(),
-        x: "largest error over the orientation, %".to_owned(),
-        y: "points with no larger one, %".to_owned(),
-        series: layers
-            .iter()
-            .zip(Colour::CYCLE.iter().cycle())
-            .map(curve)
-            .collect(),
-    }
+    let series = layers.iter().zip(Colour::CYCLE.iter().cycle()).map(curve);
+    Plot::new(
+        "distribution",
+        "Anisotropy of first yield at interior points",
+        [
+            "largest error over the orientation, %",
+            "points with no larger one, %",
+        ],
+        series.collect(),
+    )
 }
 
 fn write_fields(

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use ligament_output::columns::aligned;
+
 use super::Printable;
 use crate::experiment::{Experiment, Findings};
 
@@ -28,25 +30,14 @@ pub(crate) fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::
 /// Shows the tables of an experiment on the console.
 pub(crate) fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
     for table in &findings.tables {
-        let Printable { head, rows, notes } = Printable::from_table(table);
+        let Printable { rows, notes } = Printable::from_table(table);
         writeln!(
             console,
             "\n  {}, {}",
             table.heading.title, table.heading.quantity
         )?;
-        let width = |column: usize| {
-            let cells = rows
-                .iter()
-                .chain([&head])
-                .map(|row| row[column].chars().count());
-            cells.max().unwrap_or(0)
-        };
-        for row in [&head].into_iter().chain(&rows) {
-            let cells = row.iter().enumerate();
-            let padded: Vec<String> = cells
-                .map(|(k, cell)| format!("{cell:<0$}", width(k)))
-                .collect();
-            writeln!(console, "    {}", padded.join("  ").trim_end())?;
+        for line in aligned(&rows, usize::MAX) {
+            writeln!(console, "    {line}")?;
         }
         for (number, note) in notes.iter().enumerate() {
             writeln!(console, "    [{}] {note}", number + 1)?;

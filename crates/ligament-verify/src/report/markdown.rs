@@ -69,17 +69,17 @@ what an entry changes in them is its labels, such as `--set material.poisson=0.1
 
 fn push_table(text: &mut String, table: &Table) {
     let heading = &table.heading;
-    let Printable { head, rows, notes } = Printable::from_table(table);
+    let Printable { rows, notes } = Printable::from_table(table);
     let _ = write!(
         text,
         "\n### {}\n\n{}. Source: {}.\n\n| {} |\n|{}\n",
         heading.title,
         heading.quantity,
         heading.source,
-        head.join(" | "),
-        "---|".repeat(head.len()),
+        rows[0].join(" | "),
+        "---|".repeat(rows[0].len()),
     );
-    for row in rows {
+    for row in &rows[1..] {
         let _ = writeln!(text, "| {} |", row.join(" | "));
     }
     let _ = write!(text, "\nTolerance: {}\n", heading.tolerance);

@@ -11,7 +11,7 @@ pub(super) mod markdown;
 
 /// A table as words.
 struct Printable {
-    head: Vec<String>,
+    /// The names of the columns, and a row for each entry.
     rows: Vec<Vec<String>>,
     /// Reasons for standings, numbered from 1 in the rows.
     notes: Vec<String>,
@@ -19,12 +19,6 @@ struct Printable {
 
 impl Printable {
     fn from_table(table: &Table) -> Self {
-        let mut notes: Vec<String> = Vec::new();
-        let rows = table
-            .rows
-            .iter()
-            .map(|row| words(table, row, &mut notes))
-            .collect();
         let values = [
             &table.heading.known,
             "computed",
@@ -33,9 +27,11 @@ impl Printable {
             "verdict",
         ];
         let head = table.heading.keys.iter().cloned();
+        let head = head.chain(values.map(str::to_owned)).collect();
+        let mut notes: Vec<String> = Vec::new();
+        let rows = table.rows.iter().map(|row| words(table, row, &mut notes));
         Self {
-            head: head.chain(values.map(str::to_owned)).collect(),
-            rows,
+            rows: std::iter::once(head).chain(rows).collect(),
             notes,
         }
     }

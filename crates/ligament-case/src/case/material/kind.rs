@@ -1,13 +1,12 @@
 //! The kinds of materials, each with keys of its own, and the schema of them all.
 
-use schemars::{Schema, SchemaGenerator, json_schema};
+use schemars::{Schema, json_schema};
 use serde_json::{Map, Value, json};
 
 use super::super::document::Node;
 use super::super::fault::{Fault, KeyFault};
 use super::super::key_path::KeyPath;
 use super::super::values::RANGE;
-use super::Material;
 
 /// Beyond this, in 1/K, a coefficient of expansion was given in other units.
 const LARGEST_EXPANSION: f64 = 0.01;
@@ -69,9 +68,13 @@ impl Kind {
         all.filter(move |key| !is_own(key))
     }
 
-    /// The fault of a key that tables of this kind do not have.
-    pub(super) fn refuse_others(&self, table: &Node, key: &KeyPath) -> Result<(), KeyFault> {
-        let mut valid = properties(&schemars::schema_for!(Material));
+    /// The fault of a key that tables of this kind do not have; `valid` are the keys of all kinds.
+    pub(super) fn refuse_others(
+        &self,
+        table: &Node,
+        key: &KeyPath,
+        mut valid: Map<String, Value>,
+    ) -> Result<(), KeyFault> {
         for foreign in self.foreign() {
             valid.shift_remove(foreign);
         }
@@ -98,8 +101,7 @@ impl Kind {
 
 /// One material, or a table for each of several. The kinds of tables are one, so that an editor offers all keys; the keys
 /// that tell the kind to the reader then tell which of the others must be there and which must not.
-pub(in super::super) fn schema(generator: &mut SchemaGenerator) -> Schema {
-    let mut keys = properties(&generator.subschema_for::<Material>());
+pub(super) fn schema(mut keys: Map<String, Value>) -> Schema {
     let tells = |kind: &Kind| has_one_of(kind.telling());
     let named = json!({
         "description": "The material of a group.",
@@ -125,11 +127,6 @@ pub(in super::super) fn schema(generator: &mut SchemaGenerator) -> Schema {
         "properties": keys,
         "additionalProperties": named,
     })
-}
-
-fn properties(table: &Schema) -> Map<String, Value> {
-    let found = table.get("properties").and_then(Value::as_object);
-    found.cloned().unwrap_or_default()
 }
 
 fn has_one_of<'a>(keys: impl Iterator<Item = &'a str>) -> Value {

@@ -1,23 +1,23 @@
-//! Memory of a supernodal factor, and what both forms of it do in the same way.
+//! A supernodal factor, L L^T or L D L^T.
 
 use std::sync::Arc;
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::sparse::linalg::cholesky::SymbolicCholesky;
+use faer::dyn_stack::{MemBuffer, MemStack};
 
 use crate::factor_error::FactorError;
-use crate::factorisation::{HalfSolved, Inertia};
+use crate::factorisation::{Factorisation, HalfSolved, Inertia};
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
-use crate::panels::{Form, Panels};
+use crate::panels::{FactorKind, Panels};
 use crate::rank_one::RankOne;
 use crate::substitution::{solve_backward, solve_forward};
 use crate::symbolic::Symbolic;
+use crate::{ldlt, llt};
 
 /// Values of a factor and the workspace that factorising needs.
-pub(crate) struct Storage {
-    pub(crate) symbolic: Arc<Symbolic>,
-    form: Form,
+pub(crate) struct Cholesky {
+    symbolic: Arc<Symbolic>,
+    kind: FactorKind,
     values: Vec<f64>,
     workspace: MemBuffer,
     /// Diagonal of the matrix in the order of elimination, shape (n).
@@ -27,18 +27,18 @@ pub(crate) struct Storage {
     modification: Option<Modification>,
 }
 
-impl Storage {
-    /// Room for a factor; `request` is the workspace of its numeric factorisation.
-    pub(crate) fn new(
-        form: Form,
-        symbolic: Arc<Symbolic>,
-        request: StackReq,
-    ) -> Result<Self, FactorError> {
+impl Cholesky {
+    /// Room for a factor; nothing is factorised yet.
+    pub(crate) fn new(kind: FactorKind, symbolic: Arc<Symbolic>) -> Result<Self, FactorError> {
+        let request = match kind {
+            FactorKind::Llt => llt::workspace(&symbolic),
+            FactorKind::Ldlt => ldlt::workspace(&symbolic),
+        };
         let bytes = request.unaligned_bytes_required();
         let workspace =
             MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory { bytes })?;
         Ok(Self {
-            form,
+            kind,
             values: zeros(symbolic.cholesky.len_val())?,
             symbolic,
             workspace,
@@ -48,14 +48,17 @@ impl Storage {
         })
     }
 
-    /// Structure, values and workspace at once.
-    pub(crate) fn parts(&mut self) -> (&SymbolicCholesky<usize>, &mut [f64], &mut MemStack) {
-        let stack = MemStack::new(&mut self.workspace);
-        (&self.symbolic.cholesky, &mut self.values, stack)
+    /// The error for a pivot, by its row in the order of elimination, that the factor cannot have.
+    fn without_pivot(&self, row: usize) -> FactorError {
+        let unknown = self.symbolic.unknown_of_row()[row];
+        match self.kind {
+            FactorKind::Llt => FactorError::NotPositiveDefinite { unknown },
+            FactorKind::Ldlt => FactorError::ZeroPivot { unknown },
+        }
     }
 
     /// Takes note of the matrix that was just factorised.
-    pub(crate) fn factorised(&mut self, matrix: &SymmetricMatrix) {
+    fn factorised(&mut self, matrix: &SymmetricMatrix) {
         let unknowns = self.symbolic.unknown_of_row().iter();
         let entries = unknowns.map(|&unknown| DiagonalEntry::new(matrix.diagonal(unknown)));
         self.diagonal = entries.collect();
@@ -63,25 +66,45 @@ impl Storage {
         self.negative_pivots = diagonal.iter().filter(|pivot| **pivot < 0.0).count();
     }
 
-    pub(crate) fn inertia(&self) -> Inertia {
+    fn panels(&self) -> Panels<'_> {
+        Panels {
+            kind: self.kind,
+            supernodes: self.symbolic.supernodes(),
+            values: &self.values,
+        }
+    }
+}
+
+impl Factorisation for Cholesky {
+    fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError> {
+        let stack = MemStack::new(&mut self.workspace);
+        let factorised = match self.kind {
+            FactorKind::Llt => llt::factorise(&self.symbolic, matrix, &mut self.values, stack),
+            FactorKind::Ldlt => ldlt::factorise(&self.symbolic, matrix, &mut self.values, stack),
+        };
+        factorised.map_err(|row| self.without_pivot(row))?;
+        self.factorised(matrix);
+        Ok(())
+    }
+
+    fn inertia(&self) -> Inertia {
         Inertia {
             positive: self.diagonal.len() - self.negative_pivots,
             negative: self.negative_pivots,
         }
     }
 
-    /// Pivots in the order of the matrix, shape (n).
-    pub(crate) fn pivots(&self) -> Vec<f64> {
+    fn pivots(&self) -> Vec<f64> {
         let diagonal = self.symbolic.diagonal(&self.values);
         let rows = self.symbolic.row_of_unknown().iter();
-        rows.map(|&row| match self.form {
-            Form::Llt => diagonal[row] * diagonal[row],
-            Form::Ldlt => diagonal[row],
+        rows.map(|&row| match self.kind {
+            FactorKind::Llt => diagonal[row] * diagonal[row],
+            FactorKind::Ldlt => diagonal[row],
         })
         .collect()
     }
 
-    pub(crate) fn solve_in_place(&self, right_hand_side: &mut [f64]) {
+    fn solve_in_place(&mut self, right_hand_side: &mut [f64]) {
         let unknowns = self.symbolic.unknown_of_row();
         let mut vector: Vec<f64> = unknowns.iter().map(|&i| right_hand_side[i]).collect();
         solve_forward(self.panels(), &mut vector);
@@ -91,11 +114,11 @@ impl Storage {
         }
     }
 
-    pub(crate) fn change(
+    fn change(
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<HalfSolved, VanishingPivot> {
+    ) -> Result<HalfSolved, FactorError> {
         let rows = self.symbolic.row_of_unknown();
         let mut vector = vec![0.0; rows.len()];
         for &(unknown, value) in right_hand_side {
@@ -107,28 +130,22 @@ impl Storage {
             .modification
             .get_or_insert_with(|| Modification::new(supernodes));
         let mut target = Target {
-            form: self.form,
+            kind: self.kind,
             supernodes,
             values: &mut self.values,
             diagonal: &mut self.diagonal,
             negative_pivots: &mut self.negative_pivots,
         };
-        modification.apply(&mut target, terms, rows, &mut vector, &rows_of_b)?;
+        modification
+            .apply(&mut target, terms, rows, &mut vector, &rows_of_b)
+            .map_err(|VanishingPivot(row)| self.without_pivot(row))?;
         Ok(HalfSolved(vector))
     }
 
-    pub(crate) fn finish(&self, HalfSolved(mut vector): HalfSolved) -> Vec<f64> {
+    fn finish(&self, HalfSolved(mut vector): HalfSolved) -> Vec<f64> {
         solve_backward(self.panels(), &mut vector);
         let rows = self.symbolic.row_of_unknown();
         rows.iter().map(|&row| vector[row]).collect()
-    }
-
-    fn panels(&self) -> Panels<'_> {
-        Panels {
-            form: self.form,
-            supernodes: self.symbolic.supernodes(),
-            values: &self.values,
-        }
     }
 }
 

@@ -1,0 +1,167 @@
+//! The key of a case that a faulty field of its setup comes from.
+
+use ligament::error::Fault as SetupFault;
+use ligament::{Field, SetupError};
+
+use super::fault::{CaseError, Fault, KeyFault};
+use super::key_path::KeyPath;
+use super::sections::Case;
+use super::source::Source;
+use crate::temperature_table;
+
+/// What a setup calls by the names of its types, and the words of a case for it.
+const WORDS: [(&str, &str); 10] = [
+    (" or `Law::MbbPd`", " or \"mbb-pd\""),
+    ("`Law::MbbPd`", "model.law = \"mbb-pd\""),
+    ("`Law::Orthotropic`", "model.law = \"orthotropic\""),
+    ("`LatticeBody`", "[lattice] in the place of [mesh]"),
+    ("`Alpha::None`", "\"none\""),
+    ("`Surface::None`", "\"none\""),
+    (
+        "`Calibration::Integral`",
+        "model.calibration = \"integral\"",
+    ),
+    ("`Form::Full`", "\"full\""),
+    ("`Strains::Small`", "strains = \"small\""),
+    (
+        "`Place::Group`, `Place::Box` or `Place::Everywhere`",
+        "`group`, `box`, or neither for the whole body",
+    ),
+];
+
+impl Case {
+    /// The error of a faulty field of the setup at the key that it comes from.
+    pub(super) fn located(&self, source: &Source, error: SetupError) -> CaseError {
+        let SetupError { field, fault } = error;
+        let mut key = self.key(field);
+        let fault = match *fault {
+            SetupFault::Missing { reason, .. } => Fault::Required {
+                key: missing_key(field),
+                reason,
+            },
+            SetupFault::Unfit(unfit) => {
+                key = unfit.key().map_or(key.clone(), |it| format!("{key}.{it}"));
+                Fault::Other(unfit.to_string())
+            }
+            SetupFault::NameTwice { name, first } => Fault::NotUnique {
+                name,
+                first: self.key(first.part("name")),
+                advice: match field.name {
+                    "loads" => {
+                        ": give one of the loads another `name` (the name of a load without one is its group)"
+                    }
+                    _ => "",
+                },
+            },
+            SetupFault::Contradiction(reason) => {
+                let in_words = |text: String, (name, word)| text.replace(name, word);
+                Fault::Other(WORDS.into_iter().fold(reason.into_owned(), in_words))
+            }
+            SetupFault::NothingHappens => {
+                "there is no [[load]] and no point whose temperature changes: nothing would happen"
+                    .into()
+            }
+            SetupFault::SampledTwice {
+                place,
+                first,
+                second,
+            } => self.row_twice(field, &place, [first, second]),
+            other => other.into(),
+        };
+        let path = KeyPath::parse(&key).unwrap_or_else(|| KeyPath(vec![key]));
+        source.error(KeyFault::new(path, fault))
+    }
+
+    /// Key path of what a field of the setup comes from.
+    fn key(&self, field: Field) -> String {
+        let list = match field.name {
+            "body" => "lattice",
+            "law" | "horizon" => "model",
+            "materials" => "material",
+            "precracks" => "precrack",
+            "supports" => "support",
+            "loads" => "load",
+            "temperatures" => "temperature",
+            "probes" => "probe",
+            "criteria" => "fracture.criterion",
+            "analysis.load_factors" => "fracture.steps",
+            other => other,
+        };
+        let Some(index) = field.index else {
+            let part = match (field.name, field.part) {
+                ("law", None) => Some("law"),
+                (_, part) => part,
+            };
+            return part.map_or(list.to_owned(), |part| format!("{list}.{part}"));
+        };
+        let element = match field.name {
+            "materials" => self.materials[index].key(),
+            _ => format!("{list}.{index}"),
+        };
+        let part = match (field.name, field.part) {
+            ("supports", None) => "displacement",
+            ("materials", Some("elasticity")) | ("loads", Some("name")) | (_, None) => {
+                return element;
+            }
+            ("materials", Some(_)) => missing_key(field),
+            ("precracks", Some("points")) => &self.points_key(index),
+            (_, Some("place")) => self.place_key(field.name, index),
+            (_, Some("action")) => self.loads[index].action_key(),
+            (_, Some("change")) => self.temperatures[index].change_key(),
+            (_, Some("reading")) => self.probes[index].reading_key(),
+            ("temperatures", Some("name")) => "mesh_field",
+            (_, Some(other)) => other,
+        };
+        format!("{element}.{part}")
+    }
+
+    /// The key of the points of a pre-crack, or of the one that repeats the point before it.
+    fn points_key(&self, index: usize) -> String {
+        let points = self.precracks[index].points.iter();
+        let mut pairs = points.flat_map(|points| points.windows(2));
+        let repeated = pairs.position(|pair| pair[0] == pair[1]);
+        repeated.map_or("points".to_owned(), |before| {
+            format!("points.{}", before + 1)
+        })
+    }
+
+    /// The key by which an element of a list says where it is.
+    fn place_key(&self, list: &str, index: usize) -> &'static str {
+        let (corners, at) = match list {
+            "supports" => (self.supports[index].r#box, self.supports[index].at),
+            "loads" => (self.loads[index].r#box, self.loads[index].at),
+            "temperatures" => (self.temperatures[index].r#box, None),
+            _ => (self.no_fail[index].r#box, None),
+        };
+        match (corners, at) {
+            (Some(_), _) => "box",
+            (None, Some(_)) => "at",
+            (None, None) => "group",
+        }
+    }
+
+    /// The fault of two rows of a table of temperatures for a point.
+    fn row_twice(&self, field: Field, place: &str, samples: [usize; 2]) -> Fault {
+        let section = field.index.map(|index| &self.temperatures[index]);
+        let Some(file) = section.and_then(|it| it.file.as_ref()) else {
+            return format!("{place} has two temperatures").into();
+        };
+        // The rows were read before: only their lines are asked for.
+        let rows = temperature_table::rows_of(file).unwrap_or_default();
+        let [first, second] = samples.map(|it| rows.get(it).map_or(0, |(line, _)| *line));
+        let file = file.display();
+        format!("{file}:{second}: {place} has a row already, in line {first}").into()
+    }
+}
+
+/// The key of a material that a part of the setup's comes from.
+fn missing_key(field: Field) -> &'static str {
+    match field.part {
+        Some("elasticity.poisson") => "poisson_12",
+        Some("elasticity.out_of_plane") => "young_3",
+        Some("expansion") => "thermal_expansion",
+        Some("expansion.across") => "thermal_expansion_3",
+        Some(part) => part.trim_start_matches("elasticity."),
+        None => "",
+    }
+}

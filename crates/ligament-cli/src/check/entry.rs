@@ -1,0 +1,24 @@
+//! Lines of a check.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+
+use ligament_run::summary::Spread;
+
+use crate::lines;
+
+/// Writes a line with a name and its value.
+pub(super) fn entry(out: &mut dyn Write, name: &str, value: impl Display) -> io::Result<()> {
+    lines::entry(out, 21, name, value)
+}
+
+/// Writes a line with the smallest, largest and mean value of a quantity.
+pub(super) fn spread(
+    out: &mut dyn Write,
+    name: &str,
+    Spread { min, mean, max }: Spread,
+    unit: &str,
+) -> io::Result<()> {
+    let values = format!("{min:.4e} to {max:.4e}{unit}, mean {mean:.4e}");
+    entry(out, name, values)
+}

@@ -1,0 +1,40 @@
+//! Numbers on the command line.
+
+/// A finite number.
+pub(super) fn number(text: &str) -> Option<f64> {
+    let number = text.trim().parse::<f64>().ok();
+    number.filter(|it| it.is_finite())
+}
+
+/// A finite number greater than 0.
+pub(super) fn positive(text: &str) -> Option<f64> {
+    number(text).filter(|it| *it > 0.0)
+}
+
+/// So many finite numbers between commas.
+pub(super) fn numbers<const COUNT: usize>(text: &str) -> Option<[f64; COUNT]> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
+    numbers?.try_into().ok()
+}
+
+/// A position, m.
+pub(super) fn position(text: &str) -> Result<[f64; 2], String> {
+    numbers(text).ok_or_else(|| "expected X,Y in m, such as 0.01,-0.02".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_two_numbers() {
+        assert_eq!(position("-0.01, 2e-3"), Ok([-0.01, 2e-3]));
+        assert_eq!(position("1e-2, -0.5"), Ok([0.01, -0.5]));
+        for wrong in ["0.1", "0.01,", "1,2,3", "0.1,nan"] {
+            assert!(
+                position(wrong).is_err_and(|error| error.contains("X,Y")),
+                "{wrong}"
+            );
+        }
+    }
+}
