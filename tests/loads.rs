@@ -412,19 +412,49 @@ fn loads_that_do_nothing_are_refused() {
         run
     };
     let couple = "load = [{ group = \"right\", force = { x = 1.0 } }, { body_couple = 1.0 }]";
-    let message = refused(couple, "material.poisson=0.333333333333333333");
-    assert!(
-        message.contains(
-            "load.1.body_couple: the couple acts on 80 points that no bond keeps from turning"
-        ),
-        "{message}"
-    );
+    for setting in ["material.poisson=0.333333333333333333", "model.law=pds"] {
+        let message = refused(couple, setting);
+        assert!(
+            message.contains(
+                "load.1.body_couple: the couple acts on 80 points that no bond keeps from turning"
+            ),
+            "{message}"
+        );
+    }
+    let twice = "load = [{ group = \"left\", displacement = { x = 1e-5, rotation = 1e-3 } }, \
+                 { name = \"other\", group = \"left\", displacement = { rotation = 2e-3 } }]";
+    for law in ["model.law=nhpd", "model.law=pds"] {
+        let message = refused(twice, law);
+        assert!(message.contains("component rotation of node"), "{message}");
+    }
     let zero = "load = [{ group = \"left\", force = { x = 1.0 }, profile = { along = \"x\", zero = 0.0, one = 1.0 } }]";
     let message = refused(zero, "material.poisson=0.2");
     assert!(
         message.contains("load.0.profile: the load does nothing: its profile is zero"),
         "{message}"
     );
+}
+
+/// Where points do not turn, a support, a load or a probe may name their rotation all the same: it is zero, and nothing else
+/// changes, so that one case serves all laws.
+#[test]
+fn rotations_that_points_do_not_have_do_nothing() {
+    let case = |rotation: &str| {
+        let text = format!(
+            "{PLATE}support = [{{ group = \"left\", displacement = {{ x = 0.0, y = 0.0{rotation} }} }}]\n\
+             load = [{{ group = \"right\", displacement = {{ x = 1e-5{rotation} }} }}]\n\
+             probe = [{{ name = \"turn\", at = [0.2, 0.05], field = \"rotation\" }}]\n"
+        );
+        Bench::new(&text, &["model.law=pds"])
+    };
+    let [without, with] = ["", ", rotation = 0.0"].map(case);
+    let [expected, found] = [&without, &with].map(Bench::solve);
+    assert_eq!(found.displacement(), expected.displacement());
+    assert_eq!(found.displacement().len(), 2 * with.points());
+    assert_eq!(found.last(), expected.last());
+    assert_eq!(found.last().probes, [0.0]);
+    assert!(found.group_force(&with, "left")[0] < -1.0);
+    assert_eq!(found.group_force(&with, "left")[2], 0.0);
 }
 
 /// Without rotations of the points a rigid rotation costs energy where bonds have a shear stiffness: two gauges hold the body,

@@ -33,7 +33,7 @@ impl Case {
     /// The error of a faulty field of the setup at the key that it comes from.
     pub(super) fn located(&self, source: &Source, error: SetupError) -> CaseError {
         let SetupError { field, fault } = error;
-        let mut key = self.key(field);
+        let mut key = self.key_of_field(field);
         let fault = match *fault {
             SetupFault::Missing { reason, .. } => Fault::Required {
                 key: missing_key(field),
@@ -45,7 +45,7 @@ impl Case {
             }
             SetupFault::NameTwice { name, first } => Fault::NotUnique {
                 name,
-                first: self.key(first.part("name")),
+                first: self.key_of_field(first.part("name")),
                 advice: match field.name {
                     "loads" => {
                         ": give one of the loads another `name` (the name of a load without one is its group)"
@@ -73,7 +73,7 @@ impl Case {
     }
 
     /// Key path of what a field of the setup comes from.
-    fn key(&self, field: Field) -> String {
+    fn key_of_field(&self, field: Field) -> String {
         let list = match field.name {
             "body" => "lattice",
             "law" | "horizon" => "model",
