@@ -24,13 +24,26 @@ pub struct Formulation<'a> {
     pub setup: &'a Setup,
     /// Points of the body.
     pub cloud: &'a PointCloud,
-    /// Horizons of the points.
-    pub horizons: &'a Horizons,
-    /// Index of the material of each cell, shape (n_cells).
-    pub material_of_cell: &'a [u32],
+    horizons: &'a Horizons,
+    material_of_cell: &'a [u32],
 }
 
-impl Formulation<'_> {
+impl<'a> Formulation<'a> {
+    /// The formulation for points with their horizons, on cells with the index of the material of each (n_cells).
+    pub fn new(
+        setup: &'a Setup,
+        cloud: &'a PointCloud,
+        horizons: &'a Horizons,
+        material_of_cell: &'a [u32],
+    ) -> Self {
+        Self {
+            setup,
+            cloud,
+            horizons,
+            material_of_cell,
+        }
+    }
+
     /// Factors alpha of the bonds, shape (n_bonds).
     pub fn alpha(&self, bonds: &BondSet) -> Vec<f64> {
         match self.setup.correction.alpha {
@@ -97,12 +110,12 @@ impl Formulation<'_> {
                 domain::iterate(bonds, cloud, stiffness, alpha, continuum, sweeps)
             }
             Surface::Patch(settings) => {
-                let points = match setup.law.element() {
-                    ElementKind::Beam => patch::Points::Turn,
-                    _ => patch::Points::Rest,
+                let points = patch::Points {
+                    cloud,
+                    forces: self.cell_forces(),
+                    turn: setup.law.element() == ElementKind::Beam,
                 };
-                let forces = self.cell_forces();
-                patch::correct(bonds, cloud, stiffness, alpha, &forces, points, &settings)
+                patch::correct(bonds, &points, stiffness, alpha, &settings)
             }
             Surface::Volume => {
                 let factors = surface::surface_factors(bonds, cloud, self.horizons, &alpha);

@@ -34,8 +34,6 @@ pub struct Model {
     pub correction_range: (f64, f64),
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
-    /// Number of pairs of points that would be bonded but for a hole between them.
-    pub across_holes: usize,
     /// Number of bonds that pre-cracks cut.
     pub cut_bonds: usize,
     /// Number of points whose bonds never break.
@@ -59,7 +57,6 @@ impl Model {
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
-        let across_holes = absent.len();
         require_neighbours(body, &bonds)?;
         watcher.found(&Finding::Bonds {
             points: cloud.len(),
@@ -76,16 +73,13 @@ impl Model {
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            let formulation = Formulation {
-                setup: &setup,
-                cloud: &cloud,
-                horizons: &horizons,
-                material_of_cell: &material_of_cell,
-            };
+            let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
         });
-        let report = correction.report.as_ref();
-        watcher.found(&Finding::Correction(&setup.correction, report));
+        watcher.found(&Finding::Correction(
+            &setup.correction,
+            correction.report.as_ref(),
+        ));
         let no_fail = loading::no_fail(&setup, &cloud)?;
         let fixed = FixedFields {
             horizon: horizons.radius,
@@ -93,9 +87,7 @@ impl Model {
             energy_ratios,
             domain_factor: correction.domain_factor.clone(),
             shear_ratio: correction.shear_ratio.clone(),
-            patch_residual: (correction.report.as_ref())
-                .and_then(CorrectionReport::patch)
-                .map_or_else(Vec::new, |report| report.residual.clone()),
+            patch_residual: correction.patch_residual().to_vec(),
             no_fail,
             absent,
         };
@@ -111,7 +103,6 @@ impl Model {
             warnings,
             correction_range: correction.domain_factor_range(),
             correction: correction.report,
-            across_holes,
             cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
             no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
             setup,
@@ -119,6 +110,12 @@ impl Model {
             fixed,
             criteria: Arc::new(criteria),
         })
+    }
+
+    /// Number of pairs of points that would be bonded but for a hole or another void between them.
+    pub fn across_holes(&self) -> usize {
+        let absent = self.fixed.absent.iter();
+        absent.filter(|it| it.absence == Absence::Hole).count()
     }
 
     /// The body.

@@ -99,6 +99,12 @@ impl Correction {
         }
     }
 
+    /// What the patch correction leaves of the equations of each point, shape (n_points); empty without it.
+    pub fn patch_residual(&self) -> &[f64] {
+        let report = self.report.as_ref().and_then(CorrectionReport::patch);
+        report.map_or(&[], |report| &report.residual)
+    }
+
     /// Smallest and largest Omega.
     pub fn domain_factor_range(&self) -> (f64, f64) {
         self.domain_factor.iter().fold(

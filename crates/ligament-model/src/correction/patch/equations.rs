@@ -1,10 +1,9 @@
 //! The equations of the plane: forces, and moments where the points turn, in three uniform strains.
 
+use super::Points;
 use super::dual::Equations;
-use super::forces::CellForces;
 use super::members::Members;
 use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
 
 /// The equations of all points: 6 of forces, and with those of moments N = 9 a point.
@@ -57,12 +56,12 @@ impl Action {
 impl<'a, const N: usize> PlaneEquations<'a, N> {
     pub(super) fn new(
         bonds: &'a BondSet,
-        cloud: &'a PointCloud,
+        points: &'a Points<'_>,
         stiffness: &BondStiffness,
         alpha: &[f64],
-        forces: &CellForces,
         moment_weight: f64,
     ) -> Self {
+        let Points { cloud, forces, .. } = points;
         let members = Members::new(bonds, cloud);
         let actions = members.values(|point, bond| {
             let [first, _] = bonds.ends[bond as usize];
@@ -77,7 +76,7 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
                 lever: 0.5 * bonds.length[bond],
             }
         });
-        let body_factor = body_factor(bonds, cloud, stiffness, alpha, forces);
+        let body_factor = body_factor(bonds, points, stiffness, alpha);
         let start = members.values(|_, bond| body_factor * alpha[bond as usize]);
         let right = cloud.curve.iter().map(|&point| {
             let forces = &forces[point as usize];
@@ -120,11 +119,11 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
 /// c_0: makes the energy of the bonds of the body that of its cells, in the mean over the strains.
 fn body_factor(
     bonds: &BondSet,
-    cloud: &PointCloud,
+    points: &Points<'_>,
     stiffness: &BondStiffness,
     alpha: &[f64],
-    forces: &CellForces,
 ) -> f64 {
+    let Points { cloud, forces, .. } = points;
     let work = |(forces, [x, y]): (&[[f64; 2]; 3], &[f64; 2])| {
         forces[0][0] * x + forces[1][1] * y + ROOT * (forces[2][0] * y + forces[2][1] * x)
     };

@@ -60,29 +60,33 @@ impl Default for Settings {
     }
 }
 
-/// The correction of bonds with uncorrected factors alpha (n_bonds), whose points turn or not, for the forces of the cells: Omega =
-/// q_n/alpha, and shear and rotation times q_t/q_n beside it.
+/// Points as the correction sees them.
+#[derive(Debug, Clone)]
+pub struct Points<'a> {
+    /// Places and volumes.
+    pub cloud: &'a PointCloud,
+    /// Forces of uniform strains.
+    pub forces: CellForces,
+    /// Whether the points have rotations, and so equations of moments.
+    pub turn: bool,
+}
+
+/// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
+/// more, q_t/q_n.
 pub fn correct(
     bonds: &BondSet,
-    cloud: &PointCloud,
+    points: &Points<'_>,
     stiffness: &BondStiffness,
     alpha: Vec<f64>,
-    forces: &CellForces,
-    points: Points,
     settings: &Settings,
 ) -> Correction {
     let weight = settings.moment_weight;
-    let factors = match points {
-        Points::Turn => {
-            let equations =
-                PlaneEquations::<9>::new(bonds, cloud, stiffness, &alpha, forces, weight);
-            dual::minimise(&equations, settings)
-        }
-        Points::Rest => {
-            let equations =
-                PlaneEquations::<6>::new(bonds, cloud, stiffness, &alpha, forces, weight);
-            dual::minimise(&equations, settings)
-        }
+    let factors = if points.turn {
+        let equations = PlaneEquations::<9>::new(bonds, points, stiffness, &alpha, weight);
+        dual::minimise(&equations, settings)
+    } else {
+        let equations = PlaneEquations::<6>::new(bonds, points, stiffness, &alpha, weight);
+        dual::minimise(&equations, settings)
     };
     let omega = factors.axial.iter().zip(&alpha);
     let ratio = factors.shear.iter().zip(&factors.axial);
@@ -92,13 +96,4 @@ pub fn correct(
         length_factor: alpha,
         report: Some(CorrectionReport::Patch(factors.report)),
     }
-}
-
-/// Whether the points of the bonds have rotations, and so equations of moments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Points {
-    /// Points with rotations.
-    Turn,
-    /// Points without.
-    Rest,
 }
