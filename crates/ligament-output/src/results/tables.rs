@@ -14,6 +14,9 @@ use crate::folder::ResultFolder;
 /// A column of a table: its name, and its value in the row of a record.
 type Column<R> = (&'static str, fn(&R) -> Value<'static>);
 
+/// A column of times: its name, and what it takes of the costs of a step.
+type Timing = (&'static str, fn(&Costs) -> Duration);
+
 const HISTORY: [Column<StepRecord>; 17] = [
     ("step", |it| it.step.into()),
     ("load_factor", |it| it.load_factor.into()),
@@ -51,7 +54,7 @@ const BREAKS: [Column<BreakRecord>; 6] = [
     ("reaction", |it| it.reaction.into()),
 ];
 /// Columns of the table of times, behind the step.
-const TIMINGS: [(&str, fn(&Costs) -> Duration); 7] = [
+const TIMINGS: [Timing; 7] = [
     ("assembly_s", |it| it.assembly),
     ("factorisation_s", |it| it.factorisation),
     ("change_s", |it| it.change),
