@@ -599,7 +599,7 @@ fn protected_bonds_have_no_limit() {
             let [x, y] = bench.positions()[point as usize];
             x.abs().max(y.abs()) < 0.0021
         };
-        assert_eq!(bench.model.no_fail_points, 25);
+        assert_eq!(bench.model.no_fail_points(), 25);
         for (ends, limit) in bench.model.system.bonds.ends.iter().zip(bench.limits()) {
             let is_protected = ends.iter().any(|&end| inside(end));
             assert_eq!(limit.is_infinite(), is_protected, "{kind}");

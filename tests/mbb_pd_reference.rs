@@ -84,7 +84,7 @@ fn plates_are_those_of_the_independent_calculation() {
         let bench = plate(set, settings, &folder);
         let row = summary.row_where("set", set);
         let run = bench.solve();
-        let cut = bench.model.cut_bonds;
+        let cut = bench.model.cut_bonds();
         let bonds = bench.model.system.bonds.len() + cut;
         assert_eq!(bench.points(), summary.count(row, "points"), "{set}");
         assert_eq!(bonds, summary.count(row, "bonds"), "{set}");

@@ -127,7 +127,7 @@ fn bonds(path: &Path, text: String) -> Vec<[u32; 2]> {
         &Progress::new(ProgressMode::Quiet),
     )
     .unwrap();
-    assert!(model.cut_bonds > 100, "{}", path.display());
+    assert!(model.cut_bonds() > 100, "{}", path.display());
     model.system.bonds.ends.clone()
 }
 

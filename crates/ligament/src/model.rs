@@ -34,10 +34,6 @@ pub struct Model {
     pub correction_range: (f64, f64),
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
-    /// Number of bonds that pre-cracks cut.
-    pub cut_bonds: usize,
-    /// Number of points whose bonds never break.
-    pub no_fail_points: usize,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }
@@ -50,14 +46,13 @@ impl Model {
     /// If a field of the setup is wrong.
     pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
-        let body = &*setup.body;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell));
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
-        require_neighbours(body, &bonds)?;
+        require_neighbours(&*setup.body, &bonds)?;
         watcher.found(&Finding::Bonds {
             points: cloud.len(),
             bonds: bonds.len(),
@@ -103,8 +98,6 @@ impl Model {
             warnings,
             correction_range: correction.domain_factor_range(),
             correction: correction.report,
-            cut_bonds: is_cut.iter().filter(|cut| **cut).count(),
-            no_fail_points: fixed.no_fail.iter().filter(|marked| **marked).count(),
             setup,
             system: Arc::new(system),
             fixed,
@@ -114,8 +107,22 @@ impl Model {
 
     /// Number of pairs of points that would be bonded but for a hole or another void between them.
     pub fn across_holes(&self) -> usize {
+        self.absent(Absence::Hole)
+    }
+
+    /// Number of bonds that pre-cracks cut.
+    pub fn cut_bonds(&self) -> usize {
+        self.absent(Absence::PreCrack)
+    }
+
+    fn absent(&self, absence: Absence) -> usize {
         let absent = self.fixed.absent.iter();
-        absent.filter(|it| it.absence == Absence::Hole).count()
+        absent.filter(|it| it.absence == absence).count()
+    }
+
+    /// Number of points whose bonds never break.
+    pub fn no_fail_points(&self) -> usize {
+        self.fixed.no_fail.iter().filter(|marked| **marked).count()
     }
 
     /// The body.

@@ -80,12 +80,12 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
-    let (bonds, cut) = (system.bonds.len(), model.cut_bonds);
+    let (bonds, cut) = (system.bonds.len(), model.cut_bonds());
     entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
     if !model.body().holes().is_empty() || model.across_holes() > 0 {
         entry(out, "pairs across holes", model.across_holes())?;
     }
-    entry(out, "points with no_fail", model.no_fail_points)?;
+    entry(out, "points with no_fail", model.no_fail_points())?;
     spread(out, "nearest distance", over(&system.cloud.spacing), " m")?;
     spread(out, "horizon", over(&fixed.horizon), " m")?;
     spread(out, "bonds of a point", family(model), "")?;

@@ -1,7 +1,7 @@
 //! The equations of the plane: forces, and moments where the points turn, in three uniform strains.
 
-use super::Points;
 use super::dual::Equations;
+use super::forces::Points;
 use super::members::Members;
 use crate::bonds::BondSet;
 use crate::law::BondStiffness;

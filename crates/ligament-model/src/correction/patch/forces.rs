@@ -10,6 +10,17 @@ use crate::cloud::lattice::{Face, Lattice};
 /// nothing depends on the axes; shape (n_points, 3, 2), N.
 pub type CellForces = Vec<[[f64; 2]; 3]>;
 
+/// Points as the correction sees them.
+#[derive(Debug, Clone)]
+pub struct Points<'a> {
+    /// Places and volumes.
+    pub cloud: &'a PointCloud,
+    /// Forces of uniform strains.
+    pub forces: CellForces,
+    /// Whether the points have rotations, and so equations of moments.
+    pub turn: bool,
+}
+
 /// Stresses (xx, yy, xy) of a stiffness over (eps_xx, eps_yy, gamma_xy) in the three strains, Pa.
 fn stresses(stiffness: &Matrix3<f64>) -> [[f64; 3]; 3] {
     let root = std::f64::consts::SQRT_2;

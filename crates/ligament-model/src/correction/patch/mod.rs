@@ -21,55 +21,16 @@ mod dual;
 mod equations;
 mod forces;
 mod members;
+mod settings;
 
 pub use dual::Report;
-pub use forces::{CellForces, of_lattice, of_mesh};
+pub use forces::{CellForces, Points, of_lattice, of_mesh};
+pub use settings::Settings;
 
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
 use equations::PlaneEquations;
-
-/// Settings of the correction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// Smallest factor over the uncorrected one, lo.
-    pub lowest: f64,
-    /// Largest factor over the uncorrected one, hi.
-    pub highest: f64,
-    /// Weight of the equations of moments against those of forces.
-    pub moment_weight: f64,
-    /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has a tenth of the one before.
-    pub regularisation: f64,
-}
-
-impl Settings {
-    /// The settings that meet the equations best on meshes of all kinds.
-    pub const DEFAULT: Self = Self {
-        lowest: 0.02,
-        highest: 20.0,
-        moment_weight: 0.03,
-        regularisation: 1e-5,
-    };
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
-
-/// Points as the correction sees them.
-#[derive(Debug, Clone)]
-pub struct Points<'a> {
-    /// Places and volumes.
-    pub cloud: &'a PointCloud,
-    /// Forces of uniform strains.
-    pub forces: CellForces,
-    /// Whether the points have rotations, and so equations of moments.
-    pub turn: bool,
-}
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
 /// more, q_t/q_n.

@@ -1,0 +1,30 @@
+//! Settings of the patch correction.
+
+/// Settings of the correction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Smallest factor over the uncorrected one, lo.
+    pub lowest: f64,
+    /// Largest factor over the uncorrected one, hi.
+    pub highest: f64,
+    /// Weight of the equations of moments against those of forces.
+    pub moment_weight: f64,
+    /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has a tenth of the one before.
+    pub regularisation: f64,
+}
+
+impl Settings {
+    /// The settings that meet the equations best on meshes of all kinds.
+    pub const DEFAULT: Self = Self {
+        lowest: 0.02,
+        highest: 20.0,
+        moment_weight: 0.03,
+        regularisation: 1e-5,
+    };
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
