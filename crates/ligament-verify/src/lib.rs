@@ -2,8 +2,8 @@
 //!
 //! | Module | Holds |
 //! |--------|-------|
-//! | [`published`] | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
-//! | [`table`], [`entry`], [`printed`] | a table, the verdict on an entry, numbers with their printed digits |
+//! | `published` | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
+//! | [`table`], [`entry`], `printed` | a table, the verdict on an entry, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, a file each |
 //! | [`report`], [`tally`] | console, Markdown, CSV and SVG |

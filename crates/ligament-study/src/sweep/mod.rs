@@ -1,9 +1,9 @@
 //! `ligament sweep`: a base case over all combinations of some of its settings.
 //!
-//! A study file ([`study`]) names the case and axes ([`axis`]); [`plan`] lists the runs and checks the case of each. Runs
+//! A study file ([`study`]) names the case and axes (`axis`); [`plan`] lists the runs and checks the case of each. Runs
 //! are processes of their own (`launch`), in a folder ([`folder`]) that remembers what was computed from which inputs
-//! ([`record`]), so that the same command goes on where it was stopped. At the end there is a [`table`] of all runs, with
-//! [`curves`] and fitted lines ([`crate::line_fit`]).
+//! (`record`), so that the same command goes on where it was stopped. At the end there is a `table` of all runs, with
+//! `curves` and fitted lines (`crate::line_fit`).
 
 mod axis;
 mod curves;

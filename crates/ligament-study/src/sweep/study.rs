@@ -44,7 +44,7 @@ pub struct Study {
 pub struct Derived {
     /// Name of the column.
     pub name: String,
-    /// The result by its name (see [`crate::quantities`]).
+    /// The result by its name (see `crate::quantities`).
     pub of: String,
     /// Divisor of the result.
     #[serde(default = "one")]

@@ -4,9 +4,9 @@
 //! |---|---|
 //! | [`criteria`] | criteria by name with the same limits for all bonds |
 //! | [`subject`] | the families that are compared, and the strains |
-//! | [`request`], [`error`] | what is looked at, and what cannot be |
+//! | `request`, `error` | what is looked at, and what cannot be |
 //! | `of_case`, `point`, `field` | families of a case: what both routes share, one point, all points |
-//! | [`diagrams`], [`console`] | tables, polar diagrams and loci; the terminal |
+//! | `diagrams`, `console` | tables, polar diagrams and loci; the terminal |
 
 use std::io::Write;
 
