@@ -65,13 +65,25 @@ impl Layout {
     /// Point of a degree of freedom.
     #[inline]
     pub fn point(self, degree_of_freedom: usize) -> u32 {
-        degree_of_freedom as u32 / self.components.len() as u32
+        self.point_and_place(degree_of_freedom).0
     }
 
     /// Component of a degree of freedom.
     #[inline]
     pub fn component(self, degree_of_freedom: usize) -> Component {
-        self.components[(degree_of_freedom as u32 % self.components.len() as u32) as usize]
+        self.components[self.point_and_place(degree_of_freedom).1 as usize]
+    }
+
+    /// Point of a degree of freedom, and the place of its component there.
+    #[inline]
+    fn point_and_place(self, degree_of_freedom: usize) -> (u32, u32) {
+        let dof = degree_of_freedom as u32;
+        // Divisions by a number that the compiler knows cost a tenth, and stand in loops over all unknowns.
+        match self.components.len() as u32 {
+            2 => (dof / 2, dof % 2),
+            3 => (dof / 3, dof % 3),
+            count => (dof / count, dof % count),
+        }
     }
 
     /// Value of a component of a point among those of all degrees of freedom; zero where points do not have it.

@@ -112,7 +112,6 @@ impl Measure {
     #[inline]
     pub fn value(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
         let (stretch, shear) = (deformation.stretch(), deformation.shear());
-        let [xx, yy, xy] = deformation.strain();
         let coefficient = || coefficients.first().copied().unwrap_or(0.0);
         match self {
             Self::Tension => stretch,
@@ -123,8 +122,14 @@ impl Measure {
                 let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
             }
-            Self::MixedModeX => mixed_mode(xx, xy, coefficients),
-            Self::MixedModeY => mixed_mode(yy, xy, coefficients),
+            Self::MixedModeX => {
+                let [xx, _, xy] = deformation.strain();
+                mixed_mode(xx, xy, coefficients)
+            }
+            Self::MixedModeY => {
+                let [_, yy, xy] = deformation.strain();
+                mixed_mode(yy, xy, coefficients)
+            }
         }
     }
 
