@@ -1,26 +1,18 @@
-//! The bonds seen from their points: what a sweep of the domain correction reads, in the order in which it reads it.
-//!
-//! A bond stands here twice, once in the family of either end. That takes more memory than bonds and their incidence, for
-//! the time of the correction, but a sweep is then one pass over memory in its order, without a search for the bonds of a
-//! point, and all sums of a point are the work of one thread.
+//! The sweeps of the domain correction over the families of the points.
 
 use rayon::prelude::*;
 
+use super::members::{self, BLOCK};
 use super::strain_mode::StrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-
-/// Points whose changes of Omega are added up first; fixed, so that the order of summation is fixed too.
-const BLOCK: usize = 1024;
 
 /// Members of a family whose factors are computed at once: square roots and divisions go in pairs through the processor.
 const LANES: usize = 4;
 
 /// The families of all points along the curve; `rank` is the place of a point on it.
 pub(super) struct Families<'a> {
-    bonds: &'a BondSet,
-    cloud: &'a PointCloud,
-    members: Members,
+    members: Members<'a>,
     /// Omega of each member.
     domain_factor: Vec<f64>,
     /// e_A of the continuum along x and y, by rank, J/m^3.
@@ -31,12 +23,9 @@ pub(super) struct Families<'a> {
     before: Vec<[f64; 2]>,
 }
 
-/// Data that sweeps do not change; all but `starts` are arrays over the members of the families, one family after the other.
-struct Members {
-    /// Index of the first member of the family of each rank, and behind the last family the number of all members.
-    starts: Vec<usize>,
-    /// Rank of the other end B.
-    neighbour: Vec<u32>,
+/// Data that sweeps do not change, beside the families themselves; arrays over the members.
+struct Members<'a> {
+    families: members::Members<'a>,
     /// a^2.
     along_x: Vec<f64>,
     /// b^2.
@@ -57,19 +46,17 @@ impl<'a> Families<'a> {
         targets: &[Vec<f64>; 2],
     ) -> Self {
         let members = Members::new(bonds, cloud, density);
-        let domain_factor = vec![1.0; members.neighbour.len()];
+        let domain_factor = vec![1.0; members.energy.len()];
         let at = |point: u32| [0, 1].map(|axis| targets[axis][point as usize]);
         let target: Vec<[f64; 2]> = cloud.curve.iter().map(|&point| at(point)).collect();
         let ratios: Vec<[f64; 2]> = (0..cloud.len())
             .into_par_iter()
             .map(|rank| {
-                let factors = &domain_factor[members.family(rank)];
+                let factors = &domain_factor[members.families.family(rank)];
                 members.energy_ratios(rank, factors, target[rank])
             })
             .collect();
         Self {
-            bonds,
-            cloud,
             members,
             domain_factor,
             target,
@@ -83,7 +70,7 @@ impl<'a> Families<'a> {
         std::mem::swap(&mut self.ratios, &mut self.before);
         let (members, before, target) = (&self.members, &self.before, &self.target);
         let changes: Vec<f64> = (
-            members.blocks(&mut self.domain_factor),
+            members.families.blocks(&mut self.domain_factor),
             self.ratios.par_chunks_mut(BLOCK),
         )
             .into_par_iter()
@@ -92,7 +79,7 @@ impl<'a> Families<'a> {
                 let mut change = [0.0; LANES];
                 for (rank, ratio) in (number * BLOCK..).zip(ratios) {
                     let own;
-                    (own, factors) = factors.split_at_mut(members.family(rank).len());
+                    (own, factors) = factors.split_at_mut(members.families.family(rank).len());
                     members.update(rank, before, own, &mut change);
                     *ratio = members.energy_ratios(rank, own, target[rank]);
                 }
@@ -111,96 +98,30 @@ impl<'a> Families<'a> {
 
     /// Omega of every bond, shape (n_bonds).
     pub(super) fn into_domain_factors(self) -> Vec<f64> {
-        let mut factors = vec![0.0; self.bonds.len()];
-        for (rank, &point) in self.cloud.curve.iter().enumerate() {
-            // The bonds whose first end is the point follow one another, at the end of its family.
-            let family = self.bonds.incidence.at(point);
-            let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
-            let others = family.partition_point(is_second);
-            if let Some(&bond) = family.get(others) {
-                let own = &self.domain_factor[self.members.family(rank)][others..];
-                factors[bond as usize..][..own.len()].copy_from_slice(own);
-            }
-        }
-        factors
+        self.members.families.of_bonds(&self.domain_factor)
     }
 }
 
-impl Members {
+impl<'a> Members<'a> {
     fn new(
-        bonds: &BondSet,
-        cloud: &PointCloud,
+        bonds: &'a BondSet,
+        cloud: &'a PointCloud,
         density: impl Fn(StrainMode, usize) -> f64 + Sync,
     ) -> Self {
-        let mut ranks = vec![0; cloud.len()];
-        let mut starts = vec![0];
-        let mut size = 0;
-        for (rank, &point) in cloud.curve.iter().enumerate() {
-            ranks[point as usize] = rank as u32;
-            size += bonds.incidence.at(point).len();
-            starts.push(size);
+        let families = members::Members::new(bonds, cloud);
+        let along =
+            |axis: usize| families.values(|_, bond| bonds.direction[bond as usize][axis].powi(2));
+        let energy = families.values(|point, bond| {
+            let quarter = 0.25 * cloud.volumes[bonds.neighbour(bond, point) as usize];
+            [StrainMode::UniaxialX, StrainMode::UniaxialY]
+                .map(|mode| quarter * density(mode, bond as usize))
+        });
+        Self {
+            along_x: along(0),
+            along_y: along(1),
+            energy,
+            families,
         }
-        let mut members = Self {
-            starts,
-            neighbour: Vec::new(),
-            along_x: Vec::new(),
-            along_y: Vec::new(),
-            energy: Vec::new(),
-        };
-        let mut neighbour = vec![0; size];
-        let mut along_x = vec![0.0; size];
-        let mut along_y = vec![0.0; size];
-        let mut energy = vec![[0.0; 2]; size];
-        (
-            cloud.curve.par_chunks(BLOCK),
-            members.blocks(&mut neighbour),
-            members.blocks(&mut along_x),
-            members.blocks(&mut along_y),
-            members.blocks(&mut energy),
-        )
-            .into_par_iter()
-            .for_each(|(points, neighbour, along_x, along_y, energy)| {
-                let of_point =
-                    |&point: &u32| bonds.incidence.at(point).iter().map(move |&b| (point, b));
-                for (k, (point, bond)) in points.iter().flat_map(of_point).enumerate() {
-                    let other = bonds.neighbour(bond, point) as usize;
-                    let bond = bond as usize;
-                    let [a, b] = bonds.direction[bond];
-                    let quarter = 0.25 * cloud.volumes[other];
-                    neighbour[k] = ranks[other];
-                    along_x[k] = a * a;
-                    along_y[k] = b * b;
-                    energy[k] = [StrainMode::UniaxialX, StrainMode::UniaxialY]
-                        .map(|mode| quarter * density(mode, bond));
-                }
-            });
-        members.neighbour = neighbour;
-        members.along_x = along_x;
-        members.along_y = along_y;
-        members.energy = energy;
-        members
-    }
-
-    /// Members of the family of a rank.
-    fn family(&self, rank: usize) -> std::ops::Range<usize> {
-        self.starts[rank]..self.starts[rank + 1]
-    }
-
-    /// An array over the members, cut into those of the points of each block.
-    fn blocks<'a, T>(&self, mut values: &'a mut [T]) -> Vec<&'a mut [T]> {
-        let starts = self.starts.iter().step_by(BLOCK).skip(1);
-        let mut cut = 0;
-        let mut blocks = Vec::new();
-        for &start in starts {
-            let block;
-            (block, values) = values.split_at_mut(start - cut);
-            cut = start;
-            blocks.push(block);
-        }
-        if !(self.starts.len() - 1).is_multiple_of(BLOCK) {
-            blocks.push(values);
-        }
-        blocks
     }
 
     /// NHPD eq. 13 for the `factors` Omega of a family, from the ratios of all points; adds |change of Omega|.
@@ -211,8 +132,8 @@ impl Members {
         factors: &mut [f64],
         change: &mut [f64; LANES],
     ) {
-        let (family, own) = (self.family(rank), ratios[rank]);
-        let (neighbours, last_neighbours) = self.neighbour[family.clone()].as_chunks();
+        let (family, own) = (self.families.family(rank), ratios[rank]);
+        let (neighbours, last_neighbours) = self.families.neighbour[family.clone()].as_chunks();
         let (along_x, last_along_x) = self.along_x[family.clone()].as_chunks();
         let (along_y, last_along_y) = self.along_y[family].as_chunks();
         let (factors, last_factors) = factors.as_chunks_mut();
@@ -232,7 +153,7 @@ impl Members {
 
     /// e_A/etil_A along x and y of a point, with the trial energy density of NHPD eq. 12.
     fn energy_ratios(&self, rank: usize, factors: &[f64], target: [f64; 2]) -> [f64; 2] {
-        let members = self.energy[self.family(rank)].iter().zip(factors);
+        let members = self.energy[self.families.family(rank)].iter().zip(factors);
         let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
             [x + omega * density[0], y + omega * density[1]]
         });

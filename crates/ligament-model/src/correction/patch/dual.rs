@@ -15,8 +15,8 @@
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use rayon::prelude::*;
 
-use super::members::{BLOCK, Members};
 use super::settings::Settings;
+use crate::correction::members::{BLOCK, Members};
 
 /// Linear equations in two factors a bond, N a point. Points go by their ranks, bonds by the members of families.
 pub(super) trait Equations<const N: usize>: Sync {

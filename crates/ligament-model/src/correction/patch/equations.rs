@@ -2,8 +2,8 @@
 
 use super::dual::Equations;
 use super::forces::Points;
-use super::members::Members;
 use crate::bonds::BondSet;
+use crate::correction::members::Members;
 use crate::law::BondStiffness;
 
 /// The equations of all points: 6 of forces, and with those of moments N = 9 a point.

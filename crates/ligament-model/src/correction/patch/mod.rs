@@ -20,7 +20,6 @@
 mod dual;
 mod equations;
 mod forces;
-mod members;
 mod settings;
 
 pub use dual::Report;

@@ -1,4 +1,8 @@
-//! The families of the points one after the other along the curve: what sweeps read, in the order in which they read it.
+//! The bonds seen from their points: what sweeps over families read, in the order in which they read it.
+//!
+//! A bond stands here twice, once in the family of either end. That takes more memory than bonds and their incidence, for the time
+//! of a correction, but a sweep is then one pass over memory in its order, without a search for the bonds of a point, and all sums of
+//! a point are the work of one thread.
 
 use rayon::prelude::*;
 
@@ -86,7 +90,7 @@ impl<'a> Members<'a> {
     }
 
     /// An array over the members, cut into those of the points of each block.
-    fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
+    pub(super) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let mut blocks = Vec::new();
         for first in (0..self.n_points()).step_by(BLOCK) {
             let last = (first + BLOCK).min(self.n_points());
@@ -101,9 +105,13 @@ impl<'a> Members<'a> {
     pub(super) fn of_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut of_bonds = vec![T::default(); self.bonds.len()];
         for (rank, &point) in self.cloud.curve.iter().enumerate() {
-            let family = self.family(rank);
-            for (&bond, &value) in self.bonds.incidence.at(point).iter().zip(&values[family]) {
-                of_bonds[bond as usize] = value;
+            // The bonds whose first end is the point follow one another, at the end of its family.
+            let family = self.bonds.incidence.at(point);
+            let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
+            let others = family.partition_point(is_second);
+            if let Some(&bond) = family.get(others) {
+                let own = &values[self.family(rank)][others..];
+                of_bonds[bond as usize..][..own.len()].copy_from_slice(own);
             }
         }
         of_bonds
