@@ -41,14 +41,19 @@ pub fn next_to_break(
     criteria: &Criteria,
     intact: &[bool],
 ) -> Vec<u32> {
-    let mut ranked: Vec<Candidate> = (0..deformations.len())
-        .into_par_iter()
-        .with_min_len(TASK)
-        .filter(|&bond| intact[bond])
-        .filter_map(|bond| Some((bond, criteria.breaking(bond, &deformations[bond])?)))
-        .filter(|(_, verdict)| verdict.measure * (1.0 + 2.0 * rule.tie_tolerance) >= verdict.limit)
-        .map(|(bond, verdict)| Candidate::new(rule.order, bond as u32, &verdict))
-        .collect();
+    let near = 1.0 + 2.0 * rule.tie_tolerance;
+    let of_tasks = judge(
+        deformations,
+        criteria,
+        intact,
+        Vec::new,
+        |near_limit, bond, verdict| {
+            if verdict.measure * near >= verdict.limit {
+                near_limit.push(Candidate::new(rule.order, bond, &verdict));
+            }
+        },
+    );
+    let mut ranked = of_tasks.concat();
     ranked.sort_unstable_by(|one, other| {
         other
             .rank
@@ -92,21 +97,81 @@ pub fn first_to_break(
     criteria: &Criteria,
     intact: &[bool],
 ) -> FirstToBreak {
-    let bonds = || (0..deformations.len()).into_par_iter().with_min_len(TASK);
-    let ratio_of = |bond: usize| {
-        let verdict = criteria.breaking(bond, &deformations[bond]);
-        verdict.filter(|_| intact[bond]).map(|it| it.ratio())
-    };
-    let ratio = bonds().filter_map(ratio_of).reduce(|| 0.0, f64::max);
-    let lowest_tied = ratio - tie_tolerance * ratio;
-    let is_tied =
-        |bond: &usize| ratio > 0.0 && ratio_of(*bond).is_some_and(|own| own >= lowest_tied);
+    let start = || Leaders::new(tie_tolerance);
+    let of_tasks = judge(
+        deformations,
+        criteria,
+        intact,
+        start,
+        |leaders, bond, verdict| {
+            leaders.meet(bond, verdict.ratio());
+        },
+    );
+    let mut leaders = start();
+    for (bond, ratio) in of_tasks.into_iter().flat_map(|it| it.met) {
+        leaders.meet(bond, ratio);
+    }
+    let tied = leaders.met.iter().filter(|it| it.1 >= leaders.lowest_tied);
     FirstToBreak {
-        ratio,
-        bonds: bonds().filter(is_tied).map(|bond| bond as u32).collect(),
+        bonds: tied.map(|it| it.0).collect(),
+        ratio: leaders.ratio,
     }
 }
 
+/// What tasks gather from the verdicts on their intact bonds, in the order of the bonds.
+fn judge<T: Send>(
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+    start: impl Fn() -> T + Sync,
+    gather: impl Fn(&mut T, u32, Verdict) + Sync,
+) -> Vec<T> {
+    (deformations.par_chunks(TASK).zip(intact.par_chunks(TASK)))
+        .enumerate()
+        .map(|(task, (deformations, intact))| {
+            let mut gathered = start();
+            for ((bond, deformation), intact) in (task * TASK..).zip(deformations).zip(intact) {
+                if *intact && let Some(verdict) = criteria.breaking(bond, deformation) {
+                    gather(&mut gathered, bond as u32, verdict);
+                }
+            }
+            gathered
+        })
+        .collect()
+}
+
+/// The bonds met so far that were tied with the largest ratio of their time or led it: none of the others can be tied at the end.
+struct Leaders {
+    tie_tolerance: f64,
+    ratio: f64,
+    lowest_tied: f64,
+    /// Bonds with their ratios, in the order of their numbers.
+    met: Vec<(u32, f64)>,
+}
+
+impl Leaders {
+    fn new(tie_tolerance: f64) -> Self {
+        Self {
+            tie_tolerance,
+            ratio: 0.0,
+            lowest_tied: 0.0,
+            met: Vec::new(),
+        }
+    }
+
+    #[inline]
+    fn meet(&mut self, bond: u32, ratio: f64) {
+        if ratio > 0.0 && ratio >= self.lowest_tied {
+            if ratio > self.ratio {
+                self.ratio = ratio;
+                self.lowest_tied = ratio - self.tie_tolerance * ratio;
+            }
+            self.met.push((bond, ratio));
+        }
+    }
+}
+
+#[derive(Clone)]
 struct Candidate {
     bond: u32,
     rank: f64,

@@ -89,6 +89,20 @@ fn keys_that_a_law_or_a_correction_does_not_leave_open_are_refused() {
         "18:8: correction.rule: `rule` does not apply with surface = \"volume\": only the domain correction is \
          iterated; remove it"
     );
+    assert_eq!(
+        error_with("[correction]", "[correction]\nsmallest_factor = 0.1"),
+        "17:19: correction.smallest_factor: `smallest_factor` does not apply with surface = \"domain\": only the patch correction \
+         has it; remove it"
+    );
+    assert_eq!(
+        error_with("[correction]", "[correction]\nsurface = \"patch\""),
+        "18:8: correction.rule: `rule` does not apply with surface = \"patch\": only the domain correction is iterated; remove it"
+    );
+    let cracked = "surface = \"patch\"\ndomain = \"cracked\"";
+    assert_eq!(
+        error_with("rule = \"sum\"", cracked),
+        "18:10: correction.domain: the cells of the body know nothing of its pre-cracks: take \"whole\""
+    );
     let beam = TEXT
         .replace("law = \"nhpd\"", "law = \"mppd-beam\"")
         .replace("rule = \"sum\"", "surface = \"volume\"");

@@ -10,13 +10,14 @@ use super::source::Source;
 use crate::temperature_table;
 
 /// What a setup calls by the names of its types, and the words of a case for it.
-const WORDS: [(&str, &str); 10] = [
+const WORDS: [(&str, &str); 11] = [
     (" or `Law::MbbPd`", " or \"mbb-pd\""),
     ("`Law::MbbPd`", "model.law = \"mbb-pd\""),
     ("`Law::Orthotropic`", "model.law = \"orthotropic\""),
     ("`LatticeBody`", "[lattice] in the place of [mesh]"),
     ("`Alpha::None`", "\"none\""),
     ("`Surface::None`", "\"none\""),
+    ("`CorrectionDomain::Whole`", "\"whole\""),
     (
         "`Calibration::Integral`",
         "model.calibration = \"integral\"",

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::members::{self, BLOCK};
+use super::members::{BLOCK, Members};
 use super::strain_mode::StrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
@@ -12,7 +12,7 @@ const LANES: usize = 4;
 
 /// The families of all points along the curve; `rank` is the place of a point on it.
 pub(super) struct Families<'a> {
-    members: Members<'a>,
+    coefficients: Coefficients<'a>,
     /// Omega of each member.
     domain_factor: Vec<f64>,
     /// e_A of the continuum along x and y, by rank, J/m^3.
@@ -23,9 +23,9 @@ pub(super) struct Families<'a> {
     before: Vec<[f64; 2]>,
 }
 
-/// Data that sweeps do not change, beside the families themselves; arrays over the members.
-struct Members<'a> {
-    families: members::Members<'a>,
+/// What a sweep multiplies the factors with: the members of the families, and arrays over them.
+struct Coefficients<'a> {
+    members: Members<'a>,
     /// a^2.
     along_x: Vec<f64>,
     /// b^2.
@@ -45,19 +45,19 @@ impl<'a> Families<'a> {
         density: impl Fn(StrainMode, usize) -> f64 + Sync,
         targets: &[Vec<f64>; 2],
     ) -> Self {
-        let members = Members::new(bonds, cloud, density);
-        let domain_factor = vec![1.0; members.energy.len()];
+        let coefficients = Coefficients::new(bonds, cloud, density);
+        let domain_factor = vec![1.0; coefficients.energy.len()];
         let at = |point: u32| [0, 1].map(|axis| targets[axis][point as usize]);
         let target: Vec<[f64; 2]> = cloud.curve.iter().map(|&point| at(point)).collect();
         let ratios: Vec<[f64; 2]> = (0..cloud.len())
             .into_par_iter()
             .map(|rank| {
-                let factors = &domain_factor[members.families.family(rank)];
-                members.energy_ratios(rank, factors, target[rank])
+                let factors = &domain_factor[coefficients.members.family(rank)];
+                coefficients.energy_ratios(rank, factors, target[rank])
             })
             .collect();
         Self {
-            members,
+            coefficients,
             domain_factor,
             target,
             before: ratios.clone(),
@@ -68,9 +68,9 @@ impl<'a> Families<'a> {
     /// One sweep of NHPD eq. 13; the sum over the bonds of |change of Omega|.
     pub(super) fn sweep(&mut self) -> f64 {
         std::mem::swap(&mut self.ratios, &mut self.before);
-        let (members, before, target) = (&self.members, &self.before, &self.target);
+        let (coefficients, before, target) = (&self.coefficients, &self.before, &self.target);
         let changes: Vec<f64> = (
-            members.families.blocks(&mut self.domain_factor),
+            coefficients.members.blocks(&mut self.domain_factor),
             self.ratios.par_chunks_mut(BLOCK),
         )
             .into_par_iter()
@@ -79,9 +79,9 @@ impl<'a> Families<'a> {
                 let mut change = [0.0; LANES];
                 for (rank, ratio) in (number * BLOCK..).zip(ratios) {
                     let own;
-                    (own, factors) = factors.split_at_mut(members.families.family(rank).len());
-                    members.update(rank, before, own, &mut change);
-                    *ratio = members.energy_ratios(rank, own, target[rank]);
+                    (own, factors) = factors.split_at_mut(coefficients.members.family(rank).len());
+                    coefficients.update(rank, before, own, &mut change);
+                    *ratio = coefficients.energy_ratios(rank, own, target[rank]);
                 }
                 change.iter().sum()
             })
@@ -98,20 +98,20 @@ impl<'a> Families<'a> {
 
     /// Omega of every bond, shape (n_bonds).
     pub(super) fn into_domain_factors(self) -> Vec<f64> {
-        self.members.families.of_bonds(&self.domain_factor)
+        self.coefficients.members.of_bonds(&self.domain_factor)
     }
 }
 
-impl<'a> Members<'a> {
+impl<'a> Coefficients<'a> {
     fn new(
         bonds: &'a BondSet,
         cloud: &'a PointCloud,
         density: impl Fn(StrainMode, usize) -> f64 + Sync,
     ) -> Self {
-        let families = members::Members::new(bonds, cloud);
+        let members = Members::new(bonds, cloud);
         let along =
-            |axis: usize| families.values(|_, bond| bonds.direction[bond as usize][axis].powi(2));
-        let energy = families.values(|point, bond| {
+            |axis: usize| members.values(|_, bond| bonds.direction[bond as usize][axis].powi(2));
+        let energy = members.values(|point, bond| {
             let quarter = 0.25 * cloud.volumes[bonds.neighbour(bond, point) as usize];
             [StrainMode::UniaxialX, StrainMode::UniaxialY]
                 .map(|mode| quarter * density(mode, bond as usize))
@@ -120,7 +120,7 @@ impl<'a> Members<'a> {
             along_x: along(0),
             along_y: along(1),
             energy,
-            families,
+            members,
         }
     }
 
@@ -132,8 +132,8 @@ impl<'a> Members<'a> {
         factors: &mut [f64],
         change: &mut [f64; LANES],
     ) {
-        let (family, own) = (self.families.family(rank), ratios[rank]);
-        let (neighbours, last_neighbours) = self.families.neighbour[family.clone()].as_chunks();
+        let (family, own) = (self.members.family(rank), ratios[rank]);
+        let (neighbours, last_neighbours) = self.members.neighbour[family.clone()].as_chunks();
         let (along_x, last_along_x) = self.along_x[family.clone()].as_chunks();
         let (along_y, last_along_y) = self.along_y[family].as_chunks();
         let (factors, last_factors) = factors.as_chunks_mut();
@@ -153,7 +153,7 @@ impl<'a> Members<'a> {
 
     /// e_A/etil_A along x and y of a point, with the trial energy density of NHPD eq. 12.
     fn energy_ratios(&self, rank: usize, factors: &[f64], target: [f64; 2]) -> [f64; 2] {
-        let members = self.energy[self.families.family(rank)].iter().zip(factors);
+        let members = self.energy[self.members.family(rank)].iter().zip(factors);
         let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
             [x + omega * density[0], y + omega * density[1]]
         });

@@ -112,13 +112,16 @@ impl Criteria {
     pub fn breaking(&self, bond: usize, deformation: &BondDeformation) -> Option<Verdict> {
         let mut worst: Option<Verdict> = None;
         for (criterion, it) in self.list.iter().enumerate() {
-            let verdict = Verdict {
-                criterion,
-                measure: it.measure(bond, deformation),
-                limit: it.break_limit(bond),
-            };
-            if verdict.measure > 0.0 && worst.is_none_or(|worst| verdict.ratio() > worst.ratio()) {
-                worst = Some(verdict);
+            let measure = it.measure(bond, deformation);
+            if measure > 0.0 {
+                let verdict = Verdict {
+                    criterion,
+                    measure,
+                    limit: it.break_limit(bond),
+                };
+                if worst.is_none_or(|worst| verdict.ratio() > worst.ratio()) {
+                    worst = Some(verdict);
+                }
             }
         }
         worst

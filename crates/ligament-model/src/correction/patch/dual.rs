@@ -60,6 +60,12 @@ const MOST_STEPS: usize = 60;
 /// Share of a Newton step below which none is tried: the value is then as low as rounding lets it be.
 const SHORTEST: f64 = 1e-6;
 
+/// Share of the slope by which a Newton step must lower the value (Armijo's rule with its usual constant).
+const SUFFICIENT: f64 = 1e-4;
+
+/// Rounding of the value, a sum over all bonds: some hundred times the precision of a number.
+const ROUNDING: f64 = 1e-13;
+
 /// Products for the direction of a Newton step at most.
 const MOST_PRODUCTS: usize = 400;
 
@@ -92,7 +98,7 @@ struct Dual<'a, E, const N: usize> {
     /// z_0.
     offset: f64,
     /// mu_k.
-    center: Multipliers<N>,
+    centre: Multipliers<N>,
     /// r/d^2.
     regularisation: Multipliers<N>,
 }
@@ -118,14 +124,14 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(
         lowest: settings.lowest,
         span: settings.highest - settings.lowest,
         offset: ((1.0 - settings.lowest) / (settings.highest - 1.0)).ln(),
-        center: vec![[0.0; N]; equations.members().n_points()],
+        centre: vec![[0.0; N]; equations.members().n_points()],
         regularisation: Vec::new(),
     };
     let (mut steps, mut products) = (0, 0);
     let mut r = FIRST_REGULARISATION.max(settings.regularisation);
     loop {
         dual.regularise(r);
-        let mut place = dual.place(dual.center.clone());
+        let mut place = dual.place(dual.centre.clone());
         let mut gradient = dual.gradient(&place);
         let first = dual.root_mean_square(&gradient);
         for _ in 0..MOST_STEPS {
@@ -143,7 +149,7 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(
             place = dual.lower(place, &gradient, &direction);
             gradient = dual.gradient(&place);
         }
-        dual.center = place.mu;
+        dual.centre = place.mu;
         if r <= settings.regularisation {
             break;
         }
@@ -159,6 +165,7 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
                 if scale > 0.0 {
                     r / (scale * scale)
                 } else {
+                    // An equation without terms: any positive number keeps its multiplier at zero.
                     1.0
                 }
             })
@@ -236,7 +243,7 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
             add(&mut mu, direction, length);
             let place = self.place(mu);
             // Near the end values differ by their rounding only.
-            let enough = 1e-4 * length * slope + 1e-13 * from.value.abs();
+            let enough = SUFFICIENT * length * slope + ROUNDING * from.value.abs();
             if place.value <= from.value + enough || length < SHORTEST {
                 return place;
             }
@@ -250,10 +257,10 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
             .mu
             .as_flattened()
             .iter()
-            .zip(self.center.as_flattened());
+            .zip(self.centre.as_flattened());
         let mu = mu.zip(self.regularisation.as_flattened());
-        for (gradient, ((mu, center), r)) in gradient.as_flattened_mut().iter_mut().zip(mu) {
-            *gradient += r * (mu - center);
+        for (gradient, ((mu, centre), r)) in gradient.as_flattened_mut().iter_mut().zip(mu) {
+            *gradient += r * (mu - centre);
         }
         gradient
     }
@@ -271,10 +278,10 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
             .map(|(z, start)| z.iter().zip(start).map(of_member).sum())
             .collect();
         let right = self.equations.right().as_flattened();
-        let mu = mu.as_flattened().iter().zip(self.center.as_flattened());
+        let mu = mu.as_flattened().iter().zip(self.centre.as_flattened());
         let of_equations = mu.zip(self.regularisation.as_flattened()).zip(right);
         let of_equations: f64 = of_equations
-            .map(|(((mu, center), r), right)| 0.5 * r * (mu - center).powi(2) - right * mu)
+            .map(|(((mu, centre), r), right)| 0.5 * r * (mu - centre).powi(2) - right * mu)
             .sum();
         // Every bond stands in two families.
         0.5 * of_members.iter().sum::<f64>() + of_equations
@@ -283,7 +290,7 @@ impl<const N: usize, E: Equations<N>> Dual<'_, E, N> {
     /// The factors at the centre, and what they leave.
     fn factors(&self, steps: usize, products: usize) -> Factors {
         let (members, start) = (self.equations.members(), self.equations.start());
-        let z = self.exponents(&self.center);
+        let z = self.exponents(&self.centre);
         let left = self.left(&z);
         let residual: Vec<f64> = (left.iter().enumerate())
             .map(|(rank, left)| {

@@ -30,11 +30,11 @@ pub(super) struct PlaneEquations<'a, const N: usize> {
 struct Action {
     /// n, from the point to the other.
     direction: [f64; 2],
-    /// w k_n.
+    /// w k_n, N.
     axial: f64,
-    /// w k_t.
+    /// w k_t, N.
     shear: f64,
-    /// l/2.
+    /// l/2, m.
     lever: f64,
 }
 
