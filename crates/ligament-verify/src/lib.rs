@@ -177,8 +177,8 @@ mod tests {
 
     #[test]
     fn an_entry_that_fails_fails_the_verification() {
-        assert_eq!(conclude(&Tally::from([5, 4, 3, 2, 1, 0])), Ok(()));
-        let error = conclude(&Tally::from([5, 4, 3, 2, 1, 2])).unwrap_err();
+        assert_eq!(conclude(&Tally::from([5, 4, 3, 2, 1, 1, 0])), Ok(()));
+        let error = conclude(&Tally::from([5, 4, 3, 2, 1, 0, 2])).unwrap_err();
         assert_eq!(
             error,
             VerifyError::EntriesFail {

@@ -17,6 +17,7 @@ use ligament_model::uniform_strain::{self, UniformStrains};
 use ligament_model::{BondSystem, Elasticity, Plane};
 use thiserror::Error;
 
+use crate::body::Origin;
 use crate::error::SetupError;
 use crate::formulation::{cell_forces, effective_elasticity};
 use crate::loading::material_of_cell;
@@ -92,7 +93,7 @@ pub fn patch_test(model: &Model) -> Result<PatchTest, Untested> {
 
 fn of_whole_body(model: &Model) -> Result<PatchTest, Untested> {
     let Model { setup, system, .. } = model;
-    if setup.body.n_cells() == 0 {
+    if matches!(setup.body.origin(), Origin::Points) {
         return Err(Untested::NoCells);
     }
     let mut forces = cell_forces(setup, &system.cloud, &material_of_cell(setup)?);

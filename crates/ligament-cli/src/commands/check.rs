@@ -24,7 +24,7 @@ pub struct CheckArgs {
     /// Prepare points, bonds and their correction only, and leave the matrix out
     #[arg(long)]
     pub model_only: bool,
-    /// Solve for Young's modulus and Poisson's ratio of the body also where it has more than 100000 points
+    /// Solve for Young's modulus and Poisson's ratio of the body also where it has more than 20000 points
     #[arg(long, conflicts_with = "model_only")]
     pub patch_test: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
