@@ -18,7 +18,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     title: "Stress concentration at a round hole",
     source: "closed form for a strip of finite width (Howland 1930; Peterson): K_t = 3.03 of the stress on the whole section at d/W = 0.1",
     setup: "Plate 100 x 200 mm with a hole of 10 mm, pulled along its length by tractions on its ends, on Delaunay meshes that are 1, 0.5 and \
-            0.25 mm wide at the hole, and a tenth of the distance from it wider outside (1,495, 2,343 and 3,754 points). E = 15 GPa, \
+            0.25 mm wide at the hole, and a tenth of the distance from it wider outside (1,494, 2,342 and 3,753 points). E = 15 GPa, \
             nu = 0.3, plane stress, NHPD, no bonds across the hole. Hoop stresses at the rim, from the strain between neighbours there \
             times E, from the virial stress of the points and from the traction, are fitted by a + b cos(2 theta): K_t is a + b over the \
             stress at the ends, the scatter the root mean square of what the fit leaves over a + b.",
