@@ -20,6 +20,9 @@
 mod dual;
 mod equations;
 mod forces;
+mod newton;
+mod pairs;
+mod plane;
 mod settings;
 
 pub use dual::Report;
@@ -29,7 +32,7 @@ pub use settings::Settings;
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::law::BondStiffness;
-use equations::PlaneEquations;
+use plane::PlaneEquations;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
 /// more, q_t/q_n.
@@ -42,7 +45,7 @@ pub fn correct(
 ) -> Correction {
     let weight = settings.moment_weight;
     let factors = if points.turn {
-        let equations = PlaneEquations::<9>::new(bonds, points, stiffness, &alpha, weight);
+        let equations = PlaneEquations::<8>::new(bonds, points, stiffness, &alpha, weight);
         dual::minimise(&equations, settings)
     } else {
         let equations = PlaneEquations::<6>::new(bonds, points, stiffness, &alpha, weight);
