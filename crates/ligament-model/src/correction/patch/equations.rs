@@ -37,6 +37,20 @@ pub(super) trait Equations<const N: usize>: Sync {
         terms
     }
 
+    /// Terms of a pair at its other end, for what a function makes of G^T mu; `own` has the multipliers of its point with their signs.
+    #[inline(always)]
+    fn terms(
+        &self,
+        pair: usize,
+        own: [f64; N],
+        mu: &[[f64; N]],
+        products: &mut impl FnMut(usize, [f64; 2]) -> [f64; 2],
+    ) -> [f64; N] {
+        let other = mu[self.pairs().other[pair] as usize];
+        let sum = std::array::from_fn(|k| other[k] + own[k]);
+        self.forces(pair, products(pair, self.strains(pair, &sum)))
+    }
+
     /// Adds to the sums of a block of points G times what a function makes of G^T mu, pair by pair; both are over the stiffness.
     #[inline(always)]
     fn add(
@@ -49,21 +63,16 @@ pub(super) trait Equations<const N: usize>: Sync {
         let pairs = self.pairs();
         let ranks = pairs.ranks(block);
         let first = ranks.start;
-        let mut terms = |pair: usize, own: [f64; N]| {
-            let other = mu[pairs.other[pair] as usize];
-            let sum = std::array::from_fn(|k| other[k] + own[k]);
-            self.forces(pair, products(pair, self.strains(pair, &sum)))
-        };
         for rank in ranks {
             let own = Self::at_own(mu[rank]);
             let mut own_sum = sums[rank - first];
             for pair in pairs.inner(rank) {
-                let terms = terms(pair, own);
+                let terms = self.terms(pair, own, mu, &mut products);
                 add(&mut own_sum, Self::at_own(terms));
                 add(&mut sums[pairs.other[pair] as usize - first], terms);
             }
             for pair in pairs.outer(rank) {
-                add(&mut own_sum, Self::at_own(terms(pair, own)));
+                add(&mut own_sum, Self::at_own(self.terms(pair, own, mu, &mut products)));
             }
             sums[rank - first] = own_sum;
         }
