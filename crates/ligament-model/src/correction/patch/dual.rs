@@ -125,11 +125,7 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(
 
 impl<const N: usize> Place<N> {
     /// The right-hand side of a Newton step, with the opposite sign.
-    fn gradient(
-        &self,
-        regularisation: &Multipliers<N>,
-        centre: &Multipliers<N>,
-    ) -> Multipliers<N> {
+    fn gradient(&self, regularisation: &Multipliers<N>, centre: &Multipliers<N>) -> Multipliers<N> {
         let mut gradient = self.unbalanced.clone();
         let away = (self.mu.as_flattened().iter()).zip(centre.as_flattened());
         let terms = away.zip(regularisation.as_flattened());

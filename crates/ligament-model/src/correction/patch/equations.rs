@@ -72,7 +72,10 @@ pub(super) trait Equations<const N: usize>: Sync {
                 add(&mut sums[pairs.other[pair] as usize - first], terms);
             }
             for pair in pairs.outer(rank) {
-                add(&mut own_sum, Self::at_own(self.terms(pair, own, mu, &mut products)));
+                add(
+                    &mut own_sum,
+                    Self::at_own(self.terms(pair, own, mu, &mut products)),
+                );
             }
             sums[rank - first] = own_sum;
         }

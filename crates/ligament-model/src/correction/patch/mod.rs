@@ -12,7 +12,15 @@
 //!
 //! forces of the bonds = f_P(eps), moments of the bonds = 0.
 //!
-//! These equations G q = f are fewer than the factors: the factors are those nearest to the uncorrected ones (`dual.rs`).
+//! These equations G q = f are fewer than the factors: the factors are those nearest to the uncorrected ones.
+//!
+//! | file | of the correction |
+//! |---|---|
+//! | `forces.rs` | f of meshes and lattices |
+//! | `equations.rs`, `plane.rs` | G, as sums over the bonds; its rows in the plane |
+//! | `pairs.rs` | the order in which sums go over the bonds |
+//! | `dual.rs` | the way to the factors by Newton steps |
+//! | `newton.rs` | the direction of such a step |
 //!
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
 //! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.

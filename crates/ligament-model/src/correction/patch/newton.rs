@@ -55,7 +55,11 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             }
             for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| self.equations.forces(pair, it));
-                add_squares(&mut sums[rank - first], rows.map(E::at_own), self.slopes[pair]);
+                add_squares(
+                    &mut sums[rank - first],
+                    rows.map(E::at_own),
+                    self.slopes[pair],
+                );
                 if pairs.inner(rank).contains(&pair) {
                     let other = pairs.other[pair] as usize;
                     add_squares(&mut sums[other - first], rows, self.slopes[pair]);
@@ -66,17 +70,17 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
 
     /// The solution with the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of
     /// products that it took.
-    pub(super) fn solve(
-        &self,
-        gradient: Multipliers<N>,
-        accuracy: f64,
-    ) -> (Multipliers<N>, usize) {
+    pub(super) fn solve(&self, gradient: Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
         let zeros = vec![[0.0; N]; gradient.len()];
         let mut left = gradient;
         left.as_flattened_mut().iter_mut().for_each(|it| *it = -*it);
         let (mut step, mut solved) = (zeros.clone(), zeros.clone());
         let (mut direction, mut product) = (zeros.clone(), zeros);
-        let mut size = self.go(0.0, [&direction, &product], [&mut step, &mut left, &mut solved]);
+        let mut size = self.go(
+            0.0,
+            [&direction, &product],
+            [&mut step, &mut left, &mut solved],
+        );
         let target = accuracy * accuracy * size;
         let mut share = 0.0;
         for done in 1..=MOST_PRODUCTS {

@@ -8,7 +8,6 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 pub(super) use crate::correction::members::BLOCK;
 
-
 /// The bonds seen from their points: once where both ends are in a block, from the one that comes first on the curve, and twice, from
 /// either end, where they are not. `rank` is the place of a point on the curve.
 pub(super) struct Pairs<'a> {

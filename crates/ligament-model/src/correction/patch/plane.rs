@@ -35,7 +35,7 @@ pub(super) struct PlaneEquations<'a, const N: usize> {
     stiffness: Vec<[f64; 2]>,
     /// Uncorrected factors alpha c_0 of the pairs.
     start: Vec<f64>,
-    /// Scales of the forces and the moments, by rank.
+    /// Scales of the forces and the moments, by rank: one over the norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
     /// f, by rank.
     right: Vec<[f64; N]>,
@@ -72,77 +72,67 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
     ) -> Self {
         let Points { cloud, forces, .. } = points;
         let pairs = Pairs::new(bonds, cloud);
-        let places = pairs.values(|point, bond| {
-            let bond = bond as usize;
-            let sign = if bonds.ends[bond][0] == point {
-                1.0
-            } else {
-                -1.0
-            };
-            Place {
-                direction: bonds.direction[bond].map(|cosine| sign * cosine),
-                lever: -0.5 * ROOT * bonds.length[bond],
-            }
-        });
         let body_factor = body_factor(bonds, points, stiffness, alpha);
-        let right = |&point: &u32| {
-            let [xx, yy, xy] = forces[point as usize];
-            let first: [f64; 2] = std::array::from_fn(|axis| ROOT * (xx[axis] + yy[axis]));
-            let second: [f64; 2] = std::array::from_fn(|axis| ROOT * (xx[axis] - yy[axis]));
-            let both = [
-                first,
-                [ROOT * (second[0] + xy[1]), ROOT * (xy[0] - second[1])],
-                [ROOT * (second[0] - xy[1]), ROOT * (xy[0] + second[1])],
-            ];
-            let both = both.as_flattened();
-            std::array::from_fn(|row| both.get(row).copied().unwrap_or(0.0))
+        let of_bond = |bond: usize| {
+            let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
+            [stiffness.axial[bond], stiffness.shear[bond]].map(|density| a * b * density)
         };
-        let mut equations = Self {
-            places,
-            stiffness: pairs.values(|_, bond| {
-                let bond = bond as usize;
-                let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
-                [stiffness.axial[bond], stiffness.shear[bond]].map(|density| a * b * density)
-            }),
-            start: pairs.values(|_, bond| body_factor * alpha[bond as usize]),
-            right: cloud.curve.iter().map(right).collect(),
-            scale: Vec::new(),
-            pairs,
+        let place = |point: u32, bond: u32| {
+            let [first, _] = bonds.ends[bond as usize];
+            let sign = if first == point { 1.0 } else { -1.0 };
+            Place {
+                direction: bonds.direction[bond as usize].map(|cosine| sign * cosine),
+                lever: lever(bonds.length[bond as usize]),
+            }
         };
-        equations.scale = equations.scales(moment_weight);
-        equations
-    }
-
-    /// One over the norm of the rows of each point's forces and moments, with the weights q_0.
-    fn scales(&self, moment_weight: f64) -> Vec<[f64; 2]> {
-        let mut squares = vec![[0.0; 2]; self.pairs.n_points()];
-        for rank in 0..squares.len() {
-            for pair in self.pairs.inner(rank).chain(self.pairs.outer(rank)) {
-                let [axial, shear] = self.stiffness[pair].map(|it| it * it * self.start[pair]);
-                let moment = if N > 6 {
-                    shear * self.places[pair].lever.powi(2)
-                } else {
-                    0.0
-                };
-                let other = self.pairs.other[pair] as usize;
-                let is_inner = self.pairs.inner(rank).contains(&pair);
-                for end in [Some(rank), is_inner.then_some(other)].into_iter().flatten() {
-                    squares[end][0] += axial + 0.5 * shear;
-                    squares[end][1] += moment;
-                }
+        let mut squares = vec![[0.0; 2]; cloud.len()];
+        for (bond, ends) in bonds.ends.iter().enumerate() {
+            let [axial, shear] = of_bond(bond).map(|it| body_factor * alpha[bond] * it * it);
+            for &end in ends {
+                let [force, moment] = &mut squares[end as usize];
+                *force += axial + 0.5 * shear;
+                *moment += shear * lever(bonds.length[bond]).powi(2);
             }
         }
-        let scale = |square: f64| {
-            if square > 0.0 {
-                1.0 / square.sqrt()
-            } else {
-                0.0
-            }
+        let scale = |&point: &u32| {
+            let [force, moment] = squares[point as usize].map(|square: f64| {
+                if square > 0.0 {
+                    1.0 / square.sqrt()
+                } else {
+                    0.0
+                }
+            });
+            [force, moment_weight * moment]
         };
-        (squares.iter())
-            .map(|&[force, moment]| [scale(force), moment_weight * scale(moment)])
-            .collect()
+        let right = |&point: &u32| combined(&forces[point as usize]);
+        Self {
+            places: pairs.values(place),
+            stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
+            start: pairs.values(|_, bond| body_factor * alpha[bond as usize]),
+            scale: cloud.curve.iter().map(scale).collect(),
+            right: cloud.curve.iter().map(right).collect(),
+            pairs,
+        }
     }
+}
+
+/// -l/sqrt 8.
+fn lever(length: f64) -> f64 {
+    -0.5 * ROOT * length
+}
+
+/// The combinations of the forces on a point in the strains eps_xx, eps_yy and eps_xy; no moments.
+fn combined<const N: usize>(&[xx, yy, xy]: &[[f64; 2]; 3]) -> [f64; N] {
+    let first = [0, 1].map(|axis| ROOT * (xx[axis] + yy[axis]));
+    let second = [0, 1].map(|axis| ROOT * (xx[axis] - yy[axis]));
+    let combinations = [
+        first,
+        [ROOT * (second[0] + xy[1]), ROOT * (xy[0] - second[1])],
+        [ROOT * (second[0] - xy[1]), ROOT * (xy[0] + second[1])],
+    ];
+    let mut all = [0.0; N];
+    all[..6].copy_from_slice(combinations.as_flattened());
+    all
 }
 
 /// c_0: makes the energy of the bonds of the body that of its cells, in the mean over the strains.
@@ -192,21 +182,6 @@ impl<const N: usize> Equations<N> for PlaneEquations<'_, N> {
     }
 
     #[inline(always)]
-    fn strains(&self, pair: usize, d: &[f64; N]) -> [f64; 2] {
-        let place = &self.places[pair];
-        let [[a, b], [a2, b2], [a3, b3]] = place.waves();
-        let first = ROOT * (a * d[0] + b * d[1]);
-        let second = 0.5 * (a * d[2] + b * d[3]);
-        let third = 0.5 * (a3 * d[4] + b3 * d[5]);
-        let turn = if N > 6 {
-            place.lever * (a2 * d[7] - b2 * d[6])
-        } else {
-            0.0
-        };
-        [first + second + third, second - third + turn]
-    }
-
-    #[inline(always)]
     fn forces(&self, pair: usize, [axial, shear]: [f64; 2]) -> [f64; N] {
         let place = &self.places[pair];
         let [[a, b], [a2, b2], [a3, b3]] = place.waves();
@@ -223,5 +198,20 @@ impl<const N: usize> Equations<N> for PlaneEquations<'_, N> {
             turn * a2,
         ];
         std::array::from_fn(|row| all[row])
+    }
+
+    #[inline(always)]
+    fn strains(&self, pair: usize, sum: &[f64; N]) -> [f64; 2] {
+        let place = &self.places[pair];
+        let [[a, b], [a2, b2], [a3, b3]] = place.waves();
+        let first = ROOT * (a * sum[0] + b * sum[1]);
+        let second = 0.5 * (a * sum[2] + b * sum[3]);
+        let third = 0.5 * (a3 * sum[4] + b3 * sum[5]);
+        let turn = if N > 6 {
+            place.lever * (a2 * sum[7] - b2 * sum[6])
+        } else {
+            0.0
+        };
+        [first + second + third, second - third + turn]
     }
 }
