@@ -286,7 +286,7 @@ outside = { centre = [0.0, 0.0], radius = 2.2 }
     let cells = (-30..30).flat_map(|j| (-30..30).map(move |i| (i, j)));
     let cells: Vec<(i32, i32)> = cells.filter(|&(i, j)| is_in(i, j)).collect();
     assert_eq!(bench.points(), cells.len());
-    assert!(bench.model.across_holes() == 0, "a disk is convex");
+    assert!(bench.model.across_voids() == 0, "a disk is convex");
     let normals = normals(&bench, 1.0);
     let mut faces = 0;
     for (point, &(i, j)) in cells.iter().enumerate() {

@@ -56,6 +56,7 @@ impl Model {
         watcher.found(&Finding::Bonds {
             points: cloud.len(),
             bonds: bonds.len(),
+            across_voids: absent.len(),
         });
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
@@ -105,9 +106,9 @@ impl Model {
         })
     }
 
-    /// Number of pairs of points that would be bonded but for a hole or another void between them.
-    pub fn across_holes(&self) -> usize {
-        self.absent(Absence::Hole)
+    /// Number of pairs of points that would be bonded but for a void of the body between them.
+    pub fn across_voids(&self) -> usize {
+        self.absent(Absence::Void)
     }
 
     /// Number of bonds that pre-cracks cut.
@@ -164,7 +165,7 @@ fn bond_system(
     BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
 }
 
-/// The bonds without those across holes and other voids of the body, and those.
+/// The bonds inside the body, and those that its voids part.
 fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, Vec<AbsentBond>) {
     let (holes, cells) = (setup.body.holes(), setup.body.cells());
     let crosses = if !holes.is_empty() {
@@ -178,7 +179,7 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
         return (bonds, Vec::new());
     }
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
-    let absent = absent_bonds(&bonds, &crosses, Absence::Hole);
+    let absent = absent_bonds(&bonds, &crosses, Absence::Void);
     (bonds.retained(&keep), absent)
 }
 

@@ -16,6 +16,7 @@ pub mod bbpd;
 pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
+mod interface;
 pub mod mbb_pd;
 pub mod mppd;
 pub mod orthotropic;
@@ -63,24 +64,23 @@ struct BondGeometry {
 }
 
 impl BondStiffness {
-    /// Densities from `constants` of the materials (n_materials): a point at an interface has the volume-weighted mean of its
-    /// materials' constants, a bond the mean of its two ends'.
+    /// Densities from `constants` of the materials (n_materials), the first of which tells how stiff they are: a bond has those of
+    /// its materials ([`interface::of_bond`]).
     fn from_constants<const N: usize>(
         bonds: &BondSet,
         cloud: &PointCloud,
         constants: &[[f64; N]],
         densities: impl Fn(&[f64; N], &BondGeometry) -> Densities + Sync,
     ) -> Self {
-        let of_point = |point: usize| {
-            let shares = cloud.shares(point).iter().zip(constants);
-            shares.fold([0.0; N], |mut sum, (share, constants)| {
-                for (value, constant) in sum.iter_mut().zip(constants) {
+        let axial: Vec<f64> = constants.iter().map(|it| it[0]).collect();
+        let of_bond = |ends| {
+            interface::of_bond(cloud, ends, &axial).fold([0.0; N], |mut sum, (material, share)| {
+                for (value, constant) in sum.iter_mut().zip(&constants[material]) {
                     *value += share * constant;
                 }
                 sum
             })
         };
-        let at_points: Vec<[f64; N]> = (0..cloud.len()).into_par_iter().map(of_point).collect();
         let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
         (
             (&bonds.ends, &bonds.length, &bonds.horizon, &bonds.direction).into_par_iter(),
@@ -88,15 +88,13 @@ impl BondStiffness {
         )
             .into_par_iter()
             .for_each(
-                |((ends, &length, &horizon, &direction), (axial, shear, rotational))| {
-                    let [a, b] = ends.map(|end| &at_points[end as usize]);
-                    let mean = std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+                |((&ends, &length, &horizon, &direction), (axial, shear, rotational))| {
                     let bond = BondGeometry {
                         length,
                         horizon,
                         direction,
                     };
-                    let of_bond = densities(&mean, &bond);
+                    let of_bond = densities(&of_bond(ends), &bond);
                     (*axial, *shear, *rotational) =
                         (of_bond.axial, of_bond.shear, of_bond.rotational);
                 },
