@@ -199,10 +199,11 @@ fn threads_do_not_change_a_bit_of_the_model() {
 /// Bonds have limits where they may break.
 const BREAKING: &str = "fracture = { steps = 1 }\n";
 
-/// Two materials: a point at the interface has a share of each by volume, a bond the mean of its ends' densities, and the
-/// smaller critical energy of what its ends consist of.
+/// Two materials: a point at the interface has a share of each by volume. A bond within a half has the densities of that half, one
+/// along the interface the mean by the shares of its ends, one across it those of both halves in series; and every bond has the smaller
+/// critical energy of what its ends consist of. Nothing but the axial density is compared: it says how stiff a material is.
 #[test]
-fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
+fn bonds_between_materials_are_springs_in_series_of_the_smaller_strength() {
     let bench = Bench::new(&format!("{BREAKING}{BAR}{TWO}"), &[]);
     let alone = |young: f64, poisson: f64, strength: f64| {
         let material = format!(
@@ -249,7 +250,13 @@ fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         // Share of the left material, mean of the ends.
         let share = 0.5 * (cloud.shares(ends[0] as usize)[0] + cloud.shares(ends[1] as usize)[0]);
-        let expected = share * density(&left, bond) + (1.0 - share) * density(&right, bond);
+        let [of_left, of_right] = [&left, &right].map(|bench| density(bench, bond));
+        let expected = match ends.map(side) {
+            [0, 0] => share * of_left + (1.0 - share) * of_right,
+            [a, b] if a * b < 0 => 2.0 * of_left * of_right / (of_left + of_right),
+            [a, b] if a + b < 0 => of_left,
+            _ => of_right,
+        };
         assert!(relative_error(density(&bench, bond), expected) < 1e-12);
         let candidates = [(&left, share > 0.0), (&right, share < 1.0)];
         let weakest = (candidates.iter().filter(|(_, present)| *present))
@@ -305,4 +312,38 @@ fn equal_materials_are_one() {
     assert!(largest(numbers) < 1e-11);
     let different = Bench::new(&format!("{BAR}{TWO}"), &[]).solve();
     assert!(deviation(different.displacement(), b.displacement()) > 0.1);
+}
+
+/// A ring keeps its hole: every pair within a horizon whose straight line comes nearer to the middle than the polygon of the inner
+/// outline is no bond, unless it is asked for, and all others are. The polygon is nearer than its corners by r (1 - cos(half its angle)).
+#[test]
+fn no_bond_runs_through_a_void() {
+    let text = r#"
+mesh = { file = "../meshes/annulus-coarse.msh", thickness = 0.05 }
+material = { young = 65.8e9, poisson = 0.2 }
+model = { law = "nhpd", horizon_factor = 4.0 }
+load = [{ group = "inside", pressure = 1.0 }]
+"#;
+    let inside = Bench::new(text, &[]).model;
+    let across = Bench::new(text, &["model.bonds_through_voids=true"]).model;
+    assert_eq!(across.across_voids(), 0);
+    let places = &across.system.cloud.positions;
+    let nearest = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| places[end as usize]);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let square = along[0].powi(2) + along[1].powi(2);
+        let foot = (-(a[0] * along[0] + a[1] * along[1]) / square).clamp(0.0, 1.0);
+        (a[0] + foot * along[0]).hypot(a[1] + foot * along[1])
+    };
+    let on_rim = places.iter().filter(|p| p[0].hypot(p[1]) < 0.1 + 1e-6);
+    let inner = 0.1 * (std::f64::consts::PI / on_rim.count() as f64).cos();
+    let kept: Vec<[u32; 2]> = inside.system.bonds.ends.clone();
+    assert!(kept.iter().all(|ends| nearest(ends) > inner - 1e-9));
+    let lost: Vec<[u32; 2]> = (across.system.bonds.ends.iter().copied())
+        .filter(|ends| !kept.contains(ends))
+        .collect();
+    assert_eq!(lost.len(), inside.across_voids());
+    assert!(lost.len() > 50, "{} pairs", lost.len());
+    assert!(lost.iter().all(|ends| nearest(ends) < 0.1 - 1e-9));
+    assert_eq!(lost.len() + kept.len(), across.system.bonds.len());
 }

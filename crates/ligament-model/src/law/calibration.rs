@@ -48,6 +48,7 @@ pub fn calibrated(
         mut shear,
         mut rotational,
         strain,
+        series,
     } = stiffness;
     let factors = cloud.over_points(|point| {
         let mut sums = [0.0; 2];
@@ -81,5 +82,6 @@ pub fn calibrated(
         shear,
         rotational,
         strain,
+        series,
     }
 }

@@ -4,6 +4,7 @@
 //! it. Two halves in series show whether the rule is right: with the mean of both ends' materials, as homogeneous laws suggest, a soft half
 //! beside a stiff one is held by bonds that are half as stiff as the stiff ones, whatever its own stiffness.
 
+use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
 /// The materials that a bond is made of, by number, with shares that sum to one.
@@ -37,6 +38,27 @@ pub(super) fn of_bond<'a>(
         }
     };
     (0..first.len()).map(move |material| (material, share(material)))
+}
+
+/// 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of the
+/// materials; shape (n_bonds), empty where no bond crosses an interface.
+///
+/// Half of such a bond in either material, as springs in series, is so much stiffer than all of it in the softer.
+pub(super) fn series_factors(bonds: &BondSet, cloud: &PointCloud, stiffness: &[f64]) -> Vec<f64> {
+    let of_bond = |ends: &[u32; 2]| {
+        let ends = ends.map(|end| end as usize);
+        let [first, second] = ends.map(|end| cloud.shares(end));
+        if first.iter().zip(second).any(|(a, b)| *a > 0.0 && *b > 0.0) {
+            return 1.0;
+        }
+        let [first, second] = ends.map(|end| cloud.mean_property(end, stiffness));
+        2.0 / (1.0 + first.min(second) / first.max(second))
+    };
+    let factors: Vec<f64> = bonds.ends.iter().map(of_bond).collect();
+    if factors.iter().all(|&factor| factor == 1.0) {
+        return Vec::new();
+    }
+    factors
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ pub mod rows;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-use super::{BondStiffness, interface};
+use super::{BondStiffness, bulk_stiffness, interface};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::{StrainStiffness, entries};
@@ -34,8 +34,8 @@ pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
         .collect()
 }
 
-/// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and `shear` have those for a
-/// stretch along the bond and for S_xy.
+/// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and
+/// `shear` have those for a stretch along the bond and for S_xy.
 pub fn stiffness(
     bonds: &BondSet,
     cloud: &PointCloud,
@@ -67,6 +67,7 @@ fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffne
         shear: matrices.iter().map(|(matrix, _)| matrix[(2, 2)]).collect(),
         rotational: vec![0.0; bonds.len()],
         strain: matrices.iter().map(strain).collect(),
+        series: Vec::new(),
     }
 }
 
@@ -80,9 +81,9 @@ fn plane_stiffnesses(
     let of_materials: Vec<Matrix3<f64>> = (elasticity.iter())
         .map(|material| material.plane_stiffness(plane))
         .collect();
-    let traces: Vec<f64> = of_materials.iter().map(Matrix3::trace).collect();
+    let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
     let of_bond = |&ends: &[u32; 2]| {
-        let materials = interface::of_bond(cloud, ends, &traces);
+        let materials = interface::of_bond(cloud, ends, &bulk);
         materials.fold(Matrix3::zeros(), |sum, (material, share)| {
             sum + share * of_materials[material]
         })
