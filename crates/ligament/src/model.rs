@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::outline::bonds_outside;
+use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
@@ -135,7 +135,15 @@ impl Model {
 /// The points of the body, with the index of the material of each cell (n_cells).
 fn points(setup: &Setup, material_of_cell: &[u32]) -> PointCloud {
     let n_materials = setup.materials.len();
-    (setup.body).cloud(setup.thickness(), material_of_cell, n_materials)
+    let (body, thickness) = (&setup.body, setup.thickness());
+    let cloud = body.cloud(thickness, material_of_cell, n_materials);
+    if setup.bonds_through_voids || body.cells().is_empty() {
+        return cloud;
+    }
+    PointCloud {
+        spacing: spacing_inside(body.cells(), &cloud),
+        ..cloud
+    }
 }
 
 /// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch an end of one, and the share of its bonds that
