@@ -4,7 +4,8 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_mesh::Mesh;
+use ligament::prelude::*;
+use ligament_mesh::{Cell, Mesh};
 use ligament_model::BondSet;
 use ligament_model::Horizons;
 use ligament_model::PointCloud;
@@ -312,6 +313,103 @@ fn equal_materials_are_one() {
     assert!(largest(numbers) < 1e-11);
     let different = Bench::new(&format!("{BAR}{TWO}"), &[]).solve();
     assert!(deviation(different.displacement(), b.displacement()) > 0.1);
+}
+
+/// Two bodies that lie on each other are none: their outlines cross.
+#[test]
+fn bodies_on_top_of_each_other_are_refused() {
+    let mut mesh = meshes::lattice(4, 0.25, [0.0; 2]);
+    let other = meshes::lattice(4, 0.25, [0.1, 0.3]);
+    let first = mesh.positions.len() as u32;
+    let moved = other.cells.iter().map(|cell| match *cell {
+        Cell::Triangle(corners) => Cell::Triangle(corners.map(|node| node + first)),
+        Cell::Quadrangle(corners) => Cell::Quadrangle(corners.map(|node| node + first)),
+    });
+    mesh.cells.extend(moved);
+    mesh.positions.extend(other.positions);
+    mesh.node_tags = (1..=mesh.positions.len() as u64).collect();
+    mesh.groups.clear();
+    let setup = Setup::new(
+        MeshBody::from(mesh),
+        Material::isotropic(1.0, 0.2),
+        Law::Nhpd,
+    );
+    let error = Model::build(setup, &mut ()).unwrap_err().to_string();
+    assert!(
+        error.starts_with("body: cells of the mesh overlap"),
+        "{error}"
+    );
+}
+
+/// The faces of a slot of a ten-thousandth of the mesh size keep the horizons of the mesh, and no bond joins them.
+#[test]
+fn a_thin_slot_does_not_shrink_horizons() {
+    let whole = meshes::lattice(8, 0.125, [0.0; 2]);
+    let gap = 0.125e-4;
+    let mut mesh = whole.clone();
+    // Nodes of the middle column above the middle of the body stand twice, those of the cells on their right to the right.
+    let on_slot = |node: u32| {
+        let [x, y] = whole.positions[node as usize];
+        (x - 0.5).abs() < 1e-9 && y > 0.5 + 1e-9
+    };
+    let mut copies = std::collections::BTreeMap::new();
+    for node in (0..whole.positions.len() as u32).filter(|&node| on_slot(node)) {
+        let [x, y] = whole.positions[node as usize];
+        copies.insert(node, mesh.positions.len() as u32);
+        mesh.positions.push([x + gap, y]);
+    }
+    for cell in &mut mesh.cells {
+        let is_right = cell
+            .corners()
+            .iter()
+            .any(|&node| whole.positions[node as usize][0] > 0.5 + 1e-9);
+        let copy = |node: u32| {
+            copies
+                .get(&node)
+                .copied()
+                .filter(|_| is_right)
+                .unwrap_or(node)
+        };
+        *cell = match *cell {
+            Cell::Triangle(corners) => Cell::Triangle(corners.map(copy)),
+            Cell::Quadrangle(corners) => Cell::Quadrangle(corners.map(copy)),
+        };
+    }
+    mesh.node_tags = (1..=mesh.positions.len() as u64).collect();
+    mesh.groups.clear();
+    let setup = |through: bool| {
+        let body = MeshBody::from(mesh.clone());
+        let mut setup = Setup::new(body, Material::isotropic(1.0, 0.2), Law::Nhpd);
+        setup.bonds_through_voids = through;
+        Model::build(setup, &mut ())
+    };
+    let model = setup(false).unwrap();
+    let least = |model: &Model| {
+        model
+            .system
+            .cloud
+            .spacing
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+    };
+    assert!(
+        relative_error(least(&model), 0.125 - gap) < 1e-9,
+        "{}",
+        least(&model)
+    );
+    let across = (model.system.bonds.ends.iter()).filter(|ends| {
+        let of = |node: &u32| copies.contains_key(node) || copies.values().any(|copy| copy == node);
+        let [a, b] = ends.map(|end| mesh.positions[end as usize]);
+        ends.iter().all(of) && (a[0] - b[0]).abs() > 0.5 * gap
+    });
+    assert_eq!(across.count(), 0);
+    assert!(
+        copies.len() == 4 && model.across_voids() > 20,
+        "{}",
+        model.across_voids()
+    );
+    assert!(relative_error(least(&setup(true).unwrap()), gap) < 1e-6);
 }
 
 /// A ring keeps its hole: every pair within a horizon whose straight line comes nearer to the middle than the polygon of the inner

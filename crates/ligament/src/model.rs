@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
+use ligament_model::bonds::outline::{bonds_outside, first_crossing, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
@@ -48,6 +48,7 @@ impl Model {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell));
+        forbid_overlap(&*setup.body, &cloud)?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
@@ -202,6 +203,17 @@ fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<Ab
             absence,
         })
         .collect()
+}
+
+/// The error of cells that lie on others.
+fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
+    let Some([from, to]) = first_crossing(body.cells(), cloud) else {
+        return Ok(());
+    };
+    Err(Field::whole("body").error(Fault::Overlap {
+        from: body.place(from),
+        to: body.place(to),
+    }))
 }
 
 /// The error of points that have no neighbour at all: no correction gives them a stiffness.

@@ -7,8 +7,8 @@
 
 use ligament_mesh::Cell;
 use rayon::prelude::*;
-use rstar::RTree;
 use rstar::primitives::{GeomWithData, Line};
+use rstar::{RTree, RTreeObject};
 
 use super::{BondSet, Incidence};
 use crate::cloud::mesh::shortest_sides;
@@ -50,6 +50,20 @@ pub fn bonds_outside(cells: &[Cell], bonds: &BondSet, cloud: &PointCloud) -> Vec
         outside[bond] = true;
     }
     outside
+}
+
+/// The nodes of an edge of the outline that another edge crosses, the first of them all; none where cells do not overlap.
+pub fn first_crossing(cells: &[Cell], cloud: &PointCloud) -> Option<[u32; 2]> {
+    let outline = Outline::new(cells, cloud);
+    let line = |edge: [u32; 2]| edge.map(|node| cloud.positions[node as usize]);
+    let is_crossed = |edge: &&GeomWithData<Line<[f64; 2]>, [u32; 2]>| {
+        let mut near = outline
+            .edges
+            .locate_in_envelope_intersecting(edge.envelope());
+        near.any(|other| crosses(line(edge.data), line(other.data), 0.0))
+    };
+    let crossed = outline.edges.iter().filter(is_crossed);
+    crossed.map(|edge| edge.data).min()
 }
 
 /// Distance of each node of the mesh of `cells` to the nearest other one that it sees within them, shape (n_points), m.

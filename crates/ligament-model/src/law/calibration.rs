@@ -47,8 +47,7 @@ pub fn calibrated(
         mut axial,
         mut shear,
         mut rotational,
-        strain,
-        series,
+        ..
     } = stiffness;
     let factors = cloud.over_points(|point| {
         let mut sums = [0.0; 2];
@@ -81,7 +80,6 @@ pub fn calibrated(
         axial,
         shear,
         rotational,
-        strain,
-        series,
+        ..stiffness
     }
 }
