@@ -108,5 +108,6 @@ experiments!(
     softening,
     plates,
     cylinder,
-    cracks
+    cracks,
+    patch_test
 );

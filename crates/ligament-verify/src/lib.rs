@@ -30,6 +30,7 @@ mod griffith;
 mod lamina;
 mod moduli;
 mod named_modes;
+mod patch_test;
 mod plates;
 mod poisson;
 mod printed;
@@ -52,7 +53,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 14] = [
+pub static EXPERIMENTS: [Experiment; 15] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -67,6 +68,7 @@ pub static EXPERIMENTS: [Experiment; 14] = [
     plates::EXPERIMENT,
     cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
+    patch_test::EXPERIMENT,
 ];
 
 /// A request to `ligament verify`: the experiments, and where to write.
@@ -175,8 +177,8 @@ mod tests {
 
     #[test]
     fn an_entry_that_fails_fails_the_verification() {
-        assert_eq!(conclude(&Tally::from([5, 4, 3, 2, 1, 0])), Ok(()));
-        let error = conclude(&Tally::from([5, 4, 3, 2, 1, 2])).unwrap_err();
+        assert_eq!(conclude(&Tally::from([5, 4, 3, 2, 1, 1, 0])), Ok(()));
+        let error = conclude(&Tally::from([5, 4, 3, 2, 1, 0, 2])).unwrap_err();
         assert_eq!(
             error,
             VerifyError::EntriesFail {
