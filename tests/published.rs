@@ -109,5 +109,9 @@ experiments!(
     plates,
     cylinder,
     cracks,
-    patch_test
+    patch_test,
+    bars,
+    ring,
+    hole,
+    disk_modes
 );

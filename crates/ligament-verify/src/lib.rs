@@ -20,13 +20,16 @@ use ligament_output::folder::ResultFolder;
 use ligament::suggestion::hint;
 
 mod anisotropy;
+mod bars;
 mod cracks;
 mod cylinder;
 mod disk;
+mod disk_modes;
 pub mod entry;
 mod experiment;
 mod frequencies;
 mod griffith;
+mod hole;
 mod lamina;
 mod moduli;
 mod named_modes;
@@ -36,6 +39,7 @@ mod poisson;
 mod printed;
 mod published;
 pub mod report;
+mod ring;
 mod softening;
 mod statics;
 pub mod table;
@@ -53,7 +57,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 15] = [
+pub static EXPERIMENTS: [Experiment; 19] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -69,6 +73,10 @@ pub static EXPERIMENTS: [Experiment; 15] = [
     cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
     patch_test::EXPERIMENT,
+    bars::EXPERIMENT,
+    ring::EXPERIMENT,
+    hole::EXPERIMENT,
+    disk_modes::EXPERIMENT,
 ];
 
 /// A request to `ligament verify`: the experiments, and where to write.
