@@ -108,5 +108,10 @@ experiments!(
     softening,
     plates,
     cylinder,
-    cracks
+    cracks,
+    patch_test,
+    bars,
+    ring,
+    hole,
+    disk_modes
 );

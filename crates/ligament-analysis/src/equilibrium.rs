@@ -5,6 +5,7 @@ mod equations;
 mod newton;
 mod secant;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::balanced::{Attempt, Stability};
@@ -14,6 +15,7 @@ use crate::connectivity::decremental::Connectivity;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
+use crate::load_program::LoadProgram;
 use crate::problem::Problem;
 use crate::solver::SolverChoice;
 use crate::state::State;
@@ -59,6 +61,11 @@ impl Equilibrium {
         if self.equations.problem.criteria.soften() {
             self.iteration = Iteration::Secants;
         }
+    }
+
+    /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
+    pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
+        self.equations.problem.loads = loads;
     }
 
     /// The unknowns.

@@ -38,6 +38,7 @@ pub mod stress;
 pub mod sweep;
 pub mod system;
 pub mod thermal;
+pub mod uniform_strain;
 pub mod yielding;
 
 pub use bonds::{BondSet, Incidence};

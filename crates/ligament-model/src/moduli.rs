@@ -60,11 +60,22 @@ impl EngineeringConstants {
     /// The constants that belong to a stiffness (3, 3), Pa: reciprocals of the entries of its inverse. None where the
     /// stiffness has no inverse.
     pub fn from_stiffness(stiffness: Matrix3<f64>) -> Option<Self> {
+        Self::along(stiffness, 0.0)
+    }
+
+    /// The constants that belong to a stiffness (3, 3), Pa, along axes at an angle (rad) to x and y, which take their places.
+    pub fn along(stiffness: Matrix3<f64>, angle: f64) -> Option<Self> {
         let compliance = stiffness.try_inverse()?;
+        let (s, c) = angle.sin_cos();
+        // Stresses of size one along the axes, and strains there from those in x and y.
+        let one = Vector3::new(c * c, s * s, c * s);
+        let two = Vector3::new(s * s, c * c, -c * s);
+        let shear = Vector3::new(-2.0 * c * s, 2.0 * c * s, c * c - s * s);
+        let strain = |along: Vector3<f64>, under: Vector3<f64>| along.dot(&(compliance * under));
         Some(Self {
-            young: [1.0 / compliance[(0, 0)], 1.0 / compliance[(1, 1)]],
-            poisson: -compliance[(0, 1)] / compliance[(0, 0)],
-            shear_modulus: 1.0 / compliance[(2, 2)],
+            young: [1.0 / strain(one, one), 1.0 / strain(two, two)],
+            poisson: -strain(two, one) / strain(one, one),
+            shear_modulus: 1.0 / strain(shear, shear),
         })
     }
 }

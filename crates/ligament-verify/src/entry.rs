@@ -41,6 +41,13 @@ pub enum Standing {
         /// The knowledge about the value.
         reason: String,
     },
+    /// The value is to be trusted, and the method does not come near enough to it.
+    Missed {
+        /// What the method gives, and is compared with where it misses the value.
+        instead: Printed,
+        /// The reason why it misses it.
+        reason: String,
+    },
 }
 
 /// The outcome of comparing an entry with what was computed.
@@ -54,6 +61,8 @@ pub enum Verdict {
     Misprint,
     /// The known value is not met, and the computed one is that of an independent calculation.
     NotReproduced,
+    /// The known value is right and is not met, for a known reason.
+    Missed,
     /// The entry is shown, not judged.
     Shown,
     /// The computed value should be near the known one, and is not.
@@ -67,9 +76,15 @@ impl Entry {
         match &self.standing {
             _ if !computed.is_finite() => Verdict::Failed,
             Standing::Sound if self.allowed == Allowed::Any => Verdict::Shown,
+            Standing::Missed { instead, .. } if !agrees(&self.known) => match agrees(instead) {
+                true => Verdict::Missed,
+                false => Verdict::Failed,
+            },
             Standing::Sound if !agrees(&self.known) => Verdict::Failed,
-            Standing::Sound if self.known.is_rounded_from(computed) => Verdict::Met,
-            Standing::Sound => Verdict::Within,
+            Standing::Sound | Standing::Missed { .. } if self.known.is_rounded_from(computed) => {
+                Verdict::Met
+            }
+            Standing::Sound | Standing::Missed { .. } => Verdict::Within,
             Standing::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Met,
             Standing::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
             Standing::Open { instead, .. } if agrees(instead) => Verdict::NotReproduced,
@@ -85,14 +100,17 @@ impl Standing {
             Self::Sound => None,
             Self::Truncated { reason }
             | Self::Misprint { reason, .. }
-            | Self::Open { reason, .. } => Some(reason),
+            | Self::Open { reason, .. }
+            | Self::Missed { reason, .. } => Some(reason),
         }
     }
 
     /// What the computed value is compared with instead of the known one.
     pub(super) fn instead(&self) -> Option<&Printed> {
         match self {
-            Self::Misprint { instead, .. } | Self::Open { instead, .. } => Some(instead),
+            Self::Misprint { instead, .. }
+            | Self::Open { instead, .. }
+            | Self::Missed { instead, .. } => Some(instead),
             Self::Sound | Self::Truncated { .. } => None,
         }
     }
@@ -100,11 +118,12 @@ impl Standing {
 
 impl Verdict {
     /// All verdicts, the best first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Met,
         Self::Within,
         Self::Misprint,
         Self::NotReproduced,
+        Self::Missed,
         Self::Shown,
         Self::Failed,
     ];
@@ -116,6 +135,7 @@ impl Verdict {
             Self::Within => "within tolerance",
             Self::Misprint => "misprint",
             Self::NotReproduced => "not reproduced",
+            Self::Missed => "missed",
             Self::Shown => "not judged",
             Self::Failed => "FAILED",
         }
@@ -204,5 +224,18 @@ mod tests {
         );
         let found = verdicts(&open, &[2054.0, 2025.5]);
         assert_eq!(found, [Verdict::NotReproduced, Verdict::Failed]);
+    }
+
+    #[test]
+    fn a_missed_value_must_still_be_missed_by_as_much() {
+        let (instead, reason) = (Printed::parse("0.8").unwrap(), String::from("few bonds"));
+        let missed = entry(
+            "0.0",
+            Allowed::Absolute(0.3),
+            Standing::Missed { instead, reason },
+        );
+        let found = verdicts(&missed, &[0.7, 1.2, 0.2, 0.01]);
+        use Verdict::{Failed, Met, Missed, Within};
+        assert_eq!(found, [Missed, Failed, Within, Met]);
     }
 }

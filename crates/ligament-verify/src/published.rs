@@ -12,8 +12,8 @@
 //! ```
 //!
 //! What stands before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in
-//! the unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint` or
-//! `open`.
+//! the unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`,
+//! `open` or `missed`.
 
 use ligament_output::csv::read::records;
 
@@ -177,10 +177,14 @@ fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing
             instead: number("instead", instead)?,
             reason,
         }),
+        "missed" => Ok(Standing::Missed {
+            instead: number("instead", instead)?,
+            reason,
+        }),
         _ => Err(fault(
             "standing",
             standing,
-            "nothing, truncated, misprint or open",
+            "nothing, truncated, misprint, open or missed",
         )),
     }
 }

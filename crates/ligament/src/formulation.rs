@@ -15,7 +15,7 @@ use ligament_model::{
 
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Alpha, Calibration, Form, Law, MaterialRegion, Setup, Surface};
+use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body.
 #[derive(Debug, Clone, Copy)]
@@ -112,7 +112,7 @@ impl<'a> Formulation<'a> {
             Surface::Patch(settings) => {
                 let points = patch::Points {
                     cloud,
-                    forces: self.cell_forces(),
+                    forces: cell_forces(setup, cloud, self.material_of_cell),
                     turn: setup.law.element() == ElementKind::Beam,
                 };
                 patch::correct(bonds, &points, stiffness, alpha, &settings)
@@ -124,25 +124,25 @@ impl<'a> Formulation<'a> {
             Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
         }
     }
+}
 
-    /// Forces of uniform strains on the points, as the cells of the body know them with the constants that the law makes of theirs.
-    fn cell_forces(&self) -> CellForces {
-        let plane = self.setup.plane();
-        let stiffness = |region: &MaterialRegion| {
-            let of_law = constants(&region.material, &self.setup.law, plane);
-            of_law.map_or_else(
-                || region.material.elasticity.plane_stiffness(plane),
-                |isotropic| isotropic.plane_stiffness(plane),
-            )
-        };
-        let stiffness: Vec<_> = self.setup.materials.iter().map(stiffness).collect();
-        let (cloud, materials) = (self.cloud, self.material_of_cell);
-        match self.setup.body.origin() {
-            Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, materials, &stiffness),
-            Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, materials, &stiffness),
-            Origin::Points => patch::of_mesh(&[], cloud, materials, &stiffness),
-        }
+/// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the constants that the law makes of
+/// those of each cell's material (n_cells).
+pub fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) -> CellForces {
+    let plane = setup.plane();
+    let elasticity = setup.materials.iter();
+    let elasticity = elasticity.map(|it| effective_elasticity(&it.material, &setup.law, plane));
+    let stiffness: Vec<_> = elasticity.map(|it| it.plane_stiffness(plane)).collect();
+    match setup.body.origin() {
+        Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, material_of_cell, &stiffness),
+        Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, material_of_cell, &stiffness),
+        Origin::Points => patch::of_mesh(&[], cloud, material_of_cell, &stiffness),
     }
+}
+
+/// Elasticity of a material with the constants that a law makes of its own.
+pub fn effective_elasticity(material: &Material, law: &Law, plane: Plane) -> Elasticity {
+    constants(material, law, plane).map_or(material.elasticity, Elasticity::Isotropic)
 }
 
 /// Elastic constants that a law makes of a material: Young's modulus with the Poisson's ratio of central forces where the law

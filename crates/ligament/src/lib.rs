@@ -10,7 +10,8 @@
 //! | solve | [`Solution`](run::Solution): history, last state, why it ended; or natural modes | [`run`] |
 //!
 //! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
-//! into stiffness, [`loading`] supports and loads into what acts on the points. What is wrong with a setup is a
+//! into stiffness, [`loading`] supports and loads into what acts on the points, and [`patch_test`] tells how stiff the body has
+//! become. What is wrong with a setup is a
 //! [`SetupError`] that names the field, and what a user should know of a model is a [`Warning`].
 //!
 //! ```
@@ -46,6 +47,7 @@ pub mod error;
 pub mod formulation;
 pub mod loading;
 pub mod model;
+pub mod patch_test;
 pub mod prelude;
 pub mod run;
 pub mod setup;

@@ -29,7 +29,7 @@ pub(super) fn check(
     let problem = loading.problem(&model.system, &model.criteria);
     let equilibrium = match extent {
         Extent::Model => None,
-        Extent::Matrix => Some(stages.time("analysis", || {
+        Extent::Matrix | Extent::PatchTest => Some(stages.time("analysis", || {
             Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)
         })?),
     };

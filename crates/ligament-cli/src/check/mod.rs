@@ -1,4 +1,4 @@
-//! `ligament check`: everything up to the first solve, or the model alone, and what it takes.
+//! `ligament check`: everything up to the first solve with the stiffness of the body, or the model alone, and what it takes.
 
 mod body;
 mod criteria;
@@ -8,6 +8,7 @@ mod extent;
 mod loading;
 mod modal;
 mod model;
+mod patch_test;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -50,6 +51,7 @@ fn check_here(
         }
         _ => loading::check(case, extent, &model, &mut stages, out)?,
     }
+    patch_test::write(out, extent, &model, &mut stages)?;
     write_stages(out, stages.done())?;
     let intact = vec![true; model.system.bonds.len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();

@@ -26,7 +26,9 @@ pub(super) fn check(
     let problem = vibration.problem(&model.system);
     let analysis = match extent {
         Extent::Model => None,
-        Extent::Matrix => Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?),
+        Extent::Matrix | Extent::PatchTest => {
+            Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?)
+        }
     };
     model::write(out, case, model)?;
     writeln!(out, "supports")?;

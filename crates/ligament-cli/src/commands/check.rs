@@ -24,6 +24,9 @@ pub struct CheckArgs {
     /// Prepare points, bonds and their correction only, and leave the matrix out
     #[arg(long)]
     pub model_only: bool,
+    /// Solve for Young's modulus and Poisson's ratio of the body also where it has more than 20000 points
+    #[arg(long, conflicts_with = "model_only")]
+    pub patch_test: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -33,9 +36,10 @@ impl CheckArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let case = self.case.load()?;
-        let extent = match self.model_only {
-            true => Extent::Model,
-            false => Extent::Matrix,
+        let extent = match (self.model_only, self.patch_test) {
+            (true, _) => Extent::Model,
+            (false, false) => Extent::Matrix,
+            (false, true) => Extent::PatchTest,
         };
         check(&case, extent, self.out.as_deref(), &mut io::stdout())
     }

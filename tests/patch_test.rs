@@ -1,0 +1,208 @@
+//! The patch test of a model, and what `ligament check` tells of it.
+//!
+//! E and Poisson's ratio are known: they are those of the material.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::path::Path;
+
+use ligament::patch_test::{PatchTest, Untested, patch_test};
+use ligament::prelude::*;
+use ligament::setup::Surface;
+use ligament_case::case::CaseFile;
+use ligament_cli::check::{Extent, check};
+use ligament_model::correction::patch::Settings;
+use verification::{meshes, repository};
+
+const YOUNG: f64 = 15e9;
+const POISSON: f64 = 0.21;
+
+fn bar() -> Setup {
+    let body = MeshBody::from(meshes::read("meshes/plate-tall.msh"));
+    Setup::new(body, Material::isotropic(YOUNG, POISSON), Law::Nhpd)
+}
+
+fn patched(mut setup: Setup) -> Setup {
+    setup.correction.surface = Surface::Patch(Settings::default());
+    setup
+}
+
+fn tested(setup: Setup) -> PatchTest {
+    patch_test(&Model::build(setup, &mut ()).unwrap()).unwrap()
+}
+
+/// Share of E along x and y that is missing or too much, and what is missing of nu.
+fn errors(test: &PatchTest) -> [f64; 3] {
+    let body = test.constants.unwrap().body;
+    let [x, y] = body.young.map(|young| young / YOUNG - 1.0);
+    [x, y, body.poisson - POISSON]
+}
+
+/// The patch correction was made for it; without it the bar is several per cent too soft, and its bonds strain by a tenth too much or too
+/// little.
+#[test]
+fn the_patch_correction_passes_the_patch_test() {
+    for plane in [Plane::Stress, Plane::Strain] {
+        let mut setup = bar();
+        setup.section = Section::Plane {
+            state: plane,
+            thickness: 0.01,
+        };
+        let without = tested(setup.clone());
+        let with = tested(patched(setup));
+        let [x, y, nu] = errors(&with);
+        assert!(
+            x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
+            "{with:?}"
+        );
+        assert!(with.scatter.iter().all(|it| *it < 3e-3), "{with:?}");
+        let [x, ..] = errors(&without);
+        assert!((-0.08..-0.02).contains(&x), "{without:?}");
+        assert!(without.scatter.iter().all(|it| *it > 0.05), "{without:?}");
+        assert!(without.largest > without.scatter[0], "{without:?}");
+    }
+}
+
+/// The same E comes from pulling the bar: along x by its sides with a force that is spread over them, the mean displacement of which
+/// does the work. Both are solutions of the same equations.
+#[test]
+fn pulling_the_bar_gives_the_same_modulus() {
+    let test = tested(bar());
+    let moved = |pulled: &str, other: &str, sign: f64| {
+        let mut setup = bar();
+        let force = |sign: f64| Action::ForcePerLength([sign, 0.0]);
+        setup.loads = vec![
+            Load::new(pulled, force(sign)),
+            Load::new(other, force(-sign)),
+        ];
+        let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+        history.last().unwrap().displacement
+    };
+    // 1 N/m on sides 0.1 m apart, in a thickness of 1 m.
+    let elongation = moved("right", "left", 1.0) + moved("left", "right", -1.0);
+    let young = 0.1 / elongation;
+    let found = test.constants.unwrap().body.young[0];
+    assert!((found / young - 1.0).abs() < 1e-8, "{found:e}, {young:e}");
+}
+
+/// Constants come along the axes of the material: its four in any direction of these.
+#[test]
+fn an_orthotropic_body_is_read_along_its_axes() {
+    let angle = 0.5;
+    let constants = |angle: f64| {
+        let mut setup = patched(bar());
+        setup.law = Law::Orthotropic {
+            rotational_stiffness: RotationalStiffness::Decaying,
+        };
+        setup.materials[0].material.elasticity =
+            Elasticity::Orthotropic(ligament_model::Orthotropic {
+                young: [15e9, 5e9],
+                poisson: 0.25,
+                shear_modulus: 4.8e9,
+                out_of_plane: None,
+                angle,
+            });
+        tested(setup).constants.unwrap()
+    };
+    for angle in [0.0, angle] {
+        let found = constants(angle);
+        assert_eq!(found.angle, Some(angle));
+        let pairs = [
+            (found.body.young[0], 15e9),
+            (found.body.young[1], 5e9),
+            (found.body.poisson, 0.25),
+            (found.body.shear_modulus, 4.8e9),
+        ];
+        for (found, given) in pairs {
+            // The correction meets its equations to a part in some hundred where the bonds along one axis are soft.
+            assert!(
+                (found / given - 1.0_f64).abs() < 0.01,
+                "{angle}: {found:e}, {given:e}"
+            );
+        }
+    }
+}
+
+/// Square cells are as stiff as their material with the patch correction, also where tractions act half a cell inside the outline of a
+/// body that is longer than high.
+#[test]
+fn a_lattice_has_a_patch_test() {
+    let lattice = LatticeBody::new([40, 20], [0.005; 2], [0.0; 2], &[], &[].into()).unwrap();
+    let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
+    let [x, y, nu] = errors(&tested(patched(setup)));
+    assert!(
+        x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
+        "{x}, {y}, {nu}"
+    );
+}
+
+/// A pre-crack is left out: the body is the same without it.
+#[test]
+fn precracks_are_left_out() {
+    let mut cracked = bar();
+    cracked.precracks = vec![PreCrack {
+        points: vec![[0.02, 0.1], [0.08, 0.1]],
+        ends: Ends::Excluded,
+    }];
+    assert_eq!(tested(cracked), tested(bar()));
+}
+
+#[test]
+fn points_without_cells_have_none() {
+    let points = Points::new(vec![[0.0; 2], [1.0, 0.0]], vec![1.0; 2]).unwrap();
+    let setup = Setup::new(points, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
+    let error = patch_test(&Model::build(setup, &mut ()).unwrap()).unwrap_err();
+    assert!(matches!(error, Untested::NoCells), "{error}");
+}
+
+/// What `ligament check` prints of a case of the repository.
+fn checked(case: &str, settings: &[&str], extent: Extent) -> String {
+    let settings: Vec<String> = settings.iter().map(|it| (*it).to_owned()).collect();
+    let path = repository().join(Path::new(case));
+    let case = CaseFile::load(&path, &settings).unwrap();
+    let mut report = Vec::new();
+    check(&case, extent, None, &mut report).unwrap();
+    String::from_utf8(report).unwrap()
+}
+
+#[test]
+fn the_check_tells_how_stiff_the_body_is() {
+    let case = "cases/verification/patch-test.toml";
+    let report = checked(case, &[], Extent::Matrix);
+    for line in [
+        "Young's modulus       1.5000e10 Pa (+0.00 %) along x, 1.5000e10 Pa (+0.00 %) along y",
+        "Poisson's ratio       0.2099 for 0.2100",
+        "off the mean strain by 0.11, 0.11, 0.04 % rms (along x, along y, in shear), at most ",
+        "time, patch test",
+    ] {
+        assert!(report.contains(line), "{line}\n{report}");
+    }
+    let report = checked(case, &[], Extent::Model);
+    assert!(!report.contains("free body"), "{report}");
+}
+
+#[test]
+fn several_materials_have_no_modulus_but_strains() {
+    let strains = |correction: &str| {
+        let setting = format!("correction.surface={correction:?}");
+        let report = checked(
+            "cases/bimaterial-bar/case.toml",
+            &[&setting],
+            Extent::Matrix,
+        );
+        let none = "E, nu                 none: several materials do not strain uniformly";
+        assert!(report.contains(none), "{report}");
+        let (_, rest) = report.split_once("off the mean strain by ").unwrap();
+        let (first, _) = rest.split_once(',').unwrap();
+        first.parse::<f64>().unwrap()
+    };
+    let (with, without) = (strains("patch"), strains("domain"));
+    assert!(with < 0.5 && without > 5.0, "{with}, {without}");
+}
+
+#[test]
+fn the_check_says_that_large_bodies_are_left_out() {
+    let large = ["lattice.cells=[150, 150]", "model.horizon_factor=1.5"];
+    let report = checked("cases/verification/lattice.toml", &large, Extent::Matrix);
+    let line = "not computed          it takes a factor of the matrix, and the body has more than 20000 points; ask with --patch-test";
+    assert!(report.contains(line), "{report}");
+}
