@@ -4,6 +4,7 @@ DefineConstant[ size = 0.002 ];      // mesh size
 DefineConstant[ platen = 0.003 ];    // half-width of a platen: the rim where |x| <= platen
 DefineConstant[ diameter = 0.1 ];
 DefineConstant[ seed = 0 ];          // 0 to 10: where the rim is cut, for other meshes of the same size
+DefineConstant[ algorithm = 5 ];     // 5: Delaunay, spacings that vary, as a study of non-unified horizons wants; 6: frontal
 
 R = diameter / 2;
 y = Sqrt(R * R - platen * platen);
@@ -39,5 +40,5 @@ Physical Curve("platen-bottom", 4) = {1, 2};
 Physical Curve("rim", 5) = {3, 4, 7, 8};   // the rest of the rim, between the platens
 Physical Surface("disk", 6) = {1};
 
-Mesh.Algorithm = 5;                  // Delaunay: spacings that vary, as a study of non-unified horizons wants
+Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

@@ -4,7 +4,8 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_mesh::Mesh;
+use ligament::prelude::*;
+use ligament_mesh::{Cell, Mesh};
 use ligament_model::BondSet;
 use ligament_model::Horizons;
 use ligament_model::PointCloud;
@@ -199,10 +200,11 @@ fn threads_do_not_change_a_bit_of_the_model() {
 /// Bonds have limits where they may break.
 const BREAKING: &str = "fracture = { steps = 1 }\n";
 
-/// Two materials: a point at the interface has a share of each by volume, a bond the mean of its ends' densities, and the
-/// smaller critical energy of what its ends consist of.
+/// Two materials: a point at the interface has a share of each by volume. A bond within a half has the densities of that half, one
+/// along the interface the mean by the shares of its ends, one across it those of both halves in series; and every bond has the smaller
+/// critical energy of what its ends consist of. Nothing but the axial density is compared: it says how stiff a material is.
 #[test]
-fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
+fn bonds_between_materials_are_springs_in_series_of_the_smaller_strength() {
     let bench = Bench::new(&format!("{BREAKING}{BAR}{TWO}"), &[]);
     let alone = |young: f64, poisson: f64, strength: f64| {
         let material = format!(
@@ -249,7 +251,13 @@ fn bonds_between_materials_take_the_mean_stiffness_and_the_smaller_strength() {
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         // Share of the left material, mean of the ends.
         let share = 0.5 * (cloud.shares(ends[0] as usize)[0] + cloud.shares(ends[1] as usize)[0]);
-        let expected = share * density(&left, bond) + (1.0 - share) * density(&right, bond);
+        let [of_left, of_right] = [&left, &right].map(|bench| density(bench, bond));
+        let expected = match ends.map(side) {
+            [0, 0] => share * of_left + (1.0 - share) * of_right,
+            [a, b] if a * b < 0 => 2.0 * of_left * of_right / (of_left + of_right),
+            [a, b] if a + b < 0 => of_left,
+            _ => of_right,
+        };
         assert!(relative_error(density(&bench, bond), expected) < 1e-12);
         let candidates = [(&left, share > 0.0), (&right, share < 1.0)];
         let weakest = (candidates.iter().filter(|(_, present)| *present))
@@ -305,4 +313,135 @@ fn equal_materials_are_one() {
     assert!(largest(numbers) < 1e-11);
     let different = Bench::new(&format!("{BAR}{TWO}"), &[]).solve();
     assert!(deviation(different.displacement(), b.displacement()) > 0.1);
+}
+
+/// Two bodies that lie on each other are none: their outlines cross.
+#[test]
+fn bodies_on_top_of_each_other_are_refused() {
+    let mut mesh = meshes::lattice(4, 0.25, [0.0; 2]);
+    let other = meshes::lattice(4, 0.25, [0.1, 0.3]);
+    let first = mesh.positions.len() as u32;
+    let moved = other.cells.iter().map(|cell| match *cell {
+        Cell::Triangle(corners) => Cell::Triangle(corners.map(|node| node + first)),
+        Cell::Quadrangle(corners) => Cell::Quadrangle(corners.map(|node| node + first)),
+    });
+    mesh.cells.extend(moved);
+    mesh.positions.extend(other.positions);
+    mesh.node_tags = (1..=mesh.positions.len() as u64).collect();
+    mesh.groups.clear();
+    let setup = Setup::new(
+        MeshBody::from(mesh),
+        Material::isotropic(1.0, 0.2),
+        Law::Nhpd,
+    );
+    let error = Model::build(setup, &mut ()).unwrap_err().to_string();
+    assert!(
+        error.starts_with("body: cells of the mesh overlap"),
+        "{error}"
+    );
+}
+
+/// The faces of a slot of a ten-thousandth of the mesh size keep the horizons of the mesh, and no bond joins them.
+#[test]
+fn a_thin_slot_does_not_shrink_horizons() {
+    let whole = meshes::lattice(8, 0.125, [0.0; 2]);
+    let gap = 0.125e-4;
+    let mut mesh = whole.clone();
+    // Nodes of the middle column above the middle of the body stand twice, those of the cells on their right to the right.
+    let on_slot = |node: u32| {
+        let [x, y] = whole.positions[node as usize];
+        (x - 0.5).abs() < 1e-9 && y > 0.5 + 1e-9
+    };
+    let mut copies = std::collections::BTreeMap::new();
+    for node in (0..whole.positions.len() as u32).filter(|&node| on_slot(node)) {
+        let [x, y] = whole.positions[node as usize];
+        copies.insert(node, mesh.positions.len() as u32);
+        mesh.positions.push([x + gap, y]);
+    }
+    for cell in &mut mesh.cells {
+        let is_right = cell
+            .corners()
+            .iter()
+            .any(|&node| whole.positions[node as usize][0] > 0.5 + 1e-9);
+        let copy = |node: u32| {
+            copies
+                .get(&node)
+                .copied()
+                .filter(|_| is_right)
+                .unwrap_or(node)
+        };
+        *cell = match *cell {
+            Cell::Triangle(corners) => Cell::Triangle(corners.map(copy)),
+            Cell::Quadrangle(corners) => Cell::Quadrangle(corners.map(copy)),
+        };
+    }
+    mesh.node_tags = (1..=mesh.positions.len() as u64).collect();
+    mesh.groups.clear();
+    let setup = |through: bool| {
+        let body = MeshBody::from(mesh.clone());
+        let mut setup = Setup::new(body, Material::isotropic(1.0, 0.2), Law::Nhpd);
+        setup.bonds_through_voids = through;
+        Model::build(setup, &mut ())
+    };
+    let model = setup(false).unwrap();
+    let least = |model: &Model| {
+        model
+            .system
+            .cloud
+            .spacing
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+    };
+    assert!(
+        relative_error(least(&model), 0.125 - gap) < 1e-9,
+        "{}",
+        least(&model)
+    );
+    let across = (model.system.bonds.ends.iter()).filter(|ends| {
+        let of = |node: &u32| copies.contains_key(node) || copies.values().any(|copy| copy == node);
+        let [a, b] = ends.map(|end| mesh.positions[end as usize]);
+        ends.iter().all(of) && (a[0] - b[0]).abs() > 0.5 * gap
+    });
+    assert_eq!(across.count(), 0);
+    assert!(
+        copies.len() == 4 && model.across_voids() > 20,
+        "{}",
+        model.across_voids()
+    );
+    assert!(relative_error(least(&setup(true).unwrap()), gap) < 1e-6);
+}
+
+/// A ring keeps its hole: every pair within a horizon whose straight line comes nearer to the middle than the polygon of the inner
+/// outline is no bond, unless it is asked for, and all others are. The polygon is nearer than its corners by r (1 - cos(half its angle)).
+#[test]
+fn no_bond_runs_through_a_void() {
+    let text = r#"
+mesh = { file = "../meshes/annulus-coarse.msh", thickness = 0.05 }
+material = { young = 65.8e9, poisson = 0.2 }
+model = { law = "nhpd", horizon_factor = 4.0 }
+load = [{ group = "inside", pressure = 1.0 }]
+"#;
+    let inside = Bench::new(text, &[]).model;
+    let across = Bench::new(text, &["model.bonds_through_voids=true"]).model;
+    assert_eq!(across.across_voids(), 0);
+    let places = &across.system.cloud.positions;
+    let nearest = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| places[end as usize]);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let square = along[0].powi(2) + along[1].powi(2);
+        let foot = (-(a[0] * along[0] + a[1] * along[1]) / square).clamp(0.0, 1.0);
+        (a[0] + foot * along[0]).hypot(a[1] + foot * along[1])
+    };
+    let on_rim = places.iter().filter(|p| p[0].hypot(p[1]) < 0.1 + 1e-6);
+    let inner = 0.1 * (std::f64::consts::PI / on_rim.count() as f64).cos();
+    let kept: Vec<[u32; 2]> = inside.system.bonds.ends.clone();
+    assert!(kept.iter().all(|ends| nearest(ends) > inner - 1e-9));
+    let lost: Vec<[u32; 2]> = (across.system.bonds.ends.iter().copied())
+        .filter(|ends| !kept.contains(ends))
+        .collect();
+    assert_eq!(lost.len(), inside.across_voids());
+    assert!(lost.len() > 50, "{} pairs", lost.len());
+    assert!(lost.iter().all(|ends| nearest(ends) < 0.1 - 1e-9));
+    assert_eq!(lost.len() + kept.len(), across.system.bonds.len());
 }

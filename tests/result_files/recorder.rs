@@ -314,7 +314,7 @@ impl<'a> Recorder<'a> {
         let none = || absent.iter().map(|_| f64::NAN);
         let words = absent.iter().map(|it| match it.absence {
             Absence::PreCrack => 1,
-            Absence::Hole => 2,
+            Absence::Void => 2,
         });
         expected.integers(cell("absent"), std::iter::repeat_n(0, n_bonds).chain(words));
         let horizons = system.bonds.horizon.iter().copied();

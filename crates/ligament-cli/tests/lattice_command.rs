@@ -44,7 +44,7 @@ fn check_shows_the_lattice() {
         "  set rock              220 points\n",
         "  set disk              8 points\n",
         "  set tip               6 points\n",
-        "  pairs across holes    134\n",
+        "  pairs across voids    134\n",
         "  horizon               3.0000e-2 to 3.0000e-2 m",
         "warning: the body consists of 2 parts that no bond connects\n",
     ] {

@@ -37,8 +37,8 @@ pub struct AbsentBond {
 pub enum Absence {
     /// A pre-crack cut the bond.
     PreCrack,
-    /// A hole lies between them.
-    Hole,
+    /// The straight line between them leaves the body: a hole, slot or notch lies there.
+    Void,
 }
 
 impl Absence {
@@ -46,13 +46,13 @@ impl Absence {
     pub fn number(self) -> i64 {
         match self {
             Self::PreCrack => 1,
-            Self::Hole => 2,
+            Self::Void => 2,
         }
     }
 
     /// The reason that a number in a file stands for; None for a bond.
     pub fn from_number(number: i64) -> Option<Self> {
-        [Self::PreCrack, Self::Hole]
+        [Self::PreCrack, Self::Void]
             .into_iter()
             .find(|absence| absence.number() == number)
     }

@@ -121,7 +121,8 @@ impl BondSystem {
             mut shear,
             mut rotational,
             strain,
-        } = stiffness;
+            series: _,
+        } = stiffness.in_series();
         (
             (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
             (&mut weight, &mut axial, &mut shear, &mut rotational).into_par_iter(),

@@ -25,7 +25,20 @@ impl StageWatcher for Preparation<'_> {
 
     fn found(&mut self, finding: &Finding<'_>) {
         self.progress.stage(&match finding {
-            Finding::Bonds { points, bonds } => format!("{points} points, {bonds} bonds"),
+            Finding::Bonds {
+                points,
+                bonds,
+                across_voids: 0,
+            } => format!("{points} points, {bonds} bonds"),
+            Finding::Bonds {
+                points,
+                bonds,
+                across_voids,
+            } => {
+                format!(
+                    "{points} points, {bonds} bonds, {across_voids} pairs across voids of the body"
+                )
+            }
             Finding::Correction(correction, report) => {
                 summary::correction_line(correction, *report)
             }

@@ -108,6 +108,17 @@ pub enum Fault {
         /// The first of them, in words.
         first: String,
     },
+    /// Cells of a mesh on top of others.
+    #[error(
+        "cells of the mesh overlap: its outline crosses itself between {from} and {to}. Bodies that touch share nodes: mesh them as one \
+         geometry (`Coherence;`)"
+    )]
+    Overlap {
+        /// An end of an edge that another crosses, in words.
+        from: String,
+        /// The other end.
+        to: String,
+    },
     /// A rectangle without a point.
     #[error("there is no point of the body in this box")]
     EmptyBox,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::outline::bonds_outside;
+use ligament_model::bonds::outline::{bonds_outside, first_crossing, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
@@ -48,6 +48,7 @@ impl Model {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell));
+        forbid_overlap(&*setup.body, &cloud)?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
@@ -56,6 +57,7 @@ impl Model {
         watcher.found(&Finding::Bonds {
             points: cloud.len(),
             bonds: bonds.len(),
+            across_voids: absent.len(),
         });
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
@@ -105,9 +107,9 @@ impl Model {
         })
     }
 
-    /// Number of pairs of points that would be bonded but for a hole or another void between them.
-    pub fn across_holes(&self) -> usize {
-        self.absent(Absence::Hole)
+    /// Number of pairs of points that would be bonded but for a void of the body between them.
+    pub fn across_voids(&self) -> usize {
+        self.absent(Absence::Void)
     }
 
     /// Number of bonds that pre-cracks cut.
@@ -134,7 +136,15 @@ impl Model {
 /// The points of the body, with the index of the material of each cell (n_cells).
 fn points(setup: &Setup, material_of_cell: &[u32]) -> PointCloud {
     let n_materials = setup.materials.len();
-    (setup.body).cloud(setup.thickness(), material_of_cell, n_materials)
+    let (body, thickness) = (&setup.body, setup.thickness());
+    let cloud = body.cloud(thickness, material_of_cell, n_materials);
+    if setup.bonds_through_voids || body.cells().is_empty() {
+        return cloud;
+    }
+    PointCloud {
+        spacing: spacing_inside(body.cells(), &cloud),
+        ..cloud
+    }
 }
 
 /// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch an end of one, and the share of its bonds that
@@ -164,7 +174,7 @@ fn bond_system(
     BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
 }
 
-/// The bonds without those across holes and other voids of the body, and those.
+/// The bonds inside the body, and those that its voids part.
 fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, Vec<AbsentBond>) {
     let (holes, cells) = (setup.body.holes(), setup.body.cells());
     let crosses = if !holes.is_empty() {
@@ -178,7 +188,7 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
         return (bonds, Vec::new());
     }
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
-    let absent = absent_bonds(&bonds, &crosses, Absence::Hole);
+    let absent = absent_bonds(&bonds, &crosses, Absence::Void);
     (bonds.retained(&keep), absent)
 }
 
@@ -193,6 +203,17 @@ fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<Ab
             absence,
         })
         .collect()
+}
+
+/// The error of cells that lie on others.
+fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
+    let Some([from, to]) = first_crossing(body.cells(), cloud) else {
+        return Ok(());
+    };
+    Err(Field::whole("body").error(Fault::Overlap {
+        from: body.place(from),
+        to: body.place(to),
+    }))
 }
 
 /// The error of points that have no neighbour at all: no correction gives them a stiffness.

@@ -27,6 +27,8 @@ pub enum Finding<'a> {
         points: usize,
         /// Number of bonds, before pre-cracks cut any.
         bonds: usize,
+        /// Number of pairs of points that a void of the body parts.
+        across_voids: usize,
     },
     /// The correction, and how it went; none where nothing was iterated.
     Correction(&'a Correction, Option<&'a CorrectionReport>),

@@ -76,6 +76,7 @@ impl Case {
     /// Key path of what a field of the setup comes from.
     fn key_of_field(&self, field: Field) -> String {
         let list = match field.name {
+            "body" if self.mesh.is_some() => "mesh",
             "body" => "lattice",
             "law" | "horizon" => "model",
             "materials" => "material",

@@ -7,7 +7,7 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{exactly_one, one_of};
 use super::word::Word;
-use ligament::setup::{Calibration, Form, Horizon, Law, Setup, Strains};
+use ligament::setup::{Calibration, Form, Horizon, Law, Strains};
 use ligament_model::law::rotational::RotationalStiffness;
 
 /// The bond model.
@@ -24,7 +24,7 @@ pub struct ModelSection {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub horizon: Option<f64>,
     /// Whether bonds run through holes, slots and notches of a mesh, as if these were filled.
-    #[serde(default = "through_voids")]
+    #[serde(default)]
     pub bonds_through_voids: bool,
     /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
     pub calibration: Option<Word<Calibration>>,
@@ -34,10 +34,6 @@ pub struct ModelSection {
     pub form: Option<Word<Form>>,
     /// What the strains of `mbb-pd` are taken over.
     pub strains: Option<Word<Strains>>,
-}
-
-fn through_voids() -> bool {
-    Setup::BONDS_THROUGH_VOIDS
 }
 
 impl ModelSection {

@@ -82,8 +82,8 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "bonds")?;
     let (bonds, cut) = (system.bonds.len(), model.cut_bonds());
     entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
-    if !model.body().holes().is_empty() || model.across_holes() > 0 {
-        entry(out, "pairs across holes", model.across_holes())?;
+    if !model.body().holes().is_empty() || model.across_voids() > 0 {
+        entry(out, "pairs across voids", model.across_voids())?;
     }
     entry(out, "points with no_fail", model.no_fail_points())?;
     spread(out, "nearest distance", over(&system.cloud.spacing), " m")?;

@@ -70,7 +70,7 @@ pub(super) fn write_json(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow:
     let absent = lives.absent.iter().map(|pair| {
         let why = match run.model.bonds.absence[*pair] {
             Some(Absence::PreCrack) => "pre-crack",
-            Some(Absence::Hole) => "hole",
+            Some(Absence::Void) => "void",
             None => "none",
         };
         json!({"ends": tags(run.model.bonds.ends[*pair]), "absent": why})

@@ -118,7 +118,7 @@ fn counts(run: &StoredRun, lives: &Lives) -> String {
     };
     for (absence, why) in [
         (Absence::PreCrack, "cut by a pre-crack"),
-        (Absence::Hole, "across a hole"),
+        (Absence::Void, "across a void"),
     ] {
         let is_so = |pair: &&usize| run.model.bonds.absence[**pair] == Some(absence);
         let count = lives.absent.iter().filter(is_so).count();

@@ -238,7 +238,9 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
         Some(Absence::PreCrack) => {
             "No bond: a pre-crack cut it before the first load. It counts as no damage.".to_owned()
         }
-        Some(Absence::Hole) => "No bond: a hole lies between them.".to_owned(),
+        Some(Absence::Void) => {
+            "No bond: a hole, slot or notch of the body lies between them.".to_owned()
+        }
         None => format!(
             "No bond: neither lies in the horizon of the other; bonds of these two reach {} m.",
             number(h_a.max(h_b))

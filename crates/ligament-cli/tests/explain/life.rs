@@ -163,9 +163,12 @@ fn a_hole_parts_its_sides() {
     let [left, right] = [9 + 8 + 4, 9 + 8 + 5].map(|tag| tag.to_string());
     let said = explain(&results, &["--bond", &left, &right]);
     assert!(said.contains("distance is 2.0000e-2 m"), "{said}");
-    assert!(said.contains("a hole lies between them"), "{said}");
+    assert!(
+        said.contains("a hole, slot or notch of the body lies between them"),
+        "{said}"
+    );
     let family = explain(&results, &["--point", &left]);
-    assert!(family.contains("across a hole"), "{family}");
+    assert!(family.contains("across a void"), "{family}");
 }
 
 /// Along the exact path a bond is at its limit in the event in which it breaks, and before it in proportion to the load: with

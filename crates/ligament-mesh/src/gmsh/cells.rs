@@ -127,6 +127,34 @@ pub(super) fn merge_repeated(
     Ok((cells, cell_of_element))
 }
 
+/// Refuses cells that lie on the same side of a common edge: one of them covers some of the other.
+pub(super) fn check_overlap(
+    cursor: &Cursor<'_>,
+    records: &Records,
+    planar: &[PlanarCell],
+) -> Result<(), GmshError> {
+    let sides = |planar: &PlanarCell| {
+        let (corners, element) = (planar.cell.corners().to_vec(), planar.element);
+        let n = corners.len();
+        (0..n).map(move |k| (corners[k], corners[(k + 1) % n], element))
+    };
+    let mut sides: Vec<(u32, u32, usize)> = planar.iter().flat_map(sides).collect();
+    sides.sort_unstable();
+    // Cells stand counter-clockwise, so that neighbours go along their common edge in opposite directions.
+    let same = |pair: &&[(u32, u32, usize)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);
+    match sides.windows(2).find(same) {
+        Some(pair) => {
+            let [first, second] = [0, 1].map(|k| &records.elements[pair[k].2]);
+            Err(GmshError::OverlappingCells {
+                place: cursor.place(second.offset),
+                element: second.tag,
+                other: first.tag,
+            })
+        }
+        None => Ok(()),
+    }
+}
+
 /// The corners of a cell in ascending order: the same for every cell of the same corners.
 fn key(cell: &Cell) -> [u32; 4] {
     let mut key = [u32::MAX; 4];

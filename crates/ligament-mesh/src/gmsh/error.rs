@@ -251,6 +251,19 @@ pub enum GmshError {
         /// Tag of the cell.
         element: u64,
     },
+    /// Two cells on the same side of a common edge.
+    #[error(
+        "{place}: cell {element} overlaps cell {other}: both lie on the same side of their common edge; \
+         mesh the geometry again, or check how its nodes were moved"
+    )]
+    OverlappingCells {
+        /// Where the second stands.
+        place: Place,
+        /// Tag of the second cell.
+        element: u64,
+        /// Tag of the first cell.
+        other: u64,
+    },
     /// Two cells of the same corners.
     #[error(
         "{place}: cell {element} has the corners of cell {other}; \

@@ -215,6 +215,18 @@ fn quadrangles_that_are_not_convex_are_refused() {
     assert_eq!(parse(text.as_bytes()).unwrap().area(), 0.5);
 }
 
+/// Both triangles of the square on the same side of its diagonal: the second one covers half of the first.
+#[test]
+fn overlapping_cells_are_refused() {
+    let expected = GmshError::OverlappingCells {
+        place: Place::Line(15),
+        element: 3,
+        other: 2,
+    };
+    let overlapping = SQUARE.replace("4 0 1 0", "4 1 0.4 0");
+    assert_eq!(parse(overlapping.as_bytes()), Err(expected));
+}
+
 #[test]
 fn duplicate_cells_are_refused() {
     let place = Place::Line(15);

@@ -7,11 +7,12 @@
 
 use ligament_mesh::Cell;
 use rayon::prelude::*;
-use rstar::RTree;
 use rstar::primitives::{GeomWithData, Line};
+use rstar::{RTree, RTreeObject};
 
 use super::{BondSet, Incidence};
-use crate::cloud::{PointCloud, distance};
+use crate::cloud::mesh::shortest_sides;
+use crate::cloud::{PointCloud, distance, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{cross, orientation};
 
@@ -49,6 +50,53 @@ pub fn bonds_outside(cells: &[Cell], bonds: &BondSet, cloud: &PointCloud) -> Vec
         outside[bond] = true;
     }
     outside
+}
+
+/// The nodes of an edge of the outline that another edge crosses, the first of them all; none where cells do not overlap.
+pub fn first_crossing(cells: &[Cell], cloud: &PointCloud) -> Option<[u32; 2]> {
+    let outline = Outline::new(cells, cloud);
+    let line = |edge: [u32; 2]| edge.map(|node| cloud.positions[node as usize]);
+    let is_crossed = |edge: &&GeomWithData<Line<[f64; 2]>, [u32; 2]>| {
+        let mut near = outline
+            .edges
+            .locate_in_envelope_intersecting(edge.envelope());
+        near.any(|other| crosses(line(edge.data), line(other.data), 0.0))
+    };
+    let crossed = outline.edges.iter().filter(is_crossed);
+    crossed.map(|edge| edge.data).min()
+}
+
+/// Distance of each node of the mesh of `cells` to the nearest other one that it sees within them, shape (n_points), m.
+///
+/// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach nothing but the other side.
+pub fn spacing_inside(cells: &[Cell], cloud: &PointCloud) -> Vec<f64> {
+    let shortest = shortest_sides(cloud, cells);
+    let mut spacing = cloud.spacing.clone();
+    // What is nearer than the ends of all cell sides may lie behind a void.
+    let may_be_parted: Vec<u32> = (0..cloud.len() as u32)
+        .filter(|&point| {
+            let shortest = shortest[point as usize];
+            shortest.is_finite() && spacing[point as usize] < shortest
+        })
+        .collect();
+    if may_be_parted.is_empty() {
+        return spacing;
+    }
+    let (outline, tree) = (Outline::new(cells, cloud), search_tree(&cloud.positions));
+    for point in may_be_parted {
+        let (position, shortest) = (cloud.positions[point as usize], shortest[point as usize]);
+        let near = outline.near(position, shortest);
+        let is_seen = |other: u32, length: f64| {
+            !outline.is_left_by([point, other], &near, INCLUSION_TOLERANCE * length)
+        };
+        spacing[point as usize] = tree
+            .locate_within_distance(position, shortest * shortest)
+            .filter(|other| other.data != point)
+            .map(|other| (other.data, distance(position, *other.geom())))
+            .filter(|&(other, length)| is_seen(other, length))
+            .fold(shortest, |nearest, (_, length)| nearest.min(length));
+    }
+    spacing
 }
 
 /// The edges that one cell has alone.

@@ -62,8 +62,8 @@ fn corner_area(cell: &Cell, positions: &[[f64; 2]]) -> f64 {
     cell.area(positions) / cell.corners().len() as f64
 }
 
-/// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest cell side.
-fn nearest_neighbour_distances(cloud: &PointCloud, cells: &[Cell]) -> Vec<f64> {
+/// Length of the shortest cell side at each node, shape (n_points), m; infinite at nodes without a cell.
+pub(crate) fn shortest_sides(cloud: &PointCloud, cells: &[Cell]) -> Vec<f64> {
     let mut reach = vec![f64::INFINITY; cloud.len()];
     for cell in cells {
         let corners = cell.corners();
@@ -75,6 +75,12 @@ fn nearest_neighbour_distances(cloud: &PointCloud, cells: &[Cell]) -> Vec<f64> {
             reach[to] = side.min(reach[to]);
         }
     }
+    reach
+}
+
+/// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest cell side.
+fn nearest_neighbour_distances(cloud: &PointCloud, cells: &[Cell]) -> Vec<f64> {
+    let reach = shortest_sides(cloud, cells);
     let tree = search_tree(&cloud.positions);
     cloud.over_points(|point| {
         let position = cloud.positions[point as usize];

@@ -1,7 +1,7 @@
 //! Material points, from a mesh (`mesh.rs`), a regular lattice ([`lattice`]) or arrays (`points.rs`).
 
 pub mod lattice;
-mod mesh;
+pub(crate) mod mesh;
 mod points;
 
 use rayon::prelude::*;

@@ -47,7 +47,7 @@ pub fn calibrated(
         mut axial,
         mut shear,
         mut rotational,
-        strain,
+        ..
     } = stiffness;
     let factors = cloud.over_points(|point| {
         let mut sums = [0.0; 2];
@@ -80,6 +80,6 @@ pub fn calibrated(
         axial,
         shear,
         rotational,
-        strain,
+        ..stiffness
     }
 }

@@ -16,7 +16,7 @@ pub mod rows;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-use super::BondStiffness;
+use super::{BondStiffness, bulk_stiffness, interface};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::{StrainStiffness, entries};
@@ -34,25 +34,22 @@ pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
         .collect()
 }
 
-/// Micro-modulus matrices K = psi c (eq. 16) with the mean psi and the mean c of the ends of each bond; `axial` and `shear` have those for a
-/// stretch along the bond and for S_xy.
+/// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and
+/// `shear` have those for a stretch along the bond and for S_xy.
 pub fn stiffness(
     bonds: &BondSet,
     cloud: &PointCloud,
     elasticity: &[Elasticity],
     plane: Plane,
 ) -> BondStiffness {
-    let at_points = plane_stiffnesses(cloud, elasticity, plane);
+    let stiffnesses = plane_stiffnesses(bonds, cloud, elasticity, plane);
     let psi = factors(bonds, cloud);
-    let of_bond = |ends: &[u32; 2]| {
-        let [a, b] = ends.map(|end| end as usize);
-        let matrix = 0.5 * (psi[a] + psi[b]) * (0.5 * (at_points[a] + at_points[b]));
-        (matrix, psi[a] / (psi[a] + psi[b]))
+    let of_bond = |(ends, stiffness): (&[u32; 2], Matrix3<f64>)| {
+        let [a, b] = ends.map(|end| psi[end as usize]);
+        (0.5 * (a + b) * stiffness, a / (a + b))
     };
-    of_matrices(
-        bonds,
-        &bonds.ends.par_iter().map(of_bond).collect::<Vec<_>>(),
-    )
+    let matrices = bonds.ends.par_iter().zip(stiffnesses).map(of_bond);
+    of_matrices(bonds, &matrices.collect::<Vec<_>>())
 }
 
 /// The stiffness of bonds with these micro-modulus matrices and shares of their first ends (n_bonds).
@@ -70,11 +67,13 @@ fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffne
         shear: matrices.iter().map(|(matrix, _)| matrix[(2, 2)]).collect(),
         rotational: vec![0.0; bonds.len()],
         strain: matrices.iter().map(strain).collect(),
+        series: Vec::new(),
     }
 }
 
-/// The stiffness of the plane at each point, the mean over its materials, shape (n_points), Pa.
+/// The stiffness of the plane for the materials of each bond ([`interface::of_bond`]), shape (n_bonds), Pa.
 fn plane_stiffnesses(
+    bonds: &BondSet,
     cloud: &PointCloud,
     elasticity: &[Elasticity],
     plane: Plane,
@@ -82,9 +81,12 @@ fn plane_stiffnesses(
     let of_materials: Vec<Matrix3<f64>> = (elasticity.iter())
         .map(|material| material.plane_stiffness(plane))
         .collect();
-    let at_point = |point: usize| {
-        let shares = cloud.shares(point).iter().zip(&of_materials);
-        shares.fold(Matrix3::zeros(), |sum, (share, c)| sum + *share * c)
+    let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
+    let of_bond = |&ends: &[u32; 2]| {
+        let materials = interface::of_bond(cloud, ends, &bulk);
+        materials.fold(Matrix3::zeros(), |sum, (material, share)| {
+            sum + share * of_materials[material]
+        })
     };
-    (0..cloud.len()).map(at_point).collect()
+    bonds.ends.iter().map(of_bond).collect()
 }

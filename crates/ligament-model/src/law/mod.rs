@@ -16,15 +16,17 @@ pub mod bbpd;
 pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
+mod interface;
 pub mod mbb_pd;
 pub mod mppd;
 pub mod orthotropic;
 pub mod pds;
 pub mod rotational;
 
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-use crate::bonds::BondSet;
+use crate::bonds::{BondSet, retained};
 use crate::cloud::PointCloud;
 use crate::element::imaginary::StrainStiffness;
 
@@ -43,6 +45,8 @@ pub struct BondStiffness {
     pub rotational: Vec<f64>,
     /// The micro-modulus matrix over (xx, yy, xy) of imaginary elements, shape (n_bonds), N/m^6; empty for the others.
     pub strain: Vec<StrainStiffness>,
+    /// Factors of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
+    pub series: Vec<f64>,
 }
 
 /// Densities of one bond.
@@ -63,24 +67,26 @@ struct BondGeometry {
 }
 
 impl BondStiffness {
-    /// Densities from `constants` of the materials (n_materials): a point at an interface has the volume-weighted mean of its
-    /// materials' constants, a bond the mean of its two ends'.
+    /// Densities from `constants` of the materials (n_materials), the first of which tells how stiff they are: a bond has those of
+    /// its materials ([`interface::of_bond`]).
     fn from_constants<const N: usize>(
         bonds: &BondSet,
         cloud: &PointCloud,
         constants: &[[f64; N]],
         densities: impl Fn(&[f64; N], &BondGeometry) -> Densities + Sync,
     ) -> Self {
-        let of_point = |point: usize| {
-            let shares = cloud.shares(point).iter().zip(constants);
-            shares.fold([0.0; N], |mut sum, (share, constants)| {
-                for (value, constant) in sum.iter_mut().zip(constants) {
-                    *value += share * constant;
-                }
-                sum
-            })
+        let axial_constants: Vec<f64> = constants.iter().map(|it| it[0]).collect();
+        let of_bond = |ends| {
+            interface::of_bond(cloud, ends, &axial_constants).fold(
+                [0.0; N],
+                |mut sum, (material, share)| {
+                    for (value, constant) in sum.iter_mut().zip(&constants[material]) {
+                        *value += share * constant;
+                    }
+                    sum
+                },
+            )
         };
-        let at_points: Vec<[f64; N]> = (0..cloud.len()).into_par_iter().map(of_point).collect();
         let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
         (
             (&bonds.ends, &bonds.length, &bonds.horizon, &bonds.direction).into_par_iter(),
@@ -88,15 +94,13 @@ impl BondStiffness {
         )
             .into_par_iter()
             .for_each(
-                |((ends, &length, &horizon, &direction), (axial, shear, rotational))| {
-                    let [a, b] = ends.map(|end| &at_points[end as usize]);
-                    let mean = std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+                |((&ends, &length, &horizon, &direction), (axial, shear, rotational))| {
                     let bond = BondGeometry {
                         length,
                         horizon,
                         direction,
                     };
-                    let of_bond = densities(&mean, &bond);
+                    let of_bond = densities(&of_bond(ends), &bond);
                     (*axial, *shear, *rotational) =
                         (of_bond.axial, of_bond.shear, of_bond.rotational);
                 },
@@ -106,7 +110,22 @@ impl BondStiffness {
             shear,
             rotational,
             strain: Vec::new(),
+            series: interface::series_factors(bonds, cloud, &axial_constants),
         }
+    }
+
+    /// The densities with those of bonds across an interface as two halves in series.
+    ///
+    /// Corrections take such bonds for bonds of the softer material. A uniform strain then leaves that material as it is without the
+    /// stiffer one, as in a body whose parts pull each other along; and where both are strained as their stiffnesses say, so that the
+    /// tractions agree, a bond that is half in each has the force of one that is all in the softer.
+    pub fn in_series(mut self) -> Self {
+        for densities in [&mut self.axial, &mut self.shear, &mut self.rotational] {
+            for (density, factor) in densities.iter_mut().zip(&self.series) {
+                *density *= factor;
+            }
+        }
+        self
     }
 
     /// The densities with shear and rotation times some factors (n_bonds); as they are without any.
@@ -120,16 +139,27 @@ impl BondStiffness {
 
     /// The bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
-        use crate::bonds::retained;
         Self {
             axial: retained(self.axial, keep),
             shear: retained(self.shear, keep),
             rotational: retained(self.rotational, keep),
-            strain: if self.strain.is_empty() {
-                self.strain
-            } else {
-                retained(self.strain, keep)
-            },
+            strain: some_retained(self.strain, keep),
+            series: some_retained(self.series, keep),
         }
     }
+}
+
+/// The values of the bonds for which `keep` (n_bonds) is true; none where there are none.
+fn some_retained<T>(values: Vec<T>, keep: &[bool]) -> Vec<T> {
+    if values.is_empty() {
+        values
+    } else {
+        retained(values, keep)
+    }
+}
+
+/// C_11 + C_22 + 2 C_12 of a plane, Pa, which does not depend on the axes and is what the laws' axial constants are in proportion to: the
+/// softer of two materials has the smaller one.
+pub(crate) fn bulk_stiffness(plane: &Matrix3<f64>) -> f64 {
+    plane[(0, 0)] + plane[(1, 1)] + 2.0 * plane[(0, 1)]
 }

@@ -5,7 +5,7 @@
 //!
 //! | cell field | of a bond |
 //! |---|---|
-//! | `absent` | 0; 1 where a pre-crack cut it, 2 where a hole lies between its ends: such pairs are no bonds, and have no numbers |
+//! | `absent` | 0; 1 where a pre-crack cut it, 2 where a void of the body lies between its ends: such pairs are no bonds, and have no numbers |
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
 //! | `limit.NAME` | limit of the criterion; infinite where it never fails by it |

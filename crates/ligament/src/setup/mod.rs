@@ -97,9 +97,6 @@ pub enum Horizon {
 }
 
 impl Setup {
-    /// Whether bonds run through voids of a mesh unless it is said.
-    pub const BONDS_THROUGH_VOIDS: bool = true;
-
     /// The elastic analysis of a body of one material in plane stress with a thickness of 1 m, horizon factor 3 and the
     /// correction of the law's paper; nothing holds it and nothing loads it yet.
     pub fn new(body: impl Body + 'static, material: Material, law: Law) -> Self {
@@ -115,7 +112,7 @@ impl Setup {
             }],
             law,
             horizon: Horizon::Factor(3.0),
-            bonds_through_voids: Self::BONDS_THROUGH_VOIDS,
+            bonds_through_voids: false,
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
             no_fail: Vec::new(),

@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 
 use crate::cloud::PointCloud;
 use crate::cloud::lattice::{Face, Lattice};
+use crate::law::bulk_stiffness;
 
 /// Forces on the points in the uniform strains eps_xx, eps_yy and eps_xy = eps_yx = 1/sqrt(2), which are orthonormal as tensors, so that
 /// nothing depends on the axes; shape (n_points, 3, 2), N.
@@ -59,7 +60,8 @@ pub fn of_mesh(
 }
 
 /// Forces of the cells of a lattice, whose points are their centres: the tractions on the faces of the outline at the cells that have
-/// them, and half of the jump of the tractions between two materials at the cells on either side.
+/// them, and the jump of the tractions between two materials at the cell of the stiffer one, because the bonds between them are corrected as bonds
+/// of the softer one.
 pub fn of_lattice(
     lattice: &Lattice,
     cloud: &PointCloud,
@@ -85,11 +87,10 @@ pub fn of_lattice(
         let ends = [point, next].map(|it| it as usize);
         let [own, other] = ends.map(|it| material_of_cell[it] as usize);
         if own != other {
-            let half = area(normal).map(|it| 0.5 * it);
-            for end in ends {
-                add_traction(&mut forces[end], &stresses[own], half);
-                add_traction(&mut forces[end], &stresses[other], half.map(|it| -it));
-            }
+            let is_softer = bulk_stiffness(&stiffness[own]) <= bulk_stiffness(&stiffness[other]);
+            let stiffer = &mut forces[ends[usize::from(is_softer)]];
+            add_traction(stiffer, &stresses[own], area(normal));
+            add_traction(stiffer, &stresses[other], area(normal).map(|it| -it));
         }
     }
     forces

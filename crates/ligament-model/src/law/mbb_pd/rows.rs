@@ -23,13 +23,12 @@ pub fn stiffness(
     elasticity: &[Elasticity],
     plane: Plane,
 ) -> BondStiffness {
-    let at_points = plane_stiffnesses(cloud, elasticity, plane);
+    let stiffnesses = plane_stiffnesses(bonds, cloud, elasticity, plane);
     let psi: Vec<[f64; 3]> = (0..cloud.len() as u32)
         .map(|point| factors(bonds, cloud, point))
         .collect();
     let of_bond = |bond: usize| {
         let [a, b] = bonds.ends[bond].map(|end| end as usize);
-        let c = 0.5 * (at_points[a] + at_points[b]);
         let (rows, decisive) = match BondClass::from_direction(bonds.direction[bond]) {
             BondClass::Horizontal => ([true, false, false], 0),
             BondClass::Vertical => ([false, true, false], 1),
@@ -42,7 +41,7 @@ pub fn stiffness(
                 0.0
             }
         });
-        let rows = Matrix3::from_diagonal(&Vector3::from(mean)) * c;
+        let rows = Matrix3::from_diagonal(&Vector3::from(mean)) * stiffnesses[bond];
         let [of_a, of_b] = [a, b].map(|end| psi[end][decisive]);
         (0.5 * (rows + rows.transpose()), of_a / (of_a + of_b))
     };

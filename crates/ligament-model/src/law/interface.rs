@@ -1,0 +1,90 @@
+//! Materials of a bond where several meet.
+//!
+//! Points on an interface have shares in both of its materials, and bonds may run within one material, along the interface or across
+//! it. Two halves in series show whether the rule is right: with the mean of both ends' materials, as homogeneous laws suggest, a soft half
+//! beside a stiff one is held by bonds that are half as stiff as the stiff ones, whatever its own stiffness.
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+
+/// The materials that a bond is made of, by number, with shares that sum to one.
+///
+/// A bond is made of the materials that both ends have, in the mean of their shares: one from inside a half to its interface lies
+/// within that half, one along the interface has both halves at its sides. A bond whose ends have no material in common crosses
+/// an interface, and is made of what its softer end is made of: with springs in series the softer one decides. `stiffness` (n_materials)
+/// tells which is softer; of equals it is the first end.
+pub(super) fn of_bond<'a>(
+    cloud: &'a PointCloud,
+    ends: [u32; 2],
+    stiffness: &[f64],
+) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let ends = ends.map(|end| end as usize);
+    let [first, second] = ends.map(|end| cloud.shares(end));
+    let common = move |k: usize| {
+        if first[k] > 0.0 && second[k] > 0.0 {
+            first[k] + second[k]
+        } else {
+            0.0
+        }
+    };
+    let total: f64 = (0..first.len()).map(common).sum();
+    let [of_first, of_second] = ends.map(|end| cloud.mean_property(end, stiffness));
+    let softer = if of_first <= of_second { first } else { second };
+    let share = move |k: usize| {
+        if total > 0.0 {
+            common(k) / total
+        } else {
+            softer[k]
+        }
+    };
+    (0..first.len()).map(move |material| (material, share(material)))
+}
+
+/// 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of the
+/// materials; shape (n_bonds), empty where no bond crosses an interface.
+///
+/// Half of such a bond in either material, as springs in series, is so much stiffer than all of it in the softer.
+pub(super) fn series_factors(bonds: &BondSet, cloud: &PointCloud, stiffness: &[f64]) -> Vec<f64> {
+    let of_bond = |ends: &[u32; 2]| {
+        let ends = ends.map(|end| end as usize);
+        let [first, second] = ends.map(|end| cloud.shares(end));
+        if first.iter().zip(second).any(|(a, b)| *a > 0.0 && *b > 0.0) {
+            return 1.0;
+        }
+        let [first, second] = ends.map(|end| cloud.mean_property(end, stiffness));
+        2.0 / (1.0 + first.min(second) / first.max(second))
+    };
+    let factors: Vec<f64> = bonds.ends.iter().map(of_bond).collect();
+    if factors.iter().all(|&factor| factor == 1.0) {
+        return Vec::new();
+    }
+    factors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a soft material, on the interface with a stiff one, and of the stiff one.
+    fn cloud() -> PointCloud {
+        let positions = [[0.0; 2], [1.0, 0.0], [2.0, 0.0]];
+        PointCloud {
+            material_shares: vec![1.0, 0.0, 0.25, 0.75, 0.0, 1.0],
+            ..PointCloud::from_points(&positions, &[1.0; 3], 1.0, &[0, 0, 1], 2)
+        }
+    }
+
+    fn shares(ends: [u32; 2], stiffness: [f64; 2]) -> Vec<f64> {
+        of_bond(&cloud(), ends, &stiffness).map(|it| it.1).collect()
+    }
+
+    #[test]
+    fn bonds_within_a_half_along_the_interface_and_across_it() {
+        assert_eq!(shares([0, 0], [1.0, 9.0]), [1.0, 0.0]);
+        assert_eq!(shares([0, 1], [1.0, 9.0]), [1.0, 0.0]);
+        assert_eq!(shares([1, 2], [1.0, 9.0]), [0.0, 1.0]);
+        assert_eq!(shares([1, 1], [1.0, 9.0]), [0.25, 0.75]);
+        assert_eq!(shares([0, 2], [1.0, 9.0]), [1.0, 0.0]);
+        assert_eq!(shares([0, 2], [9.0, 1.0]), [0.0, 1.0]);
+    }
+}
