@@ -7,7 +7,8 @@ use std::path::Path;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use ligament_mesh::{Mesh, gmsh};
 use ligament_model::correction::length::length_factors;
-use ligament_model::correction::{Continuum, StopRule, Sweeps, domain};
+use ligament_model::correction::patch::Settings;
+use ligament_model::correction::{Continuum, StopRule, Sweeps, domain, patch};
 use ligament_model::failure::strength::{critical_energy, critical_stretches};
 use ligament_model::law::beam;
 use ligament_model::{
@@ -62,6 +63,16 @@ fn preparation(criterion: &mut Criterion) {
             let alpha = length_factors(&bonds, &cloud);
             domain::iterate(&bonds, &cloud, &stiffness, alpha, continuum, SWEEPS)
         };
+        let constants = [rock.plane_stiffness(plane)];
+        let patch = || {
+            let points = patch::Points {
+                cloud: &cloud,
+                forces: patch::of_mesh(&mesh.cells, &cloud, &material_of_cell, &constants),
+                turn: true,
+            };
+            let alpha = length_factors(&bonds, &cloud);
+            patch::correct(&bonds, &points, &stiffness, alpha, &Settings::DEFAULT)
+        };
         let correction = correct();
         let stages = || {
             let alpha = correction.length_factor.clone();
@@ -85,6 +96,7 @@ fn preparation(criterion: &mut Criterion) {
             bencher.iter(|| beam::stiffness(black_box(&bonds), &cloud, &[rock], plane));
         });
         group.bench_function("correction, 10 sweeps", |bencher| bencher.iter(correct));
+        group.bench_function("patch correction", |bencher| bencher.iter(patch));
         group.bench_function("bond system", |bencher| {
             bencher.iter_batched(stages, put_together, BatchSize::LargeInput);
         });

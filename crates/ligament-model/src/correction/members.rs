@@ -116,13 +116,4 @@ impl<'a> Members<'a> {
         }
         of_bonds
     }
-
-    /// The value of each point from those by rank, shape (n_points).
-    pub(super) fn of_points<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
-        let mut of_points = vec![T::default(); values.len()];
-        for (&point, &value) in self.cloud.curve.iter().zip(values) {
-            of_points[point as usize] = value;
-        }
-        of_points
-    }
 }

@@ -12,7 +12,15 @@
 //!
 //! forces of the bonds = f_P(eps), moments of the bonds = 0.
 //!
-//! These equations G q = f are fewer than the factors: the factors are those nearest to the uncorrected ones (`dual.rs`).
+//! These equations G q = f are fewer than the factors: the factors are those nearest to the uncorrected ones.
+//!
+//! | file | of the correction |
+//! |---|---|
+//! | `forces.rs` | f of meshes and lattices |
+//! | `equations.rs`, `plane.rs` | G, as sums over the bonds; its rows in the plane |
+//! | `pairs.rs` | the order in which sums go over the bonds |
+//! | `dual.rs` | the way to the factors by Newton steps |
+//! | `newton.rs` | the direction of such a step |
 //!
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
 //! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
@@ -20,6 +28,9 @@
 mod dual;
 mod equations;
 mod forces;
+mod newton;
+mod pairs;
+mod plane;
 mod settings;
 
 pub use dual::Report;
@@ -29,7 +40,7 @@ pub use settings::Settings;
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::law::BondStiffness;
-use equations::PlaneEquations;
+use plane::PlaneEquations;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
 /// more, q_t/q_n.
@@ -42,7 +53,7 @@ pub fn correct(
 ) -> Correction {
     let weight = settings.moment_weight;
     let factors = if points.turn {
-        let equations = PlaneEquations::<9>::new(bonds, points, stiffness, &alpha, weight);
+        let equations = PlaneEquations::<8>::new(bonds, points, stiffness, &alpha, weight);
         dual::minimise(&equations, settings)
     } else {
         let equations = PlaneEquations::<6>::new(bonds, points, stiffness, &alpha, weight);

@@ -9,7 +9,7 @@ pub struct Settings {
     pub highest: f64,
     /// Weight of the equations of moments against those of forces.
     pub moment_weight: f64,
-    /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has a tenth of the one before.
+    /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has three hundredths of the one before.
     pub regularisation: f64,
 }
 

@@ -1,0 +1,194 @@
+//! The direction of a Newton step: conjugate gradients, with the blocks of the points as preconditioner.
+
+use rayon::prelude::*;
+
+use super::dual::Multipliers;
+use super::equations::Equations;
+use super::pairs::BLOCK;
+
+/// Products for the direction of a Newton step at most.
+const MOST_PRODUCTS: usize = 400;
+
+/// The matrix G D G^T + r/d^2.
+pub(super) struct Hessian<'a, E, const N: usize> {
+    equations: &'a E,
+    /// r/d^2.
+    regularisation: &'a Multipliers<N>,
+    /// D of the pairs, times the squares of their stiffness.
+    slopes: &'a [[f64; 2]],
+    /// Inverses of the blocks of the points, by rank.
+    inverses: Vec<[[f64; N]; N]>,
+}
+
+impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
+    /// The matrix with the inverses of its blocks.
+    pub(super) fn new(
+        equations: &'a E,
+        regularisation: &'a Multipliers<N>,
+        slopes: &'a [[f64; 2]],
+    ) -> Self {
+        let mut hessian = Self {
+            equations,
+            regularisation,
+            slopes,
+            inverses: Vec::new(),
+        };
+        let mut inverses = vec![[[0.0; N]; N]; regularisation.len()];
+        let blocks = inverses.par_chunks_mut(BLOCK).enumerate();
+        blocks.for_each(|(block, inverses)| {
+            hessian.add_blocks(block, inverses);
+            inverses.iter_mut().for_each(invert);
+        });
+        hessian.inverses = inverses;
+        hessian
+    }
+
+    /// Adds the blocks of the points of a block of points.
+    fn add_blocks(&self, block: usize, sums: &mut [[[f64; N]; N]]) {
+        let pairs = self.equations.pairs();
+        let ranks = pairs.ranks(block);
+        let first = ranks.start;
+        for rank in ranks {
+            let own = &mut sums[rank - first];
+            for k in 0..N {
+                own[k][k] += self.regularisation[rank][k];
+            }
+            for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
+                let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| self.equations.forces(pair, it));
+                add_squares(
+                    &mut sums[rank - first],
+                    rows.map(E::at_own),
+                    self.slopes[pair],
+                );
+                if pairs.inner(rank).contains(&pair) {
+                    let other = pairs.other[pair] as usize;
+                    add_squares(&mut sums[other - first], rows, self.slopes[pair]);
+                }
+            }
+        }
+    }
+
+    /// The solution with the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of
+    /// products that it took.
+    pub(super) fn solve(&self, gradient: Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
+        let zeros = vec![[0.0; N]; gradient.len()];
+        let mut left = gradient;
+        left.as_flattened_mut().iter_mut().for_each(|it| *it = -*it);
+        let (mut step, mut solved) = (zeros.clone(), zeros.clone());
+        let (mut direction, mut product) = (zeros.clone(), zeros);
+        let mut size = self.go(
+            0.0,
+            [&direction, &product],
+            [&mut step, &mut left, &mut solved],
+        );
+        let target = accuracy * accuracy * size;
+        let mut share = 0.0;
+        for done in 1..=MOST_PRODUCTS {
+            let directions = direction.par_chunks_mut(BLOCK);
+            directions
+                .zip(solved.par_chunks(BLOCK))
+                .for_each(|(direction, solved)| {
+                    let entries = direction.as_flattened_mut().iter_mut();
+                    for (direction, solved) in entries.zip(solved.as_flattened()) {
+                        *direction = solved + share * *direction;
+                    }
+                });
+            let length = size / self.multiply(&direction, &mut product);
+            let vectors = [&mut step, &mut left, &mut solved];
+            let next = self.go(length, [&direction, &product], vectors);
+            if next <= target {
+                return (step, done);
+            }
+            share = next / size;
+            size = next;
+        }
+        (step, MOST_PRODUCTS)
+    }
+
+    /// Makes the product with values, and gives the inner product of both.
+    fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
+        let of_block = |(block, product): (usize, &mut [[f64; N]])| {
+            let ranks = self.equations.pairs().ranks(block);
+            for (rank, product) in ranks.clone().zip(product.iter_mut()) {
+                *product = std::array::from_fn(|k| self.regularisation[rank][k] * values[rank][k]);
+            }
+            (self.equations).add(block, values, product, |pair, [axial, shear]| {
+                let slopes = self.slopes[pair];
+                [slopes[0] * axial, slopes[1] * shear]
+            });
+            dot(values[ranks].as_flattened(), product.as_flattened())
+        };
+        let blocks = product.par_chunks_mut(BLOCK).enumerate();
+        blocks.map(of_block).collect::<Vec<f64>>().iter().sum()
+    }
+
+    /// Goes a length in a direction with a known product: changes the step and what is left, solves with the blocks, and gives the
+    /// inner product of what is left and what was solved.
+    fn go(
+        &self,
+        length: f64,
+        [direction, product]: [&Multipliers<N>; 2],
+        [step, left, solved]: [&mut Multipliers<N>; 3],
+    ) -> f64 {
+        let of_point = |rank: usize, step: &mut [f64; N], left: &mut [f64; N]| {
+            let mut solved = [0.0; N];
+            for k in 0..N {
+                step[k] += length * direction[rank][k];
+                left[k] -= length * product[rank][k];
+                for (solved, entry) in solved.iter_mut().zip(self.inverses[rank][k]) {
+                    *solved += entry * left[k];
+                }
+            }
+            solved
+        };
+        let blocks = (
+            step.par_chunks_mut(BLOCK),
+            left.par_chunks_mut(BLOCK),
+            solved.par_chunks_mut(BLOCK),
+        );
+        let sums = (blocks.into_par_iter().enumerate()).map(|(block, (step, left, solved))| {
+            for (k, rank) in self.equations.pairs().ranks(block).enumerate() {
+                solved[k] = of_point(rank, &mut step[k], &mut left[k]);
+            }
+            dot(left.as_flattened(), solved.as_flattened())
+        });
+        sums.collect::<Vec<f64>>().iter().sum()
+    }
+}
+
+/// Adds the squares of two rows with weights.
+#[inline(always)]
+fn add_squares<const N: usize>(
+    sums: &mut [[f64; N]; N],
+    [one, other]: [[f64; N]; 2],
+    weights: [f64; 2],
+) {
+    for (row, sums) in sums.iter_mut().enumerate() {
+        let (of_one, of_other) = (weights[0] * one[row], weights[1] * other[row]);
+        for k in 0..N {
+            sums[k] += of_one * one[k] + of_other * other[k];
+        }
+    }
+}
+
+/// Inverts a positive definite matrix in its place, by Gauss and Jordan; such a matrix needs no search for pivots.
+fn invert<const N: usize>(matrix: &mut [[f64; N]; N]) {
+    for k in 0..N {
+        let inverse = 1.0 / matrix[k][k];
+        matrix[k][k] = 1.0;
+        let pivots = matrix[k].map(|entry| inverse * entry);
+        matrix[k] = pivots;
+        for (i, row) in matrix.iter_mut().enumerate() {
+            if i != k {
+                let factor = std::mem::replace(&mut row[k], 0.0);
+                for (entry, pivot) in row.iter_mut().zip(pivots) {
+                    *entry -= factor * pivot;
+                }
+            }
+        }
+    }
+}
+
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}

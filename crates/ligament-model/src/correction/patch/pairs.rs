@@ -1,0 +1,139 @@
+//! The bonds by blocks of points along the curve, for sweeps that add to both ends of a bond at once.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+pub(super) use crate::correction::members::BLOCK;
+
+/// The bonds seen from their points: once where both ends are in a block, from the one that comes first on the curve, and twice, from
+/// either end, where they are not. `rank` is the place of a point on the curve.
+pub(super) struct Pairs<'a> {
+    bonds: &'a BondSet,
+    cloud: &'a PointCloud,
+    /// First pair of each rank with its other end in the block and with its other end outside, and behind the last rank the number
+    /// of all pairs.
+    starts: Vec<[usize; 2]>,
+    /// Rank of the other end of each pair.
+    pub(super) other: Vec<u32>,
+    /// Bond of each pair.
+    bond: Vec<u32>,
+}
+
+impl<'a> Pairs<'a> {
+    /// The pairs of all bonds.
+    pub(super) fn new(bonds: &'a BondSet, cloud: &'a PointCloud) -> Self {
+        let mut ranks = vec![0; cloud.len()];
+        for (rank, &point) in cloud.curve.iter().enumerate() {
+            ranks[point as usize] = rank as u32;
+        }
+        let mut pairs = Self {
+            bonds,
+            cloud,
+            starts: Vec::with_capacity(cloud.len() + 1),
+            other: Vec::with_capacity(bonds.len()),
+            bond: Vec::with_capacity(bonds.len()),
+        };
+        for (rank, &point) in cloud.curve.iter().enumerate() {
+            let block = rank / BLOCK;
+            let others = || {
+                let family = bonds.incidence.at(point).iter();
+                family.map(|&bond| (ranks[bonds.neighbour(bond, point) as usize], bond))
+            };
+            let is_inner = |other: u32| other as usize / BLOCK == block;
+            let inner = others().filter(|&(other, _)| is_inner(other) && other as usize > rank);
+            let first_inner = pairs.other.len();
+            pairs.push(inner);
+            pairs.starts.push([first_inner, pairs.other.len()]);
+            pairs.push(others().filter(|&(other, _)| !is_inner(other)));
+        }
+        pairs.starts.push([pairs.other.len(); 2]);
+        pairs
+    }
+
+    fn push(&mut self, pairs: impl Iterator<Item = (u32, u32)>) {
+        for (other, bond) in pairs {
+            self.other.push(other);
+            self.bond.push(bond);
+        }
+    }
+
+    /// Number of pairs.
+    pub(super) fn len(&self) -> usize {
+        self.other.len()
+    }
+
+    /// Number of points.
+    pub(super) fn n_points(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of blocks.
+    fn n_blocks(&self) -> usize {
+        self.n_points().div_ceil(BLOCK)
+    }
+
+    /// Ranks of a block.
+    pub(super) fn ranks(&self, block: usize) -> Range<usize> {
+        block * BLOCK..((block + 1) * BLOCK).min(self.n_points())
+    }
+
+    /// Pairs of a rank whose other end is in the block too.
+    #[inline(always)]
+    pub(super) fn inner(&self, rank: usize) -> Range<usize> {
+        let [inner, outer] = self.starts[rank];
+        inner..outer
+    }
+
+    /// Pairs of a rank whose other end is in another block.
+    #[inline(always)]
+    pub(super) fn outer(&self, rank: usize) -> Range<usize> {
+        self.starts[rank][1]..self.starts[rank + 1][0]
+    }
+
+    /// A value of each pair, from its point and its bond.
+    pub(super) fn values<T: Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
+        let of_rank = |rank: usize| {
+            let (point, value) = (self.cloud.curve[rank], &value);
+            let pairs = self.starts[rank][0]..self.starts[rank + 1][0];
+            self.bond[pairs].iter().map(move |&bond| value(point, bond))
+        };
+        let ranks = (0..self.n_points()).into_par_iter();
+        ranks.flat_map_iter(of_rank).collect()
+    }
+
+    /// An array over the pairs, cut into those of the points of each block.
+    pub(super) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
+        let of_block = |block| {
+            let ranks = self.ranks(block);
+            let size = self.starts[ranks.end][0] - self.starts[ranks.start][0];
+            values.split_off_mut(..size).unwrap_or_default()
+        };
+        (0..self.n_blocks()).map(of_block).collect()
+    }
+
+    /// First pair of a block.
+    pub(super) fn first(&self, block: usize) -> usize {
+        self.starts[block * BLOCK][0]
+    }
+
+    /// The value of each bond from those of the pairs, which are the same from either end, shape (n_bonds).
+    pub(super) fn of_bonds(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut of_bonds = vec![0.0; self.bonds.len()];
+        for (&bond, value) in self.bond.iter().zip(values) {
+            of_bonds[bond as usize] = value;
+        }
+        of_bonds
+    }
+
+    /// The value of each point from those by rank, shape (n_points).
+    pub(super) fn of_points(&self, values: &[f64]) -> Vec<f64> {
+        let mut of_points = vec![0.0; values.len()];
+        for (&point, &value) in self.cloud.curve.iter().zip(values) {
+            of_points[point as usize] = value;
+        }
+        of_points
+    }
+}
