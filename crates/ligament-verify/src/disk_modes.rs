@@ -12,7 +12,7 @@ use super::trial::{Memory, StoredMesh, Template, stored_mesh, template};
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "disk_modes",
     title: "Natural frequencies of a free disk",
-    source: "closed form (Love, 1927, art. 314, for a free rim)",
+    source: "closed form (Onoe 1956, contour vibrations of isotropic circular plates)",
     setup: "Disk of radius 50 mm on a mesh of 2 mm (2,998 points, Delaunay), E = 15 GPa, nu = 0.21, 2400 kg/m^3, plane stress, NHPD, held \
             nowhere. The three rigid motions are left out. Modes with n waves around the disk come in pairs, which the mesh parts a little: \
             both are judged.",

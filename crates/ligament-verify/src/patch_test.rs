@@ -19,15 +19,16 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     source: "closed form: a uniform stress gives a uniform strain",
     setup: "Free bodies with the consistent tractions of uniform strains on their outline: disks of 4 and 2 mm (846 and 2,998 \
             points, Delaunay), bars (997 points, 0.1 x 0.2 m, and 1,543, frontal), a plate that is finer along a line (2,231 points), a \
-            ring (1,270), a bar of two materials with E 1 to 3 (277). nu and E from the mean \
+            ring (1,270), a bar of two materials with E 1 to 3 (277), lattices of 40 x 40 and 80 x 20 points. nu and E from the mean \
             strain of the body, and the root mean square over the bonds of what their strain has more than it, over its size: the worst \
             of strains along x, along y and in shear. With NHPD's domain correction all is shown, not judged.",
-    cases: &[&CASE, &TWO_MATERIALS],
+    cases: &[&CASE, &TWO_MATERIALS, &LATTICE],
     compute,
 };
 
 static CASE: Template = template!("verification/patch-test.toml");
 static TWO_MATERIALS: Template = template!("bimaterial-bar/case.toml");
+static LATTICE: Template = template!("verification/lattice.toml");
 
 static MESHES: [(&str, StoredMesh); 7] = [
     ("disk 4 mm", stored_mesh!("disk-4mm.msh")),
@@ -68,11 +69,12 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 fn trial(labels: Labels<'_>) -> anyhow::Result<Trial> {
     let label = |key: &str| labels.text(key).ok();
     let body = label("mesh").unwrap_or("bar");
-    let trial = match body {
-        TWO => TWO_MATERIALS.trial(),
-        _ => CASE.trial(),
+    let mut trial = match body {
+        TWO => TWO_MATERIALS.trial().on_mesh(mesh(body)?),
+        "square lattice" => lattice([40, 40]),
+        "long lattice" => lattice([80, 20]),
+        _ => CASE.trial().on_mesh(mesh(body)?),
     };
-    let mut trial = trial.on_mesh(mesh(body)?);
     for (key, setting) in [("law", "model.law"), ("correction", "correction.surface")] {
         if let Some(word) = label(key) {
             trial = trial.set(setting, word.to_lowercase());
@@ -88,6 +90,16 @@ fn trial(labels: Labels<'_>) -> anyhow::Result<Trial> {
         trial = trial.set("material.poisson", labels.number("nu")?);
     }
     Ok(trial)
+}
+
+/// A lattice of so many cells, with NHPD as on the meshes.
+fn lattice(cells: [u32; 2]) -> Trial {
+    let trial = LATTICE
+        .trial()
+        .on_lattice(cells, 0.01)
+        .set("model.law", "nhpd");
+    let trial = trial.set("material.poisson", 0.21);
+    trial.set("correction.alpha", "length")
 }
 
 fn mesh(name: &str) -> anyhow::Result<&'static StoredMesh> {
