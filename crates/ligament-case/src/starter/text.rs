@@ -210,6 +210,16 @@ fn model(body: &Body, law: Law) -> String {
                 || matches!(body.section, Section::Lattice { .. }))
     };
     let others = Law::ALL.into_iter().filter(fits).map(|it| it.name());
+    let correction = match law {
+        Law::MbbPd { .. } => "",
+        _ => {
+            "
+# Makes the body as stiff as its material, with every uniform strain in equilibrium. Others: domain (NHPD), volume, none.
+[correction]
+surface = \"patch\"
+"
+        }
+    };
     format!(
         "\
 # Other laws: {}; `orthotropic` and `mbb-pd` take other constants of the material.
@@ -217,7 +227,7 @@ fn model(body: &Body, law: Law) -> String {
 law = \"{}\"
 # Horizon of a point over the distance to its nearest neighbour. The strength depends on it, so compare runs with the same.
 horizon_factor = 3.0
-",
+{correction}",
         others.collect::<Vec<_>>().join(", "),
         law.name()
     )
@@ -303,9 +313,9 @@ limit = {} # stretch, EXAMPLE
         ),
         Law::MbbPd { .. } => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
         _ => "\
-# When a bond fails: without one, by the tensile strength (\"strength\"). Others: tension, sliding, frictional, critical-stretch, ...
-#[[fracture.criterion]]
-#kind = \"tension\"
+# When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, frictional, critical-stretch, ...
+[[fracture.criterion]]
+kind = \"tension\"
 "
         .to_owned(),
     };
