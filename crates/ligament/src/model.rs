@@ -47,8 +47,7 @@ impl Model {
     pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell));
-        forbid_overlap(&*setup.body, &cloud)?;
+        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
@@ -77,7 +76,6 @@ impl Model {
             &setup.correction,
             correction.report.as_ref(),
         ));
-        let no_fail = loading::no_fail(&setup, &cloud)?;
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -85,7 +83,7 @@ impl Model {
             domain_factor: correction.domain_factor.clone(),
             shear_ratio: correction.shear_ratio.clone(),
             patch_residual: correction.patch_residual().to_vec(),
-            no_fail,
+            no_fail: loading::no_fail(&setup, &cloud)?,
             absent,
         };
         let system = stage(watcher, "rigidities", || {
@@ -134,17 +132,18 @@ impl Model {
 }
 
 /// The points of the body, with the index of the material of each cell (n_cells).
-fn points(setup: &Setup, material_of_cell: &[u32]) -> PointCloud {
+fn points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
     let n_materials = setup.materials.len();
     let (body, thickness) = (&setup.body, setup.thickness());
     let cloud = body.cloud(thickness, material_of_cell, n_materials);
+    forbid_overlap(&**body, &cloud)?;
     if setup.bonds_through_voids || body.cells().is_empty() {
-        return cloud;
+        return Ok(cloud);
     }
-    PointCloud {
+    Ok(PointCloud {
         spacing: spacing_inside(body.cells(), &cloud),
         ..cloud
-    }
+    })
 }
 
 /// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch an end of one, and the share of its bonds that

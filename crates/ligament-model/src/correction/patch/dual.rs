@@ -19,7 +19,7 @@
 
 use rayon::prelude::*;
 
-use super::equations::Equations;
+use super::equations::{Equations, Multipliers};
 use super::newton::Hessian;
 use super::pairs::BLOCK;
 use super::settings::Settings;
@@ -61,9 +61,6 @@ pub(super) struct Factors {
     pub(super) shear: Vec<f64>,
     pub(super) report: Report,
 }
-
-/// A number for each equation, by rank.
-pub(super) type Multipliers<const N: usize> = Vec<[f64; N]>;
 
 struct Dual<'a, E> {
     equations: &'a E,

@@ -2,6 +2,9 @@
 
 use super::pairs::Pairs;
 
+/// A number for each equation, by rank.
+pub(super) type Multipliers<const N: usize> = Vec<[f64; N]>;
+
 /// Linear equations G q = f in two factors a bond, N a point. Points go by their ranks, bonds by pairs.
 pub(super) trait Equations<const N: usize>: Sync {
     /// Number of the equations of forces, in which the ends of a bond have opposite terms; those behind them, of moments, have the

@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::dual::Multipliers;
-use super::equations::Equations;
+use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 
 /// Products for the direction of a Newton step at most.
