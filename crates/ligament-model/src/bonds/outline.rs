@@ -8,13 +8,16 @@
 use ligament_mesh::Cell;
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Line};
-use rstar::{RTree, RTreeObject};
+use rstar::{AABB, RTree, RTreeObject};
 
 use super::{BondSet, Incidence};
 use crate::cloud::mesh::shortest_sides;
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{cross, orientation};
+
+/// Points along the curve that are asked for together whether the outline is near: most of a body is far from it.
+const BLOCK: usize = 64;
 
 /// For each bond between nodes of the mesh of `cells`, whether its straight line leaves them, shape (n_bonds).
 pub fn bonds_outside(cells: &[Cell], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
@@ -26,27 +29,27 @@ pub fn bonds_outside(cells: &[Cell], bonds: &BondSet, cloud: &PointCloud) -> Vec
     for point in 0..cloud.len() {
         first_bond[point + 1] += first_bond[point];
     }
-    let of_points: Vec<Vec<usize>> = (cloud.curve.par_iter())
-        .map(|&point| {
-            let own = first_bond[point as usize]..first_bond[point as usize + 1];
-            let reach = bonds.length[own.clone()]
-                .iter()
-                .copied()
-                .fold(0.0, f64::max);
-            let near = outline.near(cloud.positions[point as usize], reach);
-            if near.is_empty() {
-                return Vec::new();
-            }
-            own.filter(|&bond| {
-                let spacing = bonds.ends[bond].map(|end| cloud.spacing[end as usize]);
-                let slack = INCLUSION_TOLERANCE * spacing[0].min(spacing[1]);
-                outline.is_left_by(bonds.ends[bond], &near, slack)
+    let own = |point: u32| first_bond[point as usize]..first_bond[point as usize + 1];
+    let reach = |point: u32| {
+        let lengths = bonds.length[own(point)].iter();
+        lengths.copied().fold(0.0, f64::max)
+    };
+    let leaves = |bond: usize, near: &[[u32; 2]]| {
+        let spacing = bonds.ends[bond].map(|end| cloud.spacing[end as usize]);
+        let slack = INCLUSION_TOLERANCE * spacing[0].min(spacing[1]);
+        outline.is_left_by(bonds.ends[bond], near, slack)
+    };
+    let of_points: Vec<usize> = (cloud.curve.par_chunks(BLOCK))
+        .filter(|block| outline.may_be_reached(block, &reach))
+        .flat_map_iter(|block| {
+            block.iter().flat_map(|&point| {
+                let near = outline.near(cloud.positions[point as usize], reach(point));
+                own(point).filter(move |&bond| !near.is_empty() && leaves(bond, &near))
             })
-            .collect()
         })
         .collect();
     let mut outside = vec![false; bonds.len()];
-    for bond in of_points.into_iter().flatten() {
+    for bond in of_points {
         outside[bond] = true;
     }
     outside
@@ -111,13 +114,13 @@ struct Outline<'a> {
 
 impl<'a> Outline<'a> {
     fn new(cells: &'a [Cell], cloud: &'a PointCloud) -> Self {
-        let sides = |cell: &Cell| {
-            let corners = cell.corners().to_vec();
-            let n = corners.len();
-            (0..n).map(move |k| {
-                let (p, q) = (corners[k], corners[(k + 1) % n]);
-                [p.min(q), p.max(q)]
-            })
+        let sides = |cell: &'a Cell| {
+            let corners = cell.corners();
+            let next = corners.iter().cycle().skip(1);
+            corners
+                .iter()
+                .zip(next)
+                .map(|(p, q)| [*p.min(q), *p.max(q)])
         };
         let mut all: Vec<[u32; 2]> = cells.iter().flat_map(sides).collect();
         all.par_sort_unstable();
@@ -143,6 +146,21 @@ impl<'a> Outline<'a> {
             cells_at: Incidence::from_pairs(at_outline, cloud.len()),
             edges: RTree::bulk_load(alone.into_iter().map(line).collect()),
         }
+    }
+
+    /// Whether an edge may be in the reach (m) of any of some points, by the rectangle around them.
+    fn may_be_reached(&self, points: &[u32], reach: impl Fn(u32) -> f64) -> bool {
+        let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for &point in points {
+            let reach = reach(point) * (1.0 + INCLUSION_TOLERANCE);
+            for (axis, x) in self.positions[point as usize].into_iter().enumerate() {
+                lower[axis] = lower[axis].min(x - reach);
+                upper[axis] = upper[axis].max(x + reach);
+            }
+        }
+        let around = AABB::from_corners(lower, upper);
+        let mut edges = self.edges.locate_in_envelope_intersecting(around);
+        edges.next().is_some()
     }
 
     /// The edges no farther from a position than `reach`, m.
