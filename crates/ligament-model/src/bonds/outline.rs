@@ -40,7 +40,7 @@ pub fn bonds_outside(cells: &[Cell], bonds: &BondSet, cloud: &PointCloud) -> Vec
         outline.is_left_by(bonds.ends[bond], near, slack)
     };
     let of_points: Vec<usize> = (cloud.curve.par_chunks(BLOCK))
-        .filter(|block| outline.may_be_reached(block, &reach))
+        .filter(|block| outline.may_be_reached(block, reach))
         .flat_map_iter(|block| {
             block.iter().flat_map(|&point| {
                 let near = outline.near(cloud.positions[point as usize], reach(point));

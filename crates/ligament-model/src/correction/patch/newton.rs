@@ -49,8 +49,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let first = ranks.start;
         for rank in ranks {
             let own = &mut sums[rank - first];
-            for k in 0..N {
-                own[k][k] += self.regularisation[rank][k];
+            for (k, r) in self.regularisation[rank].iter().enumerate() {
+                own[k][k] += r;
             }
             for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| self.equations.forces(pair, it));
