@@ -62,8 +62,8 @@ fn the_patch_correction_passes_the_patch_test() {
     }
 }
 
-/// The same E comes from pulling the bar: along x by its sides with a force that is spread over them, the mean displacement of which
-/// does the work. Both are solutions of the same equations.
+/// Young's modulus from pulling the bar is that of the patch test: a force is spread over its sides along x, and their mean
+/// displacement does its work. Both are solutions of the same equations.
 #[test]
 fn pulling_the_bar_gives_the_same_modulus() {
     let test = tested(bar());

@@ -16,7 +16,7 @@ pub mod rows;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-use super::{BondStiffness, bulk_stiffness, interface};
+use super::{BondStiffness, bulk_stiffness, materials};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::{StrainStiffness, entries};
@@ -71,7 +71,7 @@ fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffne
     }
 }
 
-/// The stiffness of the plane for the materials of each bond ([`interface::of_bond`]), shape (n_bonds), Pa.
+/// The stiffness of the plane for the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
 fn plane_stiffnesses(
     bonds: &BondSet,
     cloud: &PointCloud,
@@ -83,8 +83,8 @@ fn plane_stiffnesses(
         .collect();
     let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
     let of_bond = |&ends: &[u32; 2]| {
-        let materials = interface::of_bond(cloud, ends, &bulk);
-        materials.fold(Matrix3::zeros(), |sum, (material, share)| {
+        let shares = materials::of_bond(cloud, ends, &bulk);
+        shares.fold(Matrix3::zeros(), |sum, (material, share)| {
             sum + share * of_materials[material]
         })
     };

@@ -16,7 +16,7 @@ pub mod bbpd;
 pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
-mod interface;
+mod materials;
 pub mod mbb_pd;
 pub mod mppd;
 pub mod orthotropic;
@@ -68,7 +68,7 @@ struct BondGeometry {
 
 impl BondStiffness {
     /// Densities from `constants` of the materials (n_materials), the first of which tells how stiff they are: a bond has those of
-    /// its materials ([`interface::of_bond`]).
+    /// its materials ([`materials::of_bond`]).
     fn from_constants<const N: usize>(
         bonds: &BondSet,
         cloud: &PointCloud,
@@ -77,7 +77,7 @@ impl BondStiffness {
     ) -> Self {
         let axial_constants: Vec<f64> = constants.iter().map(|it| it[0]).collect();
         let of_bond = |ends| {
-            interface::of_bond(cloud, ends, &axial_constants).fold(
+            materials::of_bond(cloud, ends, &axial_constants).fold(
                 [0.0; N],
                 |mut sum, (material, share)| {
                     for (value, constant) in sum.iter_mut().zip(&constants[material]) {
@@ -110,7 +110,7 @@ impl BondStiffness {
             shear,
             rotational,
             strain: Vec::new(),
-            series: interface::series_factors(bonds, cloud, &axial_constants),
+            series: materials::series_factors(bonds, cloud, &axial_constants),
         }
     }
 

@@ -60,8 +60,8 @@ pub fn of_mesh(
 }
 
 /// Forces of the cells of a lattice, whose points are their centres: the tractions on the faces of the outline at the cells that have
-/// them, and the jump of the tractions between two materials at the cell of the stiffer one, because the bonds between them are corrected as bonds
-/// of the softer one.
+/// them, and the jump of the tractions between two materials at the cell of the stiffer one, because the bonds between them are
+/// corrected as bonds of the softer one.
 pub fn of_lattice(
     lattice: &Lattice,
     cloud: &PointCloud,

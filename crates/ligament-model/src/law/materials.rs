@@ -45,6 +45,9 @@ pub(super) fn of_bond<'a>(
 ///
 /// Half of such a bond in either material, as springs in series, is so much stiffer than all of it in the softer.
 pub(super) fn series_factors(bonds: &BondSet, cloud: &PointCloud, stiffness: &[f64]) -> Vec<f64> {
+    if cloud.n_materials == 1 {
+        return Vec::new();
+    }
     let of_bond = |ends: &[u32; 2]| {
         let ends = ends.map(|end| end as usize);
         let [first, second] = ends.map(|end| cloud.shares(end));
