@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::internal::InternalForces;
+use crate::serial;
 
 /// The end of an attempt to bring a state into equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +75,8 @@ pub struct Stability {
     /// Negative eigenvalues of the rotation block: the stiffness of a stable intact model has no others.
     pub expected: usize,
 }
+
+serial!(Stability { negative, expected });
 
 /// Why no equilibrium was found: an outcome of the run, not an error.
 #[derive(Debug, Clone, PartialEq, Error)]
