@@ -2,7 +2,9 @@
 
 mod anderson;
 mod equations;
+mod external;
 mod newton;
+mod residual;
 mod secant;
 
 use std::sync::Arc;
@@ -23,7 +25,7 @@ use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use equations::ROUNDING;
+pub(crate) use residual::ROUNDING;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +67,7 @@ impl Equilibrium {
 
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
-        self.equations.problem.loads = loads;
+        self.equations.load_with(loads);
     }
 
     /// The unknowns.
@@ -158,9 +160,16 @@ impl Equilibrium {
         breakage: &Breakage,
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
-        match self.iteration {
-            Iteration::Newton => newton::balance(&mut self.equations, state, breakage, observer),
-            Iteration::Secants => secant::balance(&mut self.equations, state, breakage, observer),
-        }
+        let equations = &mut self.equations;
+        let attempt = match self.iteration {
+            Iteration::Newton => newton::balance(equations, state, breakage, observer),
+            Iteration::Secants => secant::balance(equations, state, breakage, observer),
+        }?;
+        let Attempt::Balanced(balanced) = &attempt else {
+            return Ok(attempt);
+        };
+        let fragments = self.connectivity.fragments();
+        let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
+        Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
     }
 }

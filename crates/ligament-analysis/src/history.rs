@@ -5,7 +5,7 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
-use crate::balanced::{Balanced, Unbalanced};
+use crate::balanced::{Balanced, Place, Unbalanced};
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::gauges::FreeBody;
@@ -246,6 +246,17 @@ pub enum Termination {
     /// What the load acts on came loose.
     #[error("the body collapsed: the loaded part came loose")]
     Collapsed,
+    /// What a load acts on lost its stiffness: nothing but a numerical hold would carry it.
+    #[error("the body collapsed in step {step}: broken bonds leave no stiffness at {place} against the {force:.3e} {} there",
+        if .place.component.is_rotation() { "N m" } else { "N" })]
+    LostStiffness {
+        /// Load step.
+        step: usize,
+        /// Where the body gives way.
+        place: Place,
+        /// Force that nothing carries, N or N m.
+        force: f64,
+    },
     /// A load step needed more rounds of breaking than allowed.
     #[error("load step {step} did not come to rest in {rounds} rounds of breaking")]
     NotAtRest {
@@ -276,7 +287,7 @@ impl Termination {
             Self::BondsBroken { .. } => "bonds-broken",
             Self::WallTime { .. } => "wall-time",
             Self::FellApart => "fell-apart",
-            Self::Collapsed => "collapsed",
+            Self::Collapsed | Self::LostStiffness { .. } => "collapsed",
             Self::NotAtRest { .. } => "not-at-rest",
             Self::NoEquilibrium { .. } => "no-equilibrium",
         }

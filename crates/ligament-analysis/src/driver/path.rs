@@ -243,6 +243,18 @@ impl<'a> Path<'a> {
         (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
     }
 
+    /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
+    /// that the body collapsed under it.
+    pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
+        let is_whole = self.broken == 0 && self.state.softening.remaining.is_empty();
+        match reason {
+            Unbalanced::CarriedByHold { place, force } if !is_whole => {
+                Termination::LostStiffness { step, place, force }
+            }
+            reason => Termination::NoEquilibrium { step, reason },
+        }
+    }
+
     /// What ends the run with an equilibrium that is at rest.
     pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
         let (displacement, reaction) = self.control(balanced);

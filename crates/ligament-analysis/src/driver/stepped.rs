@@ -118,7 +118,7 @@ impl Stepping<'_> {
             let balanced = match self.path.balance(step, &breakage)? {
                 Attempt::Balanced(balanced) => balanced,
                 Attempt::Unbalanced(reason) => {
-                    let end = Some(Termination::NoEquilibrium { step, reason });
+                    let end = Some(self.path.without_equilibrium(step, reason));
                     return match last {
                         Some(balanced) => self.record(&balanced, counters, end),
                         None => Ok(end),
