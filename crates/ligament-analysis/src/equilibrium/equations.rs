@@ -292,6 +292,17 @@ impl Equations {
         displacements.fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
+    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom).
+    pub(super) fn rounding(&self, state: &State) -> Vec<f64> {
+        let displacement = self.largest_displacement(state);
+        self.local_stiffness.rounding(displacement)
+    }
+
+    /// The larger of the largest force at a point in a state, N, and what counts of the one before.
+    pub(super) fn largest_force(&self, now: f64) -> f64 {
+        now.max(self.largest_extents.unloaded_force())
+    }
+
     /// Keeps the size of the forces of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
         self.largest_extents = self.largest_extents.or(extents);

@@ -14,6 +14,8 @@ const BALANCED: f64 = 1e-6;
 struct Sum {
     resultant: f64,
     size: f64,
+    /// What rounding may leave of the forces.
+    rounding: f64,
 }
 
 /// The first part of the body on which the external forces of a state do not balance along some axis.
@@ -37,19 +39,22 @@ pub(super) fn imbalance(
             external[dof as usize] = given;
         }
     }
+    let rounding = equations.rounding(state);
     let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
-    for (forces, &fragment) in external.chunks(n_components).zip(&fragments.of_point) {
+    let of_points = external.chunks(n_components).zip(rounding.chunks(n_components));
+    for ((forces, rounding), &fragment) in of_points.zip(&fragments.of_point) {
         let of_part = &mut sums[n_components * fragment as usize..];
-        for (sum, force) in of_part.iter_mut().zip(forces) {
+        for ((sum, force), rounding) in of_part.iter_mut().zip(forces).zip(rounding) {
             sum.resultant += force;
             sum.size += force.abs();
+            sum.rounding += rounding;
         }
     }
-    let of_body = balanced.internal.force_scale;
+    let of_body = equations.largest_force(balanced.internal.force_scale);
     let is_off = |(place, sum): &(usize, &Sum)| {
         let is_force = !layout.components[place % n_components].is_rotation();
         // What is not a number is off as well.
-        is_force && !(sum.resultant.abs() <= BALANCED * (sum.size + of_body))
+        is_force && !(sum.resultant.abs() <= BALANCED * (sum.size + of_body) + sum.rounding)
     };
     let (place, sum) = sums.iter().enumerate().find(is_off)?;
     let points = &fragments.points[place / n_components];

@@ -87,6 +87,12 @@ impl LocalStiffness {
         of_displacements.fold(0.0, f64::max)
     }
 
+    /// Forces that are rounding of a displacement, m, shape (n_degrees_of_freedom).
+    pub(super) fn rounding(&self, displacement: f64) -> Vec<f64> {
+        let stiffnesses = self.values.iter();
+        stiffnesses.map(|it| ROUNDING * displacement * it).collect()
+    }
+
     /// Extents of forces (n_degrees_of_freedom), N and N m.
     pub(super) fn extents(&self, forces: &[f64]) -> Extents {
         let mut extents = Extents::default();
@@ -144,6 +150,11 @@ impl Extents {
                 deformation: one.deformation.max(other.deformation),
             }
         }))
+    }
+
+    /// Largest force that is rounding of these in a body that is unloaded, N.
+    pub(super) fn unloaded_force(self) -> f64 {
+        UNLOADED * self.0[0].force
     }
 
     fn times(self, factor: f64) -> Self {
