@@ -5,12 +5,13 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
-use crate::balanced::{Balanced, Place, Unbalanced};
+use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::state::State;
+use crate::unbalanced::{Place, Unbalanced};
 
 /// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
 /// the next bonds break, just before they do.
@@ -246,9 +247,8 @@ pub enum Termination {
     /// What the load acts on came loose.
     #[error("the body collapsed: the loaded part came loose")]
     Collapsed,
-    /// What a load acts on lost its stiffness: nothing but a numerical hold would carry it.
-    #[error("the body collapsed in step {step}: broken bonds leave no stiffness at {place} against the {force:.3e} {} there",
-        if .place.component.is_rotation() { "N m" } else { "N" })]
+    /// What a load acts on lost its stiffness: no bond would carry it.
+    #[error("{}", self.words(&|point| format!("point {point}")))]
     LostStiffness {
         /// Load step.
         step: usize,
@@ -266,7 +266,7 @@ pub enum Termination {
         rounds: usize,
     },
     /// No equilibrium was found.
-    #[error("no equilibrium in load step {step}: {reason}")]
+    #[error("{}", self.words(&|point| format!("point {point}")))]
     NoEquilibrium {
         /// Load step.
         step: usize,
@@ -276,6 +276,21 @@ pub enum Termination {
 }
 
 impl Termination {
+    /// The end in words, with names for points.
+    pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
+        match self {
+            Self::NoEquilibrium { step, reason } => {
+                format!("no equilibrium in load step {step}: {}", reason.words(name))
+            }
+            Self::LostStiffness { step, place, force } => format!(
+                "the body collapsed in step {step}: no bond is left that resists the motion of {}, on which {force:.3e} {} act",
+                place.words(name),
+                place.unit()
+            ),
+            other => other.to_string(),
+        }
+    }
+
     /// Short name for files.
     pub fn name(&self) -> &'static str {
         match self {

@@ -109,6 +109,6 @@ fn follow_loads(
     let text =
         serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
     folder.write_text("summary.json", &(text + "\n"))?;
-    progress.finish(&outcome.termination.to_string());
+    progress.finish(&summary.termination_message);
     Ok(summary)
 }

@@ -9,7 +9,7 @@ use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
-use crate::balanced::{Attempt, Balanced, Unbalanced};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
@@ -19,6 +19,7 @@ use crate::load_program::ControlKind;
 use crate::problem::Problem;
 use crate::softening::Softening;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// Rules that end a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]

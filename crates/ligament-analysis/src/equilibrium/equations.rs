@@ -7,18 +7,19 @@ use ligament_linalg::FactorKind;
 use ligament_model::element::BondDeformation;
 
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
-use crate::balanced::{Attempt, Balanced, Place, Unbalanced};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::costs::Costs;
 use crate::error::SetupError;
-use crate::load_program::LoadProgram;
 use crate::internal::{BondSweep, InternalForces};
+use crate::load_program::LoadProgram;
 use crate::problem::Problem;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::tangent::TangentSolver;
 use crate::tangent::direct::DirectSolver;
 use crate::tangent::unsymmetric::UnsymmetricSolver;
+use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 
 /// A residual above this is no equilibrium whatever the energies say.

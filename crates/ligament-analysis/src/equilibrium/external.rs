@@ -1,9 +1,10 @@
 //! Balance of the external forces: what supports, loads and holds exert on a part of a body has no resultant.
 
 use super::equations::Equations;
-use crate::balanced::{Balanced, Unbalanced};
+use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// Resultant, relative to the sizes of the external forces on a part and the largest force at a point of the body, above which
 /// they do not balance: loads count as in equilibrium with themselves to the same measure, and solutions are nearer by far.
@@ -41,7 +42,9 @@ pub(super) fn imbalance(
     }
     let rounding = equations.rounding(state);
     let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
-    let of_points = external.chunks(n_components).zip(rounding.chunks(n_components));
+    let of_points = external
+        .chunks(n_components)
+        .zip(rounding.chunks(n_components));
     for ((forces, rounding), &fragment) in of_points.zip(&fragments.of_point) {
         let of_part = &mut sums[n_components * fragment as usize..];
         for ((sum, force), rounding) in of_part.iter_mut().zip(forces).zip(rounding) {

@@ -88,8 +88,12 @@ fn residual(
     let stiffest = |of: fn(&PointStiffness) -> f64| stiffness.iter().map(of).fold(0.0, f64::max);
     let of_rounding = |stiffness: f64| ROUNDING / RESIDUAL_TOLERANCE * stiffness * largest;
     let scales = InternalForces {
-        force_scale: internal.force_scale.max(of_rounding(stiffest(|it| it.force))),
-        moment_scale: internal.moment_scale.max(of_rounding(stiffest(|it| it.moment))),
+        force_scale: internal
+            .force_scale
+            .max(of_rounding(stiffest(|it| it.force))),
+        moment_scale: internal
+            .moment_scale
+            .max(of_rounding(stiffest(|it| it.moment))),
         thermal: 0.0,
         values: Vec::new(),
     };
