@@ -4,6 +4,7 @@ use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
 use crate::internal::InternalForces;
+use crate::serial;
 use crate::unbalanced::Unbalanced;
 
 /// The end of an attempt to bring a state into equilibrium.
@@ -73,3 +74,5 @@ pub struct Stability {
     /// Negative eigenvalues of the rotation block: the stiffness of a stable intact model has no others.
     pub expected: usize,
 }
+
+serial!(Stability { negative, expected });

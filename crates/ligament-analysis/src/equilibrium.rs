@@ -10,8 +10,9 @@ mod secant;
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::balanced::{Attempt, Stability};
+use crate::balanced::{Attempt, Balanced, Stability};
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
 use crate::costs::Costs;
@@ -19,6 +20,7 @@ use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
+use crate::serial::Serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
@@ -56,6 +58,47 @@ impl Equilibrium {
             connectivity: Connectivity::new(&*problem.system),
             iteration: Iteration::Newton,
         })
+    }
+
+    /// Appends what it takes to make the equilibrium again, to the bit.
+    pub(crate) fn write(&self, out: &mut Vec<u8>) {
+        let Equations {
+            solver,
+            largest_extents,
+            costs,
+            problem: _,
+            stiffness: _,
+            energy_tolerance: _,
+            ..
+        } = &self.equations;
+        largest_extents.write(out);
+        costs.write(out);
+        solver.write(out);
+    }
+
+    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or of another model, or the factor comes out with other bits.
+    pub(crate) fn restored(
+        problem: &Problem,
+        energy_tolerance: f64,
+        state: &State,
+        from: &mut &[u8],
+    ) -> Result<(Self, Balanced), SetupError> {
+        let mut equilibrium = Self::new(problem, energy_tolerance)?;
+        equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
+        let equations = &mut equilibrium.equations;
+        equations.largest_extents = Serial::read(from).map_err(CheckpointError::from)?;
+        let costs = Costs::read(from).map_err(CheckpointError::from)?;
+        equations.solver.restore(from)?;
+        let balanced = equations.measure(state).balanced(0, Vec::new());
+        equations.costs = costs;
+        if !state.softening.remaining.is_empty() {
+            equilibrium.soften();
+        }
+        Ok((equilibrium, balanced))
     }
 
     /// Goes on with bonds that soften, if those of the criteria do.

@@ -13,6 +13,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+mod destination;
 pub mod gauges;
 pub mod memory;
 pub mod model;

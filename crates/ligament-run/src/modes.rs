@@ -5,9 +5,9 @@ use std::path::Path;
 use anyhow::Context;
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
-use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::write_modes;
 
+use crate::destination::make_results;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
@@ -30,16 +30,15 @@ pub(crate) fn find_modes(
     let outcome = stages.time("modes", || analysis.find())?;
 
     // Nothing is written, and nothing replaced, before the modes are there.
-    let folder = ResultFolder::create(out, force)?;
-    folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    stages.time("output", || {
-        let grid = model.body().grid();
-        write_modes(&folder, &grid, &*model.system, &model.fixed, &outcome)
-    })?;
-
-    let summary = ModalSummary::new(case, model, &outcome, stages.done());
-    let text =
-        serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
-    folder.write_text("summary.json", &(text + "\n"))?;
-    Ok(summary)
+    make_results(case, out, force, |folder| {
+        stages.time("output", || {
+            let grid = model.body().grid();
+            write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)
+        })?;
+        let summary = ModalSummary::new(case, model, &outcome, stages.done());
+        let text = serde_json::to_string_pretty(&summary)
+            .context("the summary cannot be written as JSON")?;
+        folder.write_text("summary.json", &(text + "\n"))?;
+        Ok(summary)
+    })
 }

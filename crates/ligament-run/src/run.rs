@@ -7,9 +7,10 @@ use anyhow::Context;
 use ligament::Loading;
 use ligament::run::{follow, on_threads};
 use ligament::setup::Analysis;
-use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
+use ligament_output::folder::ResultFolder;
 use ligament_output::results::{ResultWriter, Time, WriteRule};
 
+use crate::destination::{self, make_results};
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
@@ -73,11 +74,28 @@ fn follow_loads(
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
     let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
-    let problem = loading.problem(&model.system, &model.criteria);
 
     // Nothing is written, and nothing replaced, before all input was found good.
-    let folder = ResultFolder::create(out, force)?;
-    folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
+    make_results(case, out, force, |folder| {
+        if let Some(words) = destination::words(folder) {
+            progress.stage(&words);
+        }
+        let summary = write_loading(case, model, &loading, folder, &mut stages, &mut progress)?;
+        progress.finish(&summary.termination_message);
+        Ok(summary)
+    })
+}
+
+/// Follows loads, and writes all results into a folder.
+fn write_loading(
+    case: &CaseFile,
+    model: &Model,
+    loading: &Loading,
+    folder: &ResultFolder,
+    stages: &mut Stages,
+    progress: &mut Progress,
+) -> anyhow::Result<Summary> {
+    let problem = loading.problem(&model.system, &model.criteria);
     let grid = model.body().grid();
     let output = &case.case.output;
     let rule = WriteRule {
@@ -91,8 +109,8 @@ fn follow_loads(
             _ => Time::Load,
         },
     };
-    let writer = ResultWriter::new(&folder, &grid, &model.fixed, rule, &problem)?;
-    let mut watch = Watch::new(writer, &mut progress, &model.setup);
+    let writer = ResultWriter::new(folder, &grid, &model.fixed, rule, &problem)?;
+    let mut watch = Watch::new(writer, progress, &model.setup);
     let outcome = stages.time("solution", || {
         follow(&problem, &model.setup.analysis, &mut watch)
     })?;
@@ -109,6 +127,5 @@ fn follow_loads(
     let text =
         serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
     folder.write_text("summary.json", &(text + "\n"))?;
-    progress.finish(&summary.termination_message);
     Ok(summary)
 }

@@ -39,6 +39,21 @@ pub(super) struct Iterate {
     negative_energy: Option<f64>,
 }
 
+impl Iterate {
+    /// The iterate as an equilibrium that took some iterations and met some mechanisms.
+    pub(super) fn balanced(self, iterations: usize, mechanisms: Vec<u32>) -> Balanced {
+        Balanced {
+            deformations: self.deformations,
+            internal: self.internal,
+            stored_energy: self.stored_energy,
+            residual: self.residual.relative,
+            iterations,
+            negative_energy: self.negative_energy,
+            mechanisms,
+        }
+    }
+}
+
 /// The equations of a problem and their solver.
 pub(super) struct Equations {
     pub(super) problem: Problem,
@@ -50,7 +65,7 @@ pub(super) struct Equations {
     /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
     loaded: Vec<u32>,
     /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
-    largest_extents: Extents,
+    pub(super) largest_extents: Extents,
     /// Largest stiffness of a point against displacements, N/m.
     stiffest: f64,
     pub(super) costs: Costs,
@@ -125,15 +140,7 @@ impl Equations {
             let energy = iterate.stored_energy;
             return Attempt::Unbalanced(Unbalanced::EnergyOutOfRange { energy });
         }
-        Attempt::Balanced(Balanced {
-            deformations: iterate.deformations,
-            internal: iterate.internal,
-            stored_energy: iterate.stored_energy,
-            residual: iterate.residual.relative,
-            iterations,
-            negative_energy: iterate.negative_energy,
-            mechanisms,
-        })
+        Attempt::Balanced(iterate.balanced(iterations, mechanisms))
     }
 
     /// The end of an iteration that does not come to rest.

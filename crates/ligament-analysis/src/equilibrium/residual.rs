@@ -7,6 +7,8 @@
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
 
+use crate::serial;
+use crate::serial::{Damaged, Serial};
 use crate::unknowns::Layout;
 
 /// Residual, relative to the forces that may act at a point, below which a state is in equilibrium.
@@ -45,6 +47,18 @@ struct Extent {
 /// Extents of forces and of moments.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Extents([Extent; 2]);
+
+serial!(Extent { force, deformation });
+
+impl Serial for Extents {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.0.write(out);
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        Serial::read(from).map(Self)
+    }
+}
 
 /// Sizes that a residual is compared with.
 #[derive(Debug, Clone, Copy)]

@@ -63,10 +63,15 @@ pub fn calibrate(
             }
         }
     };
+    let mut answer = Vec::new();
+    let why_not = record.why_not(&verdict);
+    if let Verdict::Met(trial) = &verdict {
+        record.write_answer(trial, &mut answer)?;
+    }
     record.close(&verdict)?;
     match verdict {
-        Verdict::Met(trial) => Ok(record.write_answer(&trial, out)?),
-        verdict => Err(CalibrationError::NotMet(record.why_not(&verdict)).into()),
+        Verdict::Met(_) => Ok(out.write_all(&answer)?),
+        _ => Err(CalibrationError::NotMet(why_not).into()),
     }
 }
 

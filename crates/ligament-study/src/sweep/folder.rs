@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use ligament_output::folder::ResultFolder;
+use ligament_output::folder::{Kind, ResultFolder};
 use serde_json::json;
 
 use super::error::StudyError;
@@ -67,7 +67,7 @@ impl StudyFolder {
             if folder.is_marked() {
                 break;
             }
-            match ResultFolder::create_marked(path, MARKER, false) {
+            match ResultFolder::create_marked(path, Kind::marked(MARKER), false) {
                 Ok(new) => {
                     let marker = json!({
                         "study": study.source.path.to_string_lossy(),
@@ -99,7 +99,7 @@ impl StudyFolder {
         let hidden = format!(".{MARKER}.");
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-        names.all(|name| name == MARKER || name.starts_with(&hidden))
+        names.all(|name| name == MARKER || name == ".lock" || name.starts_with(&hidden))
     }
 
     /// Path of the folder.
