@@ -2,7 +2,9 @@
 
 mod anderson;
 mod equations;
+mod external;
 mod newton;
+mod residual;
 mod secant;
 
 use std::sync::Arc;
@@ -25,7 +27,7 @@ use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use equations::ROUNDING;
+pub(crate) use residual::ROUNDING;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,14 +64,14 @@ impl Equilibrium {
     pub(crate) fn write(&self, out: &mut Vec<u8>) {
         let Equations {
             solver,
-            largest_forces,
+            largest_extents,
             costs,
             problem: _,
             stiffness: _,
             energy_tolerance: _,
             ..
         } = &self.equations;
-        largest_forces.write(out);
+        largest_extents.write(out);
         costs.write(out);
         solver.write(out);
     }
@@ -88,10 +90,10 @@ impl Equilibrium {
         let mut equilibrium = Self::new(problem, energy_tolerance)?;
         equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
         let equations = &mut equilibrium.equations;
-        equations.largest_forces = Serial::read(from).map_err(CheckpointError::from)?;
+        equations.largest_extents = Serial::read(from).map_err(CheckpointError::from)?;
         let costs = Costs::read(from).map_err(CheckpointError::from)?;
         equations.solver.restore(from)?;
-        let balanced = equations.measure(state);
+        let balanced = equations.measure(state).balanced(0, Vec::new());
         equations.costs = costs;
         if !state.softening.remaining.is_empty() {
             equilibrium.soften();
@@ -108,7 +110,7 @@ impl Equilibrium {
 
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
-        self.equations.problem.loads = loads;
+        self.equations.load_with(loads);
     }
 
     /// The unknowns.
@@ -201,9 +203,16 @@ impl Equilibrium {
         breakage: &Breakage,
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
-        match self.iteration {
-            Iteration::Newton => newton::balance(&mut self.equations, state, breakage, observer),
-            Iteration::Secants => secant::balance(&mut self.equations, state, breakage, observer),
-        }
+        let equations = &mut self.equations;
+        let attempt = match self.iteration {
+            Iteration::Newton => newton::balance(equations, state, breakage, observer),
+            Iteration::Secants => secant::balance(equations, state, breakage, observer),
+        }?;
+        let Attempt::Balanced(balanced) = &attempt else {
+            return Ok(attempt);
+        };
+        let fragments = self.connectivity.fragments();
+        let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
+        Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
     }
 }

@@ -5,13 +5,14 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
-use crate::balanced::{Balanced, Unbalanced};
+use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::serial;
 use crate::state::State;
+use crate::unbalanced::{Place, Unbalanced};
 
 /// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
 /// the next bonds break, just before they do.
@@ -295,6 +296,16 @@ pub enum Termination {
     /// What the load acts on came loose.
     #[error("the body collapsed: the loaded part came loose")]
     Collapsed,
+    /// What a load acts on lost its stiffness: no bond would carry it.
+    #[error("{}", self.words(&|point| format!("point {point}")))]
+    LostStiffness {
+        /// Load step.
+        step: usize,
+        /// Where the body gives way.
+        place: Place,
+        /// Force that nothing carries, N or N m.
+        force: f64,
+    },
     /// A load step needed more rounds of breaking than allowed.
     #[error("load step {step} did not come to rest in {rounds} rounds of breaking")]
     NotAtRest {
@@ -304,7 +315,7 @@ pub enum Termination {
         rounds: usize,
     },
     /// No equilibrium was found.
-    #[error("no equilibrium in load step {step}: {reason}")]
+    #[error("{}", self.words(&|point| format!("point {point}")))]
     NoEquilibrium {
         /// Load step.
         step: usize,
@@ -314,6 +325,21 @@ pub enum Termination {
 }
 
 impl Termination {
+    /// The end in words, with names for points.
+    pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
+        match self {
+            Self::NoEquilibrium { step, reason } => {
+                format!("no equilibrium in load step {step}: {}", reason.words(name))
+            }
+            Self::LostStiffness { step, place, force } => format!(
+                "the body collapsed in step {step}: no bond is left that resists the motion of {}, on which {force:.3e} {} act",
+                place.words(name),
+                place.unit()
+            ),
+            other => other.to_string(),
+        }
+    }
+
     /// Whether the run could go on from there: a rule ended it, not the body.
     pub fn is_by_rule(&self) -> bool {
         match self {
@@ -328,6 +354,7 @@ impl Termination {
             | Self::NothingBreaks
             | Self::FellApart
             | Self::Collapsed
+            | Self::LostStiffness { .. }
             | Self::NoEquilibrium { .. } => false,
         }
     }
@@ -344,7 +371,7 @@ impl Termination {
             Self::WallTime { .. } => "wall-time",
             Self::Stopped => "stopped",
             Self::FellApart => "fell-apart",
-            Self::Collapsed => "collapsed",
+            Self::Collapsed | Self::LostStiffness { .. } => "collapsed",
             Self::NotAtRest { .. } => "not-at-rest",
             Self::NoEquilibrium { .. } => "no-equilibrium",
         }

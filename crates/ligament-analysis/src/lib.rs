@@ -32,9 +32,10 @@ pub mod state;
 pub mod stiffness;
 pub mod supports;
 mod tangent;
+pub mod unbalanced;
 pub mod unknowns;
 
-pub use balanced::{Attempt, Balanced, Unbalanced};
+pub use balanced::{Attempt, Balanced};
 pub use equilibrium::Equilibrium;
 pub use error::SetupError;
 pub use history::{Observer, ObserverError, Termination};
@@ -46,4 +47,5 @@ pub use problem::Problem;
 pub use solver::SolverSettings;
 pub use state::State;
 pub use supports::Supports;
+pub use unbalanced::Unbalanced;
 pub use unknowns::{Component, Layout, Unknowns};

@@ -122,6 +122,12 @@ impl From<Stability> for StabilitySummary {
     }
 }
 
+/// Why a run ended, in words, with points by their tags and places.
+pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
+    let body = model.body();
+    outcome.termination.words(&|point| body.place(point))
+}
+
 /// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
 pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
     let changes = &boundary.temperature_change;
@@ -161,7 +167,7 @@ impl Summary {
             steps: history.len().saturating_sub(1),
             exact_path: outcome.rows == Rows::Events,
             termination: outcome.termination.name(),
-            termination_message: outcome.termination.to_string(),
+            termination_message: ending(outcome, model),
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),

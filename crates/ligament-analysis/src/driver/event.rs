@@ -206,7 +206,7 @@ impl Following<'_> {
             line = match self.path.balance(step, &breakage)? {
                 Attempt::Balanced(balanced) => balanced,
                 Attempt::Unbalanced(reason) => {
-                    let end = Termination::NoEquilibrium { step, reason };
+                    let end = self.path.without_equilibrium(step, reason);
                     return self.end(step + 1, &critical, end);
                 }
             };

@@ -10,7 +10,7 @@ use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{Start, begin, report_loose, report_mechanisms};
-use crate::balanced::{Attempt, Balanced, Unbalanced};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
@@ -23,6 +23,7 @@ use crate::problem::Problem;
 use crate::serial::Serial;
 use crate::softening::Softening;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// Rules that end a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -296,6 +297,18 @@ impl<'a> Path<'a> {
         }
         let is_over = |&allowed: &f64| seconds >= allowed;
         (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
+    }
+
+    /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
+    /// that the body collapsed under it.
+    pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
+        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
+        match reason {
+            Unbalanced::CarriedByHold { place, force } if !is_whole => {
+                Termination::LostStiffness { step, place, force }
+            }
+            reason => Termination::NoEquilibrium { step, reason },
+        }
     }
 
     /// What ends the run with an equilibrium that is at rest.

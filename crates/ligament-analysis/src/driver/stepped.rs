@@ -192,7 +192,7 @@ impl Stepping<'_> {
                 self.path.account(step, &nothing, &balanced)?;
                 self.come_to_rest(counters, balanced)
             }
-            Attempt::Unbalanced(reason) => Ok(Some(Termination::NoEquilibrium { step, reason })),
+            Attempt::Unbalanced(reason) => Ok(Some(self.path.without_equilibrium(step, reason))),
         }
     }
 
@@ -225,7 +225,7 @@ impl Stepping<'_> {
             balanced = match self.path.balance(step, &breakage)? {
                 Attempt::Balanced(balanced) => balanced,
                 Attempt::Unbalanced(reason) => {
-                    let end = Some(Termination::NoEquilibrium { step, reason });
+                    let end = Some(self.path.without_equilibrium(step, reason));
                     return self.record(&balanced, counters, end);
                 }
             };
