@@ -46,7 +46,9 @@ impl Request<'_> {
     /// used.
     pub fn resume(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         self.settings.iter().try_for_each(|it| check_setting(it))?;
-        let folder = ResultFolder::resumed(self.folder)?;
+        let folder = ResultFolder::resumed(self.folder);
+        // That there are no results says more than that a folder cannot be locked.
+        let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
         require_results(folder.path())?;
         let mut case = CaseFile::load(&folder.file(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;
