@@ -21,14 +21,16 @@ material = { young = 30e9, poisson = 0.3, fracture_energy = 100.0, tensile_stren
 model = { law = "mppd", horizon_factor = 3.0 }
 precrack = [{ points = [[-0.001, 0.0121], [0.0081, 0.0121]] }]
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
-load = [{ group = "top", displacement = { y = 1e-5 } }]
 "#;
 
-const STEPPED: &str = "fracture = { steps = 100, bonds_per_iteration = 1, stop = { bonds = 150 } }
+const STEPPED: &str = "load = [{ group = \"top\", displacement = { y = 1e-5 } }]
+fracture = { steps = 100, bonds_per_iteration = 1, stop = { bonds = 150 } }
 output = { fields_every = 7, bonds = true, checkpoint_every = EVERY }";
-const EVENT: &str = "fracture = { control = \"event\", stop = { bonds = 150 } }
+const EVENT: &str = "load = [{ group = \"top\", displacement = { y = 1e-5 } }]
+fracture = { control = \"event\", stop = { bonds = 150 } }
 output = { fields_every = 20, bonds = true, checkpoint_every = EVERY }";
-const SOFTENING: &str = "output = { fields_every = 7, checkpoint_every = EVERY }
+const SOFTENING: &str = "load = [{ group = \"top\", displacement = { y = 2e-4 } }]
+output = { fields_every = 7, checkpoint_every = EVERY }
 fracture = { steps = 60, stop = { load_fraction = 0.3 }, criterion = [{ kind = \"bond-energy\", limit = 1e-4, after = \"bilinear\" }] }";
 
 /// A place for runs of one case.
@@ -100,16 +102,16 @@ fn send(signal: &str, child: &Child) {
     assert!(sent.unwrap().success());
 }
 
-/// Rows of the table of breaks.
-fn breaks(folder: &Path) -> usize {
-    let table = fs::read_to_string(folder.join("breaks.csv"));
+/// Rows of the history.
+fn rows(folder: &Path) -> usize {
+    let table = fs::read_to_string(folder.join("history.csv"));
     table.unwrap_or_default().lines().count()
 }
 
-/// Waits until the table of breaks has more rows than so many.
-fn wait_for_breaks(folder: &Path, rows: usize, child: &mut Child) {
+/// Waits until the history has more rows than so many.
+fn wait_for_rows(folder: &Path, before: usize, child: &mut Child) {
     let start = Instant::now();
-    while breaks(folder) <= rows {
+    while rows(folder) <= before {
         assert!(child.try_wait().unwrap().is_none(), "it ended too early");
         assert!(start.elapsed() < Duration::from_secs(100));
         std::thread::sleep(Duration::from_millis(1));
@@ -182,11 +184,13 @@ fn a_signal_stops_a_run_that_goes_on_later() {
         (SOFTENING, &["-TERM"]),
     ] {
         let bench = Bench::new(fracture, "0");
-        succeeded(bench.run("whole", &["--quiet"]));
-        let mut child = started(bench.run("stopped", &[]));
+        // Large enough for a signal to come in time.
+        let large = ["--quiet", "--set", "lattice.cells=[36, 36]"];
+        succeeded(bench.run("whole", &large));
+        let mut child = started(bench.run("stopped", &large));
         for signal in signals {
-            let rows = breaks(&bench.out("stopped"));
-            wait_for_breaks(&bench.out("stopped"), rows + 5, &mut child);
+            let before = rows(&bench.out("stopped"));
+            wait_for_rows(&bench.out("stopped"), before + 5, &mut child);
             send(signal, &child);
             assert_eq!(child.wait().unwrap().code(), Some(4), "{signal}");
             assert_eq!(termination(&bench.out("stopped")), "stopped");
@@ -272,7 +276,7 @@ fn hundreds_of_killed_runs_go_on() {
 fn stopped(bench: &Bench) -> PathBuf {
     let out = bench.out("out");
     let mut child = started(bench.run("out", &[]));
-    wait_for_breaks(&out, 5, &mut child);
+    wait_for_rows(&out, 5, &mut child);
     send("-INT", &child);
     assert_eq!(child.wait().unwrap().code(), Some(4));
     assert!(out.join("checkpoint.older.bin").is_file());
@@ -368,7 +372,10 @@ fn a_run_that_ended_by_a_rule_is_prolonged() {
 
 #[test]
 fn a_run_that_is_over_says_so() {
-    let bench = Bench::new("fracture = { steps = 2 }", "1e-6");
+    let bench = Bench::new(
+        &STEPPED.replace("stop = { bonds = 150 }", "stop = {}"),
+        "1e-6",
+    );
     let weak = ["--quiet", "--set", "material.tensile_strength=1e3"];
     succeeded(bench.run("out", &weak));
     assert_eq!(termination(&bench.out("out")), "fell-apart");
@@ -386,7 +393,7 @@ fn a_run_without_a_checkpoint_starts_anew() {
     let bench = Bench::new(EVENT, "0");
     succeeded(bench.run("whole", &["--quiet"]));
     let mut child = started(bench.run("out", &[]));
-    wait_for_breaks(&bench.out("out"), 5, &mut child);
+    wait_for_rows(&bench.out("out"), 5, &mut child);
     child.kill().unwrap();
     child.wait().unwrap();
     let said = succeeded(bench.resume("out", &[]));
