@@ -6,6 +6,7 @@
 //! | [`check`] | what `ligament check` tells of a case |
 //! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
+//! | [`terminal`] | where the program speaks to people |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
 #![cfg_attr(
     test,
@@ -17,5 +18,6 @@ pub mod commands;
 pub mod explain;
 pub mod inspect;
 mod lines;
+pub mod terminal;
 
 pub use commands::Cli;

@@ -6,7 +6,7 @@
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
-//! | [`stages`], [`memory`] | time and memory that a run takes |
+//! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
 //! | [`gauges`] | rigid motions that nothing holds, in words |
 #![cfg_attr(
     test,
@@ -14,6 +14,7 @@
 )]
 
 mod destination;
+pub mod disk;
 pub mod gauges;
 pub mod memory;
 pub mod model;

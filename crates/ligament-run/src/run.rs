@@ -11,6 +11,7 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::{ResultWriter, Time, WriteRule};
 
 use crate::destination::{self, make_results};
+use crate::memory;
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
@@ -74,6 +75,8 @@ fn follow_loads(
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
     let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
+    let problem = loading.problem(&model.system, &model.criteria);
+    memory::foresee_equations(case, &model.system, &problem)?;
 
     // Nothing is written, and nothing replaced, before all input was found good.
     make_results(case, out, force, |folder| {

@@ -1,11 +1,12 @@
 //! `ligament run`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::case_args::CaseArgs;
+use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use ligament_study::sweep::take_leash;
@@ -52,7 +53,7 @@ impl RunArgs {
             .out
             .unwrap_or_else(|| Path::new("results").join(case.name()));
         let summary = run(&case, &out, self.force, ProgressMode::detect(self.quiet))?;
-        let mut stdout = io::stdout().lock();
+        let mut stdout = terminal::stdout();
         summary.write(&mut stdout)?;
         Ok(writeln!(stdout, "  results in         {}", out.display())?)
     }

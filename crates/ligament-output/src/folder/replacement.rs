@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::kind::{Kind, REPLACED};
 use crate::Error;
+use crate::atomic::rename;
 
 /// A folder with `suffix` behind its name.
 ///
@@ -152,8 +153,4 @@ fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
 
 fn is_empty(folder: &Path) -> bool {
     fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
-}
-
-fn rename(from: &Path, to: &Path) -> Result<(), Error> {
-    fs::rename(from, to).map_err(Error::system("move", from))
 }
