@@ -130,14 +130,13 @@ fn pipes_and_devices_are_refused() {
             .unwrap()
             .success()
     );
-    let arguments = [
-        ["inspect", "pipe"],
-        ["inspect", "/dev/zero"],
-        ["run", "pipe"],
-        ["sweep", "pipe"],
-        ["new", "pipe"],
-    ];
-    for arguments in arguments {
+    for arguments in [
+        &["inspect", "pipe"][..],
+        &["inspect", "/dev/zero"],
+        &["run", "pipe"],
+        &["sweep", "pipe"],
+        &["new", "pipe", "--out", "new.toml"],
+    ] {
         assert_refused(&place.ligament(arguments), &["pipe or a device"]);
     }
     place.run();

@@ -167,6 +167,7 @@ fn not_done<'a>(
     let mut todo = Vec::new();
     let mut notes = Vec::new();
     for run in mine {
+        record::mend(run, folder)?;
         if force {
             record::demand(run, folder)?;
         }

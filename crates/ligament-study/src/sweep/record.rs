@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ligament_output::folder::{Kind, ResultFolder, put_in_place};
+use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover};
 use ligament_output::{rename, replace_file};
 use serde::{Deserialize, Serialize};
 
@@ -143,6 +143,16 @@ pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> 
     ResultFolder::check(&place, true)?;
     demand(run, folder)?;
     Ok(place)
+}
+
+/// Ends the exchange of results that a kill has cut short, the way that the records say.
+pub(super) fn mend(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
+    let (own, new) = (folder.run(run), folder.new_run(run));
+    let is_of_new = !folder.new_record(run).exists() && new.join(SUMMARY).is_file();
+    if !own.exists() && is_of_new {
+        rename(&new, &own)?;
+    }
+    Ok(recover(&own, Kind::RUN)?)
 }
 
 /// Puts the results of a run that is done in the place of earlier ones, with their record.
