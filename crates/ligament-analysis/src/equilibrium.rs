@@ -2,14 +2,17 @@
 
 mod anderson;
 mod equations;
+mod external;
 mod newton;
+mod residual;
 mod secant;
 
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::balanced::{Attempt, Stability};
+use crate::balanced::{Attempt, Balanced, Stability};
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
 use crate::costs::Costs;
@@ -17,13 +20,14 @@ use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
+use crate::serial::Serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use equations::ROUNDING;
+pub(crate) use residual::ROUNDING;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,6 +60,47 @@ impl Equilibrium {
         })
     }
 
+    /// Appends what it takes to make the equilibrium again, to the bit.
+    pub(crate) fn write(&self, out: &mut Vec<u8>) {
+        let Equations {
+            solver,
+            largest_extents,
+            costs,
+            problem: _,
+            stiffness: _,
+            energy_tolerance: _,
+            ..
+        } = &self.equations;
+        largest_extents.write(out);
+        costs.write(out);
+        solver.write(out);
+    }
+
+    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or of another model, or the factor comes out with other bits.
+    pub(crate) fn restored(
+        problem: &Problem,
+        energy_tolerance: f64,
+        state: &State,
+        from: &mut &[u8],
+    ) -> Result<(Self, Balanced), SetupError> {
+        let mut equilibrium = Self::new(problem, energy_tolerance)?;
+        equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
+        let equations = &mut equilibrium.equations;
+        equations.largest_extents = Serial::read(from).map_err(CheckpointError::from)?;
+        let costs = Costs::read(from).map_err(CheckpointError::from)?;
+        equations.solver.restore(from)?;
+        let balanced = equations.measure(state).balanced(0, Vec::new());
+        equations.costs = costs;
+        if !state.softening.remaining.is_empty() {
+            equilibrium.soften();
+        }
+        Ok((equilibrium, balanced))
+    }
+
     /// Goes on with bonds that soften, if those of the criteria do.
     pub fn soften(&mut self) {
         if self.equations.problem.criteria.soften() {
@@ -65,7 +110,7 @@ impl Equilibrium {
 
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
-        self.equations.problem.loads = loads;
+        self.equations.load_with(loads);
     }
 
     /// The unknowns.
@@ -158,9 +203,16 @@ impl Equilibrium {
         breakage: &Breakage,
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
-        match self.iteration {
-            Iteration::Newton => newton::balance(&mut self.equations, state, breakage, observer),
-            Iteration::Secants => secant::balance(&mut self.equations, state, breakage, observer),
-        }
+        let equations = &mut self.equations;
+        let attempt = match self.iteration {
+            Iteration::Newton => newton::balance(equations, state, breakage, observer),
+            Iteration::Secants => secant::balance(equations, state, breakage, observer),
+        }?;
+        let Attempt::Balanced(balanced) = &attempt else {
+            return Ok(attempt);
+        };
+        let fragments = self.connectivity.fragments();
+        let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
+        Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
     }
 }

@@ -8,6 +8,7 @@
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
 //! | [`terminal`] | where the program speaks to people |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
+//! | `stop_signal` | the wish that a run stop |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -18,6 +19,7 @@ pub mod commands;
 pub mod explain;
 pub mod inspect;
 mod lines;
+mod stop_signal;
 pub mod terminal;
 
 pub use commands::Cli;

@@ -18,6 +18,54 @@ pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write_and_rename(path, contents).map_err(Error::system("write", path))
 }
 
+/// Writes `contents` to `path`, and what was there to `older`; all of it is safely on the disk when this returns.
+///
+/// At any moment one of the two is whole.
+///
+/// # Errors
+///
+/// If the file cannot be written or put in its place.
+pub(crate) fn rotate_file(path: &Path, older: &Path, contents: &[u8]) -> Result<(), Error> {
+    let rotate = || {
+        let temporary = temporary_path(path)?;
+        let moved = write_synced(&temporary, contents).and_then(|()| {
+            if path.exists() {
+                fs::rename(path, older)?;
+            }
+            fs::rename(&temporary, path)?;
+            sync_folder(path)
+        });
+        if moved.is_err() {
+            let _ = fs::remove_file(&temporary);
+        }
+        moved
+    };
+    rotate().map_err(Error::system("write", path))
+}
+
+/// Removes a file, if there is one.
+///
+/// # Errors
+///
+/// If it cannot be removed.
+pub(crate) fn remove_file(path: &Path) -> Result<(), Error> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(Error::system("remove", path)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Brings the names in the folder of a file to the disk; some systems cannot, and need not.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    if let Some(folder) = path.parent().filter(|it| !it.as_os_str().is_empty()) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
 /// The text of a file.
 ///
 /// # Errors

@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::atomic::replace_file;
+use crate::atomic::{remove_file, replace_file};
 use lock::Lock;
 use replacement::{behind, beside, free_place_aside};
 
@@ -162,6 +162,15 @@ impl ResultFolder {
     /// If it cannot be written.
     pub fn write_text(&self, name: &str, text: &str) -> Result<(), Error> {
         replace_file(&self.file(name), text.as_bytes())
+    }
+
+    /// Removes a file of the folder, if it is there.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be removed.
+    pub fn remove(&self, name: &str) -> Result<(), Error> {
+        remove_file(&self.file(name))
     }
 
     /// Ends the work on the folder: the results are complete, and take the place of earlier ones.

@@ -1,10 +1,9 @@
 //! The route of a modal analysis: from the model to modes on disk.
 
-use std::path::Path;
-
 use anyhow::Context;
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
+use ligament_output::folder::ResultFolder;
 use ligament_output::results::write_modes;
 
 use crate::destination::make_results;
@@ -19,8 +18,7 @@ pub(crate) fn find_modes(
     case: &CaseFile,
     settings: ModalSettings,
     model: &Model,
-    out: &Path,
-    force: bool,
+    create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
     let vibration = Vibration::new(&model.setup, &model.system);
@@ -32,7 +30,7 @@ pub(crate) fn find_modes(
     let outcome = stages.time("modes", || analysis.find())?;
 
     // Nothing is written, and nothing replaced, before the modes are there.
-    make_results(case, out, force, |folder| {
+    make_results(case, create, |folder| {
         stages.time("output", || {
             let grid = model.body().grid();
             write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)
@@ -41,6 +39,6 @@ pub(crate) fn find_modes(
         let text = serde_json::to_string_pretty(&summary)
             .context("the summary cannot be written as JSON")?;
         folder.write_text("summary.json", &(text + "\n"))?;
-        Ok(summary)
+        Ok((summary, true))
     })
 }

@@ -8,10 +8,10 @@ use super::error::StudyError;
 use super::meshes::MeshPlan;
 use super::study::Study;
 use super::written::quoted;
-use crate::inputs::{Contents, Inputs};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, CaseFile, Location};
 use ligament_case::input_file;
+use ligament_run::inputs::{Contents, Inputs};
 
 /// Runs that a study may have.
 const MOST_RUNS: usize = 100_000;
