@@ -6,6 +6,7 @@
 //! | [`check`] | what `ligament check` tells of a case |
 //! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
+//! | [`terminal`] | where the program speaks to people |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
 //! | `stop_signal` | the wish that a run stop |
 #![cfg_attr(
@@ -19,5 +20,6 @@ pub mod explain;
 pub mod inspect;
 mod lines;
 mod stop_signal;
+pub mod terminal;
 
 pub use commands::Cli;

@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 use crate::Error;
 use crate::atomic::{remove_file, replace_file};
 use lock::Lock;
-use replacement::{behind, beside, free_place_aside, recover};
+use replacement::{behind, beside, free_place_aside};
 
 pub use kind::{Kind, RESOLVED_CASE};
-pub use replacement::{clear, put_in_place};
+pub use replacement::{put_in_place, recover};
 
 /// A folder for the results of one run, to which no other process writes.
 ///
@@ -68,7 +68,7 @@ impl ResultFolder {
         Occupant::admitted(&new, &new, kind, true)?;
         fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
         let new_lock = Lock::take(&new)?;
-        clear(&new, kind)?;
+        replacement::clear(&new, kind)?;
         Ok(Self {
             replaces: Some((path, lock)),
             ..Self::locked(new, kind, new_lock)

@@ -34,7 +34,7 @@ pub(crate) fn make_results<T>(
     Ok(made)
 }
 
-/// What a user is told where earlier results are replaced.
+/// Words for the user where earlier results are replaced.
 pub(crate) fn words(folder: &ResultFolder) -> Option<String> {
     let earlier = folder.replaces()?.display();
     let place = folder.path().display();

@@ -1,11 +1,11 @@
 //! What decides about the results of a run: its resolved case and the content of the files that it reads.
 
 use std::collections::HashMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, Stop};
+use ligament_case::input_file;
 
 /// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Contents {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
-        let bytes = fs::read(path)?;
+        let bytes = input_file::read(path)?;
         let digest = twox_hash::XxHash64::oneshot(0, &bytes);
         let content = format!("{} bytes, xxh64 {digest:016x}", bytes.len());
         self.0.insert(path.to_owned(), content.clone());

@@ -8,7 +8,7 @@
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
-//! | [`stages`], [`memory`] | time and memory that a run takes |
+//! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
 //! | [`gauges`] | rigid motions that nothing holds, in words |
 #![cfg_attr(
     test,
@@ -17,6 +17,7 @@
 
 mod checkpoints;
 mod destination;
+pub mod disk;
 pub mod gauges;
 pub mod inputs;
 mod loading;

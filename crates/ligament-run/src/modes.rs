@@ -7,6 +7,7 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::write_modes;
 
 use crate::destination::make_results;
+use crate::memory;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
@@ -24,6 +25,7 @@ pub(crate) fn find_modes(
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
+    memory::foresee(case, &model.system, analysis.stiffness())?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 

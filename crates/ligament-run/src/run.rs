@@ -10,6 +10,7 @@ use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
 use crate::loading::LoadedBody;
+use crate::memory;
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
@@ -106,6 +107,8 @@ fn follow_loads(
 ) -> anyhow::Result<Summary> {
     let case = request.case;
     let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
+    let problem = loading.problem(&model.system, &model.criteria);
+    memory::foresee_equations(case, &model.system, &problem)?;
     anyhow::ensure!(
         !(request.is_stopped)(),
         "stopped before the first solution: nothing was written"

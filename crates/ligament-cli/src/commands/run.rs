@@ -1,6 +1,6 @@
 //! `ligament run`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -9,6 +9,7 @@ use clap::Args;
 use super::STOPPED;
 use super::case_args::CaseArgs;
 use crate::stop_signal::StopSignal;
+use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, Request};
 use ligament_study::sweep::take_leash;
@@ -72,7 +73,7 @@ impl RunArgs {
 
 /// Shows what a run found, and where its results are.
 pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
-    let mut stdout = io::stdout().lock();
+    let mut stdout = terminal::stdout();
     report.write(&mut stdout)?;
     let out = out.display();
     if report.is_stopped() {
