@@ -72,7 +72,32 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 ///
 /// If the file cannot be read.
 pub fn read_text(path: &Path) -> Result<String, Error> {
-    fs::read_to_string(path).map_err(Error::system("read", path))
+    let text = read_bytes(path).and_then(|bytes| {
+        String::from_utf8(bytes)
+            .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is no text"))
+    });
+    text.map_err(Error::system("read", path))
+}
+
+/// The bytes of a file; of a pipe or a device, which may never end, none.
+pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = fs::metadata(path)?.file_type();
+    match kind.is_file() || kind.is_dir() {
+        true => fs::read(path),
+        false => Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "it is a pipe or a device",
+        )),
+    }
+}
+
+/// Gives a file or folder another name.
+///
+/// # Errors
+///
+/// If the system refuses.
+pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
+    fs::rename(from, to).map_err(Error::system("move", from))
 }
 
 fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {

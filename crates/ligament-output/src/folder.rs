@@ -9,12 +9,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::atomic::replace_file;
+use crate::atomic::{remove_file, replace_file};
 use lock::Lock;
-use replacement::{behind, beside, free_place_aside, recover};
+use replacement::{behind, beside, free_place_aside};
 
 pub use kind::{Kind, RESOLVED_CASE};
-pub use replacement::{clear, put_in_place};
+pub use replacement::{put_in_place, recover};
 
 /// A folder for the results of one run, to which no other process writes.
 ///
@@ -68,7 +68,7 @@ impl ResultFolder {
         Occupant::admitted(&new, &new, kind, true)?;
         fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
         let new_lock = Lock::take(&new)?;
-        clear(&new, kind)?;
+        replacement::clear(&new, kind)?;
         Ok(Self {
             replaces: Some((path, lock)),
             ..Self::locked(new, kind, new_lock)
@@ -162,6 +162,15 @@ impl ResultFolder {
     /// If it cannot be written.
     pub fn write_text(&self, name: &str, text: &str) -> Result<(), Error> {
         replace_file(&self.file(name), text.as_bytes())
+    }
+
+    /// Removes a file of the folder, if it is there.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be removed.
+    pub fn remove(&self, name: &str) -> Result<(), Error> {
+        remove_file(&self.file(name))
     }
 
     /// Ends the work on the folder: the results are complete, and take the place of earlier ones.

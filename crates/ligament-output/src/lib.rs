@@ -22,8 +22,9 @@ mod error;
 pub mod folder;
 pub mod pvd;
 pub mod results;
+pub mod terminal;
 pub mod vtu;
 mod xml;
 
-pub use atomic::{read_text, replace_file};
+pub use atomic::{read_text, rename, replace_file};
 pub use error::{Error, FieldLocation};

@@ -6,9 +6,9 @@ mod solver;
 
 use std::io::{self, Write};
 
-use ligament_analysis::ProportionalLoading;
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
+use ligament_analysis::{ProportionalLoading, Termination};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -174,6 +174,11 @@ impl Summary {
             stages: stages.to_vec(),
             warnings,
         }
+    }
+
+    /// Whether the run was stopped by its user.
+    pub fn is_stopped(&self) -> bool {
+        self.termination == Termination::Stopped.name()
     }
 
     /// The lines that a user sees at the end of a run.

@@ -91,6 +91,16 @@ pub struct Restored {
 }
 
 impl Restored {
+    /// Load factor of the moment.
+    pub fn load_factor(&self) -> f64 {
+        self.state.load_factor
+    }
+
+    /// Bonds broken up to the moment.
+    pub fn broken_bonds(&self) -> usize {
+        self.course.broken
+    }
+
     /// The run that a checkpoint holds.
     pub(super) fn read(
         problem: &Problem,

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::kind::{Kind, REPLACED};
 use crate::Error;
+use crate::atomic::rename;
 
 /// A folder with `suffix` behind its name.
 ///
@@ -72,7 +73,11 @@ pub fn put_in_place(
 }
 
 /// Ends a replacement that a kill has cut short.
-pub(super) fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
+///
+/// # Errors
+///
+/// If something cannot be renamed or removed.
+pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
     let Ok(aside) = sibling(folder, ".replaced") else {
         return Ok(());
     };
@@ -125,12 +130,11 @@ fn move_foreign(old: &Path, new: &Path, kind: Kind) -> Result<(), Error> {
 }
 
 /// Removes the program's own files from a folder; all others stay.
-///
-/// # Errors
-///
-/// If a file cannot be removed.
-pub fn clear(folder: &Path, kind: Kind) -> Result<(), Error> {
-    for name in names(folder)? {
+pub(super) fn clear(folder: &Path, kind: Kind) -> Result<(), Error> {
+    let mut names = names(folder)?;
+    // Without its marker the folder would be nobody's: after a kill on the way it is cleared again.
+    names.sort_by_key(|name| name == kind.marker);
+    for name in names {
         let (path, text) = (folder.join(&name), name.to_string_lossy());
         let is_folder = fs::symlink_metadata(&path).is_ok_and(|it| it.is_dir());
         if is_folder && (kind.holds_run)(&text) {
@@ -152,8 +156,4 @@ fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
 
 fn is_empty(folder: &Path) -> bool {
     fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
-}
-
-fn rename(from: &Path, to: &Path) -> Result<(), Error> {
-    fs::rename(from, to).map_err(Error::system("move", from))
 }

@@ -36,9 +36,9 @@ use crate::vtu::{self, Field, UnstructuredGrid};
 pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
+use outputs::remove_others;
 pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
-use so_far::remove_others;
 use tables::{Tables, deformation_names};
 
 /// Observer that writes the results of a run.

@@ -6,10 +6,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::serial;
 
 use super::largest::Largest;
-use super::outputs::numbered_files;
 use super::tables::{FILES, Written};
-use crate::Error;
-use crate::atomic::remove_file;
 use crate::folder::ResultFolder;
 
 /// What a run has written up to a moment.
@@ -34,19 +31,22 @@ serial!(SoFar {
 });
 
 impl SoFar {
-    /// Why a run cannot go on from there with what its folder holds; `None` if it can.
-    pub fn obstacle(&self, folder: &ResultFolder, problem: &Problem) -> Option<String> {
-        let n_bonds = problem.system.ends().len();
+    /// Whether it is of a run of this problem.
+    pub fn fits(&self, problem: &Problem) -> bool {
+        let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());
         let mut bonds = self.breaks.iter().map(|(bond, _)| *bond as usize);
-        let n_criteria = problem.criteria.list.len();
         let mut largest = self.largest.iter();
-        if bonds.any(|bond| bond >= n_bonds) || !largest.all(|it| it.fits(n_bonds, n_criteria)) {
-            return Some("it is of another model".to_owned());
-        }
+        bonds.all(|bond| bond < n_bonds) && largest.all(|it| it.fits(n_bonds, n_criteria))
+    }
+
+    /// Why a run cannot go on from there with what its folder holds; `None` if it can.
+    pub fn obstacle(&self, folder: &ResultFolder) -> Option<String> {
         for (name, &length) in FILES.iter().zip(&self.tables.lengths) {
             let found = fs::metadata(folder.file(name)).map_or(0, |it| it.len());
             if found < length {
-                return Some(format!("{name} has {found} bytes where it had {length}"));
+                return Some(format!(
+                    "{name} has {found} bytes where it had {length} when its checkpoint was written"
+                ));
             }
         }
         let mut named = self.fields.iter().chain(&self.bonds).map(|(_, name)| name);
@@ -54,19 +54,4 @@ impl SoFar {
             .find(|name| !folder.file(name).is_file())
             .map(|name| format!("{name} is missing"))
     }
-}
-
-/// Removes the files `STEM_NNNN.vtu` that are none of the outputs.
-pub(super) fn remove_others(
-    folder: &ResultFolder,
-    stem: &str,
-    outputs: &[(f64, String)],
-) -> Result<(), Error> {
-    for path in numbered_files(folder.path(), stem)?.values() {
-        let is_output = outputs.iter().any(|(_, name)| folder.file(name) == *path);
-        if !is_output {
-            remove_file(path)?;
-        }
-    }
-    Ok(())
 }

@@ -13,9 +13,9 @@ use std::io::Write;
 
 use anyhow::Context;
 
-use crate::inputs::{Contents, Inputs};
 use crate::quantities::Quantities;
 use ligament_case::case::{CaseError, CaseFile, Fault};
+use ligament_run::inputs::{Contents, Inputs};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use record::{Record, Run};

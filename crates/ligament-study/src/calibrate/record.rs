@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::request::{CalibrationError, Request, setting};
 use super::search::{Trial, Verdict};
-use crate::inputs::Inputs;
 use crate::quantities::{Quantities, QuantityError};
+use ligament_run::inputs::Inputs;
 
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";

@@ -117,6 +117,18 @@ impl StudyFolder {
         self.path.join("records").join(format!("{}.json", run.name))
     }
 
+    /// New results of a run that has earlier ones, until they are complete.
+    pub(super) fn new_run(&self, run: &Run) -> PathBuf {
+        self.path.join("runs").join(format!("{}~new", run.name))
+    }
+
+    /// The record of new results of a run that has earlier ones.
+    pub(super) fn new_record(&self, run: &Run) -> PathBuf {
+        self.path
+            .join("records")
+            .join(format!("{}~new.json", run.name))
+    }
+
     /// What a run says.
     pub(super) fn log(&self, run: &Run) -> PathBuf {
         self.path.join("logs").join(format!("{}.log", run.name))
@@ -218,7 +230,7 @@ fn open_lock(path: &Path) -> Result<File, StudyError> {
 }
 
 /// The error of a file of the folder.
-pub(super) fn file_error(action: &'static str, path: &Path, source: io::Error) -> StudyError {
+fn file_error(action: &'static str, path: &Path, source: io::Error) -> StudyError {
     StudyError::File {
         action,
         path: path.to_owned(),
