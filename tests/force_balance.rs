@@ -2,9 +2,11 @@
 //! the run.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::Termination;
-use ligament_analysis::driver::{Outcome, Rows};
-use verification::bench::Bench;
+use ligament_analysis::driver::{self, Outcome, Rows};
+use ligament_analysis::{Component, ControlKind, Termination};
+use verification::bench::{Bench, Watch};
+use verification::numbers::relative_error;
+use verification::trusses::{Rod, Truss};
 
 /// A strip of 10 x 5 cells, held on its left side.
 const STRIP: &str = r#"
@@ -50,4 +52,27 @@ fn a_loaded_point_without_stiffness_ends_the_run() {
         assert_eq!(end.name(), "collapsed", "{steps} steps: {end}");
         assert!(peak <= strength && strength <= peak + step, "{steps} steps");
     }
+}
+
+/// Two points joined a quadrillion times more stiffly than all others, of which the wall holds one: two soft rods are in series
+/// between them and the moved end, which a force of half a rod's moves. The rounding of the stiff rod says nothing about the
+/// others, so that the state before any solution is no equilibrium.
+#[test]
+fn a_stiff_pair_of_points_does_not_hide_what_is_missing_elsewhere() {
+    let rod = |ends: [u32; 2], stiffness: f64| Rod {
+        ends,
+        stiffness,
+        critical_elongation: f64::INFINITY,
+    };
+    let rods = [rod([0, 1], 1e16), rod([1, 2], 1.0), rod([2, 3], 1.0)];
+    let mut truss = Truss::new(&[0.0, 1.0, 2.0, 3.0], &rods, ControlKind::Displacement, 3);
+    truss.hold(&[0]);
+    let moved = &mut truss.boundary;
+    moved.prescribe(&[3], Component::X, 1.0).unwrap();
+    let mut watch = Watch::default();
+    let outcome = driver::elastic::run(&truss.problem(), 1e-4, &mut watch).unwrap();
+    let last = outcome.history.last().unwrap();
+    println!("{} N, {} solves", last.reaction, last.solves);
+    // 1e-9: forces are judged to 1e-10 of the largest at a point.
+    assert!(relative_error(last.reaction, 0.5) < 1e-9, "{last:?}");
 }
