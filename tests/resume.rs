@@ -219,7 +219,8 @@ fn plate(settings: &[&str]) -> Bench {
 /// Imaginary elements, whose bonds lean on others, and an orthotropic law with a temperature as the load.
 #[test]
 fn other_elements_and_loads_go_on_to_the_same_bits() {
-    const MBB: [&str; 3] = [
+    const MBB: [&str; 4] = [
+        "load.0.displacement.y=4e-5",
         "model.law=mbb-pd",
         "fracture.stop.bonds=60",
         "fracture.criterion=[{ kind = \"mixed-mode\" }]",
@@ -227,6 +228,7 @@ fn other_elements_and_loads_go_on_to_the_same_bits() {
     assert_resumes("mbb-pd", &plate(&MBB), 4);
     let exact = [
         MBB[0],
+        MBB[1],
         "fracture={ control = \"event\", stop = { bonds = 60 } }",
     ];
     assert_resumes("mbb-pd, exact path", &plate(&exact), 4);

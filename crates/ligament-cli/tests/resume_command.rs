@@ -400,3 +400,22 @@ fn a_run_without_a_checkpoint_starts_anew() {
     assert!(said.contains("no checkpoint yet: it starts anew"), "{said}");
     assert_same(&bench.out("whole"), &bench.out("out"));
 }
+
+/// A run that replaces earlier results leaves them whole while it is stopped, and takes their place when it is complete.
+#[test]
+fn a_run_that_replaces_others_goes_on() {
+    let bench = Bench::new(EVENT, "0");
+    let large = ["--quiet", "--set", "lattice.cells=[36, 36]"];
+    succeeded(bench.run("whole", &large));
+    succeeded(bench.run("out", &["--quiet"]));
+    let earlier = results(&bench.out("out"));
+    let mut child = started(bench.run("out", &[&large[..], &["--force"]].concat()));
+    wait_for_rows(&bench.out("out.new"), 5, &mut child);
+    send("-INT", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(4));
+    assert_eq!(results(&bench.out("out")), earlier);
+    assert_eq!(termination(&bench.out("out.new")), "stopped");
+    succeeded(bench.resume("out", &["--quiet"]));
+    assert!(!bench.out("out.new").exists());
+    assert_same(&bench.out("whole"), &bench.out("out"));
+}

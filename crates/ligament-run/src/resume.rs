@@ -15,10 +15,10 @@ use ligament_output::results::SoFar;
 use ligament_output::results::outputs::{clear, require_results};
 use serde_json::Value;
 
-use crate::checkpoints::VERSION;
+use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
 use crate::inputs::{Inputs, MAY_CHANGE};
-use crate::loading::{IsStopped, Kept, LoadedBody, SUMMARY};
+use crate::loading::{Kept, LoadedBody, SUMMARY};
 use crate::model::build_model;
 use crate::progress::{Progress, ProgressMode};
 use crate::run::Report;
