@@ -122,17 +122,22 @@ fn an_orthotropic_body_is_read_along_its_axes() {
     }
 }
 
-/// Square cells are as stiff as their material with the patch correction, also where tractions act half a cell inside the outline of a
-/// body that is longer than high.
+/// Square cells are as stiff as their material with the patch correction, also where the body is longer than high: along its length it has
+/// E and nu, and in shear its bonds strain uniformly.
 #[test]
 fn a_lattice_has_a_patch_test() {
-    let lattice = LatticeBody::new([40, 20], [0.005; 2], [0.0; 2], &[], &[].into()).unwrap();
-    let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
-    let [x, y, nu] = errors(&tested(patched(setup)));
-    assert!(
-        x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
-        "{x}, {y}, {nu}"
-    );
+    for cells in [[40, 20], [30, 30], [160, 10]] {
+        let lattice = LatticeBody::new(cells, [0.005; 2], [0.0; 2], &[], &[].into()).unwrap();
+        let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
+        let test = tested(patched(setup));
+        let [x, y, nu] = errors(&test);
+        assert!(
+            x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
+            "{cells:?}: {x}, {y}, {nu}"
+        );
+        // Corners have half the bonds of an edge, and their equations are not all met.
+        assert!(test.scatter.iter().all(|it| *it < 9e-3), "{test:?}");
+    }
 }
 
 /// A pre-crack is left out: the body is the same without it.
@@ -198,8 +203,7 @@ fn several_materials_have_no_modulus_but_strains() {
         first.parse::<f64>().unwrap()
     };
     let (with, without) = (strains("patch"), strains("domain"));
-    // Bonds across the interface follow their own rule, and miss uniform strains by more than those inside.
-    assert!(with < 5.0 && without > 10.0, "{with}, {without}");
+    assert!(with < 0.5 && without > 5.0, "{with}, {without}");
 }
 
 #[test]

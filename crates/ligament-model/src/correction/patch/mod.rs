@@ -28,13 +28,15 @@
 mod dual;
 mod equations;
 mod forces;
+mod lattice_forces;
 mod newton;
 mod pairs;
 mod plane;
 mod settings;
 
 pub use dual::Report;
-pub use forces::{CellForces, Points, of_lattice, of_mesh};
+pub use forces::{CellForces, Points, of_mesh};
+pub use lattice_forces::{of_lattice, stiffness_of_lattice};
 pub use settings::Settings;
 
 use super::{Correction, CorrectionReport};
