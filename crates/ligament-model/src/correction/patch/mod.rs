@@ -25,6 +25,7 @@
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
 //! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
 
+mod aggregates;
 mod dual;
 mod equations;
 mod forces;
