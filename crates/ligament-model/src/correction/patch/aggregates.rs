@@ -3,13 +3,15 @@
 //! The ends of a bond have opposite terms in the equations of forces, so multipliers that are the same at both cost nothing, and waves of
 //! them that are much longer than a horizon little: less, in a large body, than the regularisation. What it lets go of equations that
 //! cannot be met is local, at corners and points of few bonds; what it lets go in long waves adds up to forces, and the body is too soft.
-//! So the points are cut, along the curve, into aggregates, over which multipliers may be constant at hardly any cost, and the directions
+//! So the points are divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions
 //! of Newton steps are solved exactly for such ones (a coarse space, Nicolaides 1987).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
 use super::equations::{Equations, Multipliers};
+use super::pairs::BLOCK;
+use crate::cloud::PointCloud;
 
 /// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
 const MOST: usize = 64;
@@ -17,58 +19,87 @@ const MOST: usize = 64;
 /// Points of an aggregate at least: less is hardly more than what the block of a point sees.
 const FEWEST_POINTS: usize = 32;
 
+/// Below this share of a square of a distance another one is the shorter of both, whatever rounding did.
+const TIE: f64 = 1.0 - 1e-9;
+
 /// Regularisation of multipliers that are constant over aggregates over that of others: it holds those that are the same everywhere, which
 /// have no equation.
 const SHARE: f64 = 1e-3;
 
-/// Runs of points along the curve.
-#[derive(Debug, Clone, Copy)]
+/// Points that are nearer to one of some points far from each other than to the others.
+///
+/// Distances and the numbers of the points decide, not the axes: a turned body has the same aggregates.
 pub(super) struct Aggregates {
-    n_points: usize,
-    /// Points of each but the last.
-    size: usize,
+    /// Place of the first number of the aggregate of each rank.
+    first: Vec<u32>,
+    count: usize,
     /// Numbers of an aggregate: one for each equation of forces.
     width: usize,
 }
 
 impl Aggregates {
-    pub(super) fn new(n_points: usize, width: usize) -> Self {
-        let size = n_points.div_ceil(MOST).max(FEWEST_POINTS);
+    /// Aggregates of the points of a cloud, with some numbers each.
+    fn new(cloud: &PointCloud, width: usize) -> Self {
+        let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
+        let mut distance = vec![f64::INFINITY; cloud.len()];
+        let mut aggregate = vec![0; cloud.len()];
+        let mut seed = 0;
+        for number in 0..count {
+            let centre = cloud.positions[seed];
+            seed = 0;
+            for (point, position) in cloud.positions.iter().enumerate() {
+                let square: f64 = position
+                    .iter()
+                    .zip(centre)
+                    .map(|(a, b)| (a - b).powi(2))
+                    .sum();
+                if square < TIE * distance[point] {
+                    (distance[point], aggregate[point]) = (square, number);
+                }
+                if TIE * distance[point] > distance[seed] {
+                    seed = point;
+                }
+            }
+        }
+        let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
         Self {
-            n_points,
-            size,
+            first: cloud.curve.iter().map(first).collect(),
+            count,
             width,
         }
     }
 
     /// The numbers of the aggregate of a point.
     #[inline(always)]
-    pub(super) fn at(self, of_aggregates: &[f64], rank: usize) -> &[f64] {
-        &of_aggregates[self.first(rank)..][..self.width]
-    }
-
-    /// Place of the first number of the aggregate of a point.
-    #[inline(always)]
-    fn first(self, rank: usize) -> usize {
-        self.width * (rank / self.size)
+    pub(super) fn at<'a>(&self, of_aggregates: &'a [f64], rank: usize) -> &'a [f64] {
+        &of_aggregates[self.first[rank] as usize..][..self.width]
     }
 
     /// Sums over the points of each aggregate.
-    pub(super) fn sums<const N: usize>(self, value: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
-        let of_aggregate = |first: usize| {
-            let ranks = first * self.size..((first + 1) * self.size).min(self.n_points);
-            let mut sum = [0.0; N];
-            for rank in ranks {
+    pub(super) fn sums<const N: usize>(
+        &self,
+        value: impl Fn(usize) -> [f64; N] + Sync,
+    ) -> Vec<f64> {
+        let zeros = || vec![0.0; self.width * self.count];
+        let of_block = |(block, firsts): (usize, &[u32])| {
+            let mut sums = zeros();
+            for (rank, &first) in (block * BLOCK..).zip(firsts) {
                 let values = value(rank);
-                (0..self.width).for_each(|k| sum[k] += values[k]);
+                let of_aggregate = &mut sums[first as usize..][..self.width];
+                for (sum, value) in of_aggregate.iter_mut().zip(values) {
+                    *sum += value;
+                }
             }
-            sum.into_iter().take(self.width)
+            sums
         };
-        let aggregates = 0..self.n_points.div_ceil(self.size);
-        aggregates
-            .into_par_iter()
-            .flat_map_iter(of_aggregate)
-            .collect()
+        let blocks = self.first.par_chunks(BLOCK).enumerate().map(of_block);
+        let mut all = zeros();
+        for sums in blocks.collect::<Vec<_>>() {
+            for (all, sum) in all.iter_mut().zip(sums) {
+                *all += sum;
+            }
+        }
+        all
     }
 }
 
@@ -82,8 +113,8 @@ pub(super) struct Regularisation<const N: usize> {
 }
 
 impl<const N: usize> Regularisation<N> {
-    pub(super) fn new(of_points: Multipliers<N>, width: usize) -> Self {
-        let aggregates = Aggregates::new(of_points.len(), width);
+    pub(super) fn new(of_points: Multipliers<N>, cloud: &PointCloud, width: usize) -> Self {
+        let aggregates = Aggregates::new(cloud, width);
         let totals = aggregates.sums(|rank| of_points[rank]);
         Self {
             of_points,
@@ -129,13 +160,13 @@ impl Coarse {
         regularisation: &Regularisation<N>,
         slopes: &[[f64; 2]],
     ) -> Self {
-        let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
+        let (pairs, aggregates) = (equations.pairs(), &regularisation.aggregates);
         let held = DVector::from_vec(regularisation.totals.clone());
         let mut matrix = SHARE * DMatrix::from_diagonal(&held);
-        for rank in 0..aggregates.n_points {
-            let own = aggregates.first(rank);
+        for rank in 0..pairs.n_points() {
+            let own = aggregates.first[rank] as usize;
             for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
-                let other = aggregates.first(pairs.other[pair] as usize);
+                let other = aggregates.first[pairs.other[pair] as usize] as usize;
                 if other == own {
                     continue;
                 }

@@ -208,8 +208,9 @@ impl<E> Dual<'_, E> {
                 }
             })
         };
-        let n_points = self.equations.pairs().n_points();
-        Regularisation::new((0..n_points).map(of_rank).collect(), E::FORCES)
+        let pairs = self.equations.pairs();
+        let of_points = (0..pairs.n_points()).map(of_rank).collect();
+        Regularisation::new(of_points, pairs.cloud, E::FORCES)
     }
 
     /// Root mean square of scaled numbers.

@@ -124,7 +124,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
                 for (direction, solved) in direction.iter_mut().zip(solved_here) {
                     *direction = solved + share * *direction;
                 }
-                let aggregates = self.regularisation.aggregates;
+                let aggregates = &self.regularisation.aggregates;
                 let common = aggregates.at(&solved.aggregates, rank);
                 for (direction, common) in direction.iter_mut().zip(common) {
                     *direction += common;
