@@ -51,7 +51,7 @@ fn the_patch_correction_passes_the_patch_test() {
         let with = tested(patched(setup));
         let [x, y, nu] = errors(&with);
         assert!(
-            x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
+            x.abs() < 3e-4 && y.abs() < 3e-4 && nu.abs() < 3e-4,
             "{with:?}"
         );
         assert!(with.scatter.iter().all(|it| *it < 3e-3), "{with:?}");
@@ -60,6 +60,25 @@ fn the_patch_correction_passes_the_patch_test() {
         assert!(without.scatter.iter().all(|it| *it > 0.05), "{without:?}");
         assert!(without.largest > without.scatter[0], "{without:?}");
     }
+}
+
+/// Of ten bonds a point, some of a larger body have no factors that meet their equations: what is left there does not add up over the
+/// body, and the iteration finds its way all the same.
+#[test]
+fn few_bonds_make_no_soft_body() {
+    let mut setup = patched(Setup::new(
+        MeshBody::from(meshes::read("meshes/disk-1.5mm.msh")),
+        Material::isotropic(YOUNG, POISSON),
+        Law::Nhpd,
+    ));
+    setup.horizon = Horizon::Factor(2.0);
+    let test = tested(setup);
+    let [x, y, nu] = errors(&test);
+    assert!(
+        x.abs() < 5e-4 && y.abs() < 5e-4 && nu.abs() < 5e-4,
+        "{test:?}"
+    );
+    assert!(test.scatter.iter().all(|it| *it < 5e-3), "{test:?}");
 }
 
 /// Young's modulus from pulling the bar is that of the patch test: a force is spread over its sides along x, and their mean
@@ -132,7 +151,7 @@ fn a_lattice_has_a_patch_test() {
         let test = tested(patched(setup));
         let [x, y, nu] = errors(&test);
         assert!(
-            x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
+            x.abs() < 1e-3 && y.abs() < 1e-3 && nu.abs() < 1e-3,
             "{cells:?}: {x}, {y}, {nu}"
         );
         // Corners have half the bonds of an edge, and their equations are not all met.

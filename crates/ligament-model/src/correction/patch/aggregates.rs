@@ -39,7 +39,7 @@ pub(super) struct Aggregates {
 
 impl Aggregates {
     /// Aggregates of the points of a cloud, with some numbers each.
-    fn new(cloud: &PointCloud, width: usize) -> Self {
+    pub(super) fn new(cloud: &PointCloud, width: usize) -> Self {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];
@@ -104,17 +104,16 @@ impl Aggregates {
 }
 
 /// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.
-pub(super) struct Regularisation<const N: usize> {
+pub(super) struct Regularisation<'a, const N: usize> {
     /// r/d^2, by rank.
     pub(super) of_points: Multipliers<N>,
-    pub(super) aggregates: Aggregates,
+    pub(super) aggregates: &'a Aggregates,
     /// Sums of r/d^2 over the aggregates.
     totals: Vec<f64>,
 }
 
-impl<const N: usize> Regularisation<N> {
-    pub(super) fn new(of_points: Multipliers<N>, cloud: &PointCloud, width: usize) -> Self {
-        let aggregates = Aggregates::new(cloud, width);
+impl<'a, const N: usize> Regularisation<'a, N> {
+    pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates) -> Self {
         let totals = aggregates.sums(|rank| of_points[rank]);
         Self {
             of_points,
@@ -157,10 +156,10 @@ impl Coarse {
     /// The matrix of the aggregates from the slopes of the pairs.
     pub(super) fn new<const N: usize, E: Equations<N>>(
         equations: &E,
-        regularisation: &Regularisation<N>,
+        regularisation: &Regularisation<'_, N>,
         slopes: &[[f64; 2]],
     ) -> Self {
-        let (pairs, aggregates) = (equations.pairs(), &regularisation.aggregates);
+        let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
         let held = DVector::from_vec(regularisation.totals.clone());
         let mut matrix = SHARE * DMatrix::from_diagonal(&held);
         for rank in 0..pairs.n_points() {

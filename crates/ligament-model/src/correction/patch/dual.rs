@@ -9,7 +9,7 @@
 //! z = z_0 + G^T mu, G q(z) - f + r (mu - mu_k)/d^2 = 0,
 //!
 //! d the scales of the equations; r lets go of equations that cannot be met, and outer steps k, each from the multipliers mu_k of the
-//! one before, take its bias away. A Newton step solves, with D = dq/dz and what is left of the first condition,
+//! one before, take its bias away. Long waves of mu are left out of that term ([`Regularisation`]). A Newton step solves, with D = dq/dz and what is left of the first condition,
 //! rho = z_0 + G^T mu - z,
 //!
 //! (G D G^T + r/d^2) delta mu = -(G (q + D rho) - f + r (mu - mu_k)/d^2).
@@ -19,7 +19,7 @@
 
 use rayon::prelude::*;
 
-use super::aggregates::Regularisation;
+use super::aggregates::{Aggregates, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::newton::Hessian;
 use super::pairs::BLOCK;
@@ -74,6 +74,7 @@ struct Dual<'a, E> {
     span: f64,
     /// z_0.
     offset: f64,
+    aggregates: Aggregates,
 }
 
 /// A place on the way.
@@ -97,6 +98,7 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(
         lowest: settings.lowest,
         span: settings.highest - settings.lowest,
         offset: ((1.0 - settings.lowest) / (settings.highest - 1.0)).ln(),
+        aggregates: Aggregates::new(equations.pairs().cloud, E::FORCES),
     };
     let mut place = dual.start();
     let (mut steps, mut products) = (0, 0);
@@ -136,7 +138,7 @@ impl<const N: usize> Place<N> {
     /// The right-hand side of a Newton step, with the opposite sign.
     fn gradient(
         &self,
-        regularisation: &Regularisation<N>,
+        regularisation: &Regularisation<'_, N>,
         centre: &Multipliers<N>,
     ) -> Multipliers<N> {
         let away = |rank: usize| {
@@ -194,7 +196,7 @@ impl<E> Dual<'_, E> {
     }
 
     /// The regularisation r/d^2.
-    fn regularisation<const N: usize>(&self, r: f64) -> Regularisation<N>
+    fn regularisation<const N: usize>(&self, r: f64) -> Regularisation<'_, N>
     where
         E: Equations<N>,
     {
@@ -210,7 +212,7 @@ impl<E> Dual<'_, E> {
         };
         let pairs = self.equations.pairs();
         let of_points = (0..pairs.n_points()).map(of_rank).collect();
-        Regularisation::new(of_points, pairs.cloud, E::FORCES)
+        Regularisation::new(of_points, &self.aggregates)
     }
 
     /// Root mean square of scaled numbers.

@@ -13,7 +13,7 @@ const MOST_PRODUCTS: usize = 400;
 /// The matrix G D G^T with the regularisation.
 pub(super) struct Hessian<'a, E, const N: usize> {
     equations: &'a E,
-    regularisation: &'a Regularisation<N>,
+    regularisation: &'a Regularisation<'a, N>,
     /// D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
     /// Inverses of the blocks of the points, by rank: as a preconditioner they need be no more accurate, and are most of what a step reads.
@@ -33,7 +33,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     /// The matrix with the inverses of its blocks.
     pub(super) fn new(
         equations: &'a E,
-        regularisation: &'a Regularisation<N>,
+        regularisation: &'a Regularisation<'a, N>,
         slopes: &'a [[f64; 2]],
     ) -> Self {
         let mut hessian = Self {
@@ -124,7 +124,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
                 for (direction, solved) in direction.iter_mut().zip(solved_here) {
                     *direction = solved + share * *direction;
                 }
-                let aggregates = &self.regularisation.aggregates;
+                let aggregates = self.regularisation.aggregates;
                 let common = aggregates.at(&solved.aggregates, rank);
                 for (direction, common) in direction.iter_mut().zip(common) {
                     *direction += common;
