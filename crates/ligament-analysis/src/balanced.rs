@@ -1,11 +1,11 @@
 //! States in equilibrium, and why there is none.
 
-use ligament_linalg::FactorError;
 use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use crate::internal::InternalForces;
+use crate::serial;
+use crate::unbalanced::Unbalanced;
 
 /// The end of an attempt to bring a state into equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,47 +75,4 @@ pub struct Stability {
     pub expected: usize,
 }
 
-/// Why no equilibrium was found: an outcome of the run, not an error.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Unbalanced {
-    /// Newton-Raphson did not get there.
-    #[error(
-        "Newton-Raphson did not converge: residual {residual:.1e} after {iterations} iterations"
-    )]
-    NotConverged {
-        /// Relative residual of the last iterate.
-        residual: f64,
-        /// Iterations done.
-        iterations: usize,
-    },
-    /// A pivot of the indefinite matrix vanished.
-    #[error(
-        "the stiffness lost stability: vanishing pivot at point {point}, component {component}"
-    )]
-    VanishingPivot {
-        /// Point index.
-        point: u32,
-        /// Component name.
-        component: &'static str,
-    },
-    /// L L^T was asked for where bonds have negative stiffness, and met a pivot that is not positive.
-    #[error(
-        "the stiffness is not positive definite, as L L^T needs (pivot at point {point}, component {component}): bonds \
-         have a negative shear stiffness (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\""
-    )]
-    NotPositiveDefinite {
-        /// Point index.
-        point: u32,
-        /// Component name.
-        component: &'static str,
-    },
-    /// The energy of the motions is negative: the stored one, unless the temperature changes.
-    #[error("the stiffness lost stability: negative strain energy {energy:.3e} J")]
-    NegativeEnergy {
-        /// The energy of the motions, J.
-        energy: f64,
-    },
-    /// The matrix could not be factorised.
-    #[error("the stiffness has no factor: {0}")]
-    NoFactor(FactorError),
-}
+serial!(Stability { negative, expected });

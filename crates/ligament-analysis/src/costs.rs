@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use crate::serial;
+
 /// What the equations have cost so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Costs {
@@ -28,3 +30,17 @@ pub struct Costs {
     /// Time in the search for loose parts.
     pub connectivity: Duration,
 }
+
+serial!(Costs {
+    factorisations,
+    changes,
+    solves,
+    analysis,
+    assembly,
+    factorisation,
+    change,
+    backward,
+    solve,
+    bonds,
+    connectivity,
+});

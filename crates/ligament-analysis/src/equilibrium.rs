@@ -2,13 +2,15 @@
 
 mod anderson;
 mod equations;
+mod external;
 mod newton;
+mod residual;
 mod secant;
 
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::balanced::{Attempt, Stability};
+use crate::balanced::{Attempt, Balanced, Stability};
 use crate::breakage::Breakage;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
@@ -23,7 +25,7 @@ use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use equations::ROUNDING;
+pub(crate) use residual::ROUNDING;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,6 +58,31 @@ impl Equilibrium {
         })
     }
 
+    /// Appends what it takes to make the equilibrium again, to the bit.
+    pub(crate) fn write(&self, out: &mut Vec<u8>) {
+        self.equations.write(out);
+    }
+
+    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or of another model, or the factor comes out with other bits.
+    pub(crate) fn restored(
+        problem: &Problem,
+        energy_tolerance: f64,
+        state: &State,
+        from: &mut &[u8],
+    ) -> Result<(Self, Balanced), SetupError> {
+        let mut equilibrium = Self::new(problem, energy_tolerance)?;
+        equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
+        let balanced = equilibrium.equations.restore(state, from)?;
+        if !state.softening.remaining.is_empty() {
+            equilibrium.soften();
+        }
+        Ok((equilibrium, balanced))
+    }
+
     /// Goes on with bonds that soften, if those of the criteria do.
     pub fn soften(&mut self) {
         if self.equations.problem.criteria.soften() {
@@ -65,7 +92,7 @@ impl Equilibrium {
 
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
-        self.equations.problem.loads = loads;
+        self.equations.load_with(loads);
     }
 
     /// The unknowns.
@@ -158,9 +185,16 @@ impl Equilibrium {
         breakage: &Breakage,
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
-        match self.iteration {
-            Iteration::Newton => newton::balance(&mut self.equations, state, breakage, observer),
-            Iteration::Secants => secant::balance(&mut self.equations, state, breakage, observer),
-        }
+        let equations = &mut self.equations;
+        let attempt = match self.iteration {
+            Iteration::Newton => newton::balance(equations, state, breakage, observer),
+            Iteration::Secants => secant::balance(equations, state, breakage, observer),
+        }?;
+        let Attempt::Balanced(balanced) = &attempt else {
+            return Ok(attempt);
+        };
+        let fragments = self.connectivity.fragments();
+        let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
+        Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
     }
 }

@@ -3,6 +3,7 @@
 use ligament_linalg::{FactorError, PatternError};
 use thiserror::Error;
 
+use crate::checkpoint::CheckpointError;
 use crate::history::ObserverError;
 
 /// What stops an analysis with an error.
@@ -19,6 +20,9 @@ pub enum SetupError {
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
     )]
     Softening,
+    /// A run cannot go on from its checkpoint.
+    #[error("the run cannot go on from its checkpoint: {0}")]
+    Checkpoint(#[from] CheckpointError),
     /// An observer could not do its part.
     #[error(transparent)]
     Observer(#[from] ObserverError),

@@ -5,12 +5,14 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
-use crate::balanced::{Balanced, Unbalanced};
+use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
+use crate::serial;
 use crate::state::State;
+use crate::unbalanced::{Place, Unbalanced};
 
 /// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
 /// the next bonds break, just before they do.
@@ -55,6 +57,27 @@ pub struct StepRecord {
     /// Values of the probes.
     pub probes: Vec<f64>,
 }
+
+serial!(StepRecord {
+    step,
+    load_factor,
+    displacement,
+    reaction,
+    stored_energy,
+    released_energy,
+    dissipated_energy,
+    external_work,
+    broken_bonds,
+    broken_in_step,
+    largest_ratio,
+    rounds,
+    solves,
+    fragments,
+    at_rest,
+    negative_eigenvalues,
+    group_forces,
+    probes,
+});
 
 impl StepRecord {
     /// (external work - stored - released energy) / external work: what the energy balance misses; 0 without work.
@@ -167,6 +190,25 @@ pub struct View<'a> {
 #[error(transparent)]
 pub struct ObserverError(#[from] pub Box<dyn std::error::Error + Send + Sync>);
 
+/// A moment of a run from which it can go on later, to the same bits.
+///
+/// The checkpoint of it are bytes, in which stands all that is not made of the problem alone.
+pub struct Moment<'a> {
+    /// The reason why the run ends here, if it does.
+    pub end: Option<&'a Termination>,
+    /// Makes the checkpoint of the moment.
+    pub checkpoint: &'a dyn Fn() -> Vec<u8>,
+}
+
+/// What becomes of a run after a moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Onward {
+    /// It goes on.
+    Go,
+    /// It stops here.
+    Stop,
+}
+
 /// Watches a run. All methods but [`Observer::step`] may be left as they are.
 pub trait Observer {
     /// A Newton-Raphson iteration was done.
@@ -198,6 +240,11 @@ pub trait Observer {
     /// Something happened that a user should know.
     fn notice(&mut self, _notice: &Notice) -> Result<(), ObserverError> {
         Ok(())
+    }
+
+    /// The run could go on later from here; tells whether it goes on now.
+    fn moment(&mut self, _moment: &Moment<'_>) -> Result<Onward, ObserverError> {
+        Ok(Onward::Go)
     }
 
     /// A load step ended.
@@ -240,12 +287,25 @@ pub enum Termination {
         /// Time allowed, s.
         seconds: f64,
     },
+    /// The observer stopped it.
+    #[error("it was stopped")]
+    Stopped,
     /// The body no longer carries the load: it fell apart.
     #[error("the body fell apart: it carries no load any more")]
     FellApart,
     /// What the load acts on came loose.
     #[error("the body collapsed: the loaded part came loose")]
     Collapsed,
+    /// What a load acts on lost its stiffness: no bond would carry it.
+    #[error("{}", self.words(&|point| format!("point {point}")))]
+    LostStiffness {
+        /// Load step.
+        step: usize,
+        /// Where the body gives way.
+        place: Place,
+        /// Force that nothing carries, N or N m.
+        force: f64,
+    },
     /// A load step needed more rounds of breaking than allowed.
     #[error("load step {step} did not come to rest in {rounds} rounds of breaking")]
     NotAtRest {
@@ -255,7 +315,7 @@ pub enum Termination {
         rounds: usize,
     },
     /// No equilibrium was found.
-    #[error("no equilibrium in load step {step}: {reason}")]
+    #[error("{}", self.words(&|point| format!("point {point}")))]
     NoEquilibrium {
         /// Load step.
         step: usize,
@@ -265,6 +325,40 @@ pub enum Termination {
 }
 
 impl Termination {
+    /// The end in words, with names for points.
+    pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
+        match self {
+            Self::NoEquilibrium { step, reason } => {
+                format!("no equilibrium in load step {step}: {}", reason.words(name))
+            }
+            Self::LostStiffness { step, place, force } => format!(
+                "the body collapsed in step {step}: no bond is left that resists the motion of {}, on which {force:.3e} {} act",
+                place.words(name),
+                place.unit()
+            ),
+            other => other.to_string(),
+        }
+    }
+
+    /// Whether the run could go on from there: a rule ended it, not the body.
+    pub fn is_by_rule(&self) -> bool {
+        match self {
+            Self::StepsDone
+            | Self::LoadFraction { .. }
+            | Self::DisplacementReached { .. }
+            | Self::BondsBroken { .. }
+            | Self::WallTime { .. }
+            | Self::Stopped
+            | Self::NotAtRest { .. } => true,
+            Self::FullLoad
+            | Self::NothingBreaks
+            | Self::FellApart
+            | Self::Collapsed
+            | Self::LostStiffness { .. }
+            | Self::NoEquilibrium { .. } => false,
+        }
+    }
+
     /// Short name for files.
     pub fn name(&self) -> &'static str {
         match self {
@@ -275,8 +369,9 @@ impl Termination {
             Self::DisplacementReached { .. } => "displacement-reached",
             Self::BondsBroken { .. } => "bonds-broken",
             Self::WallTime { .. } => "wall-time",
+            Self::Stopped => "stopped",
             Self::FellApart => "fell-apart",
-            Self::Collapsed => "collapsed",
+            Self::Collapsed | Self::LostStiffness { .. } => "collapsed",
             Self::NotAtRest { .. } => "not-at-rest",
             Self::NoEquilibrium { .. } => "no-equilibrium",
         }

@@ -25,9 +25,6 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Given forces at some degrees of freedom, in their order, N and N m.
     fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64>;
 
-    /// Largest size of a given force or moment, N or N m.
-    fn largest_force(&self, time: f64) -> f64;
-
     /// Strains that the temperature gives without stress.
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_>;
 

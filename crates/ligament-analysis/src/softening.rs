@@ -8,6 +8,8 @@ use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
+use crate::serial;
+
 /// State of bonds past their limits; empty where no bond softens.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Softening {
@@ -19,7 +21,22 @@ pub struct Softening {
     pub remaining: Vec<Remaining>,
 }
 
+serial!(Softening {
+    largest,
+    trial,
+    remaining
+});
+
 impl Softening {
+    /// Whether all arrays are those of bonds with these criteria.
+    pub(crate) fn fits(&self, criteria: &Criteria, n_bonds: usize) -> bool {
+        let lengths = |it: &Self| {
+            let of = |lists: &[Vec<f64>]| lists.iter().map(Vec::len).collect::<Vec<usize>>();
+            (of(&it.largest), of(&it.trial), it.remaining.len())
+        };
+        lengths(self) == lengths(&Self::of_sound_bonds(criteria, n_bonds))
+    }
+
     /// The state of sound bonds.
     pub fn of_sound_bonds(criteria: &Criteria, n_bonds: usize) -> Self {
         if !criteria.soften() {

@@ -2,7 +2,9 @@
 
 use ligament_model::Bonds;
 pub use ligament_model::BondsLeft;
+use ligament_model::failure::Criteria;
 
+use crate::serial;
 use crate::softening::Softening;
 
 /// Motion of the points and what is left of the bonds.
@@ -24,7 +26,33 @@ pub struct State {
     pub held: Vec<bool>,
 }
 
+serial!(State {
+    load_factor,
+    displacement,
+    intact,
+    broken_by,
+    softening,
+    dissipated,
+    held
+});
+
 impl State {
+    /// Whether all arrays are those of a body with these bonds and criteria.
+    pub(crate) fn fits(&self, system: &dyn Bonds, criteria: &Criteria) -> bool {
+        let (n, n_bonds) = (system.layout().n_degrees_of_freedom(), system.ends().len());
+        let of_degrees_of_freedom = [self.displacement.len(), self.held.len()];
+        let of_bonds = [
+            self.intact.len(),
+            self.broken_by.len(),
+            self.dissipated.len(),
+        ];
+        let mut by = self.broken_by.iter().flatten();
+        of_degrees_of_freedom == [n; 2]
+            && of_bonds == [n_bonds; 3]
+            && by.all(|&criterion| usize::from(criterion) < criteria.list.len())
+            && self.softening.fits(criteria, n_bonds)
+    }
+
     /// The unloaded body with all its bonds.
     pub fn fresh(system: &dyn Bonds) -> Self {
         let n = system.layout().n_degrees_of_freedom();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ligament_linalg::{FactorKind, Pattern, Symbolic, SymmetricMatrix};
-use ligament_model::Bonds;
+use ligament_model::{Bonds, BondsLeft};
 
 use crate::assembly;
 use crate::error::SetupError;
@@ -96,15 +96,9 @@ impl Stiffness {
         Ok(Symbolic::analyse(self.pattern.clone(), elimination)?)
     }
 
-    /// The matrix of the bonds of a state.
-    pub(crate) fn assemble(&self, state: &State) -> SymmetricMatrix {
-        assembly::assemble(
-            &*self.system,
-            &self.unknowns,
-            &self.pattern,
-            state.bonds(),
-            &state.held,
-        )
+    /// The matrix of some bonds; `held` ones of the unknowns stand alone (n_degrees_of_freedom).
+    pub(crate) fn assemble(&self, bonds: BondsLeft<'_>, held: &[bool]) -> SymmetricMatrix {
+        assembly::assemble(&*self.system, &self.unknowns, &self.pattern, bonds, held)
     }
 
     /// Negative eigenvalues of the rotation block for the state's bonds.

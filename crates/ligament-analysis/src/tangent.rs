@@ -1,12 +1,14 @@
 //! Solvers of the equations of an equilibrium, kept up while bonds break.
 
 pub(crate) mod direct;
+mod making;
 mod terms;
 pub(crate) mod unsymmetric;
 
 use ligament_linalg::{FactorError, Inertia};
 
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::state::State;
 use ligament_model::thermal::ThermalStrain;
@@ -48,4 +50,14 @@ pub(crate) trait TangentSolver {
 
     /// Numbers of positive and negative eigenvalues of K; none where they are not known.
     fn inertia(&self) -> Option<Inertia>;
+
+    /// Appends what it takes to make the solver again, to the bit.
+    fn write(&self, out: &mut Vec<u8>);
+
+    /// Makes a fresh solver as it was when the bytes were written.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or of another model, or the factor comes out with other bits.
+    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError>;
 }

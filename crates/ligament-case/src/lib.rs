@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`case`] | sections, keys, faults with line and column, the schema, changes by `--set` |
 //! | [`setup`] | the typed setup of a case, and its errors at the keys that they come from |
+//! | [`input_file`] | files that a user names, read |
 //! | [`mesh_file`] | the reader of the mesh that a case names |
 //! | [`starter`] | a commented case to begin with |
 #![cfg_attr(
@@ -12,6 +13,7 @@
 )]
 
 pub mod case;
+pub mod input_file;
 pub mod mesh_file;
 pub mod setup;
 pub mod starter;

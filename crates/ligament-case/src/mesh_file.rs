@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use ligament_mesh::Mesh;
 use ligament_mesh::gmsh::{self, GmshError};
 
+use crate::input_file;
+
 /// Why a mesh file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileError {
@@ -33,7 +35,7 @@ pub enum MeshFileError {
 ///
 /// If the file cannot be read or is not a planar Gmsh mesh.
 pub fn read_mesh(path: &Path) -> Result<Mesh, MeshFileError> {
-    let read = std::fs::read(path);
+    let read = input_file::read(path);
     let bytes = read.map_err(|source| MeshFileError::Read {
         path: path.to_owned(),
         source,

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use ligament::setup::Sample;
 
+use crate::input_file;
+
 /// The rows of a file, each with its line; else what is wrong with the file.
 pub(crate) fn rows_of(path: &Path) -> Result<Vec<(usize, Sample)>, String> {
-    let text = std::fs::read_to_string(path)
+    let text = input_file::read_text(path)
         .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
     rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
 }

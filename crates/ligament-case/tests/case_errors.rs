@@ -75,7 +75,7 @@ fn the_solver_is_auto_or_a_table_of_its_keys() {
         error_with_solver("[solver]\nfactorization = \"llt\""),
         "4:1: solver.factorization: unknown key `factorization` in [solver]; did you mean \
          `factorisation`? valid keys: `factorisation`, `ordering`, `update`, `rebuild_every`, \
-         `threads`"
+         `threads`, `memory`"
     );
     for (setting, message) in [
         (

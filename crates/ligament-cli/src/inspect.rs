@@ -6,6 +6,7 @@ use std::path::Path;
 
 use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Group, Mesh};
+use ligament_output::columns::WIDEST;
 
 use crate::lines::entry;
 
@@ -58,7 +59,7 @@ fn write_groups(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
         );
     }
     let letters = mesh.groups.iter().map(|group| group.name.chars().count());
-    let width = letters.fold(4, usize::max);
+    let width = letters.fold(4, usize::max).min(WIDEST);
     writeln!(out, "  groups")?;
     writeln!(
         out,

@@ -6,7 +6,9 @@
 //! | [`check`] | what `ligament check` tells of a case |
 //! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
+//! | [`terminal`] | where the program speaks to people |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
+//! | `stop_signal` | the wish that a run stop |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -17,5 +19,7 @@ pub mod commands;
 pub mod explain;
 pub mod inspect;
 mod lines;
+mod stop_signal;
+pub mod terminal;
 
 pub use commands::Cli;

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
-use ligament_cli::Cli;
+use ligament_cli::{Cli, terminal};
 
 fn main() -> ExitCode {
     match Cli::parse().execute() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             print_error(&error);
@@ -19,7 +19,7 @@ fn main() -> ExitCode {
 
 /// The error and its causes; a reader that has gone away does not want to hear of them.
 fn print_error(error: &anyhow::Error) {
-    let mut stderr = io::stderr().lock();
+    let mut stderr = terminal::stderr();
     let _ = writeln!(stderr, "error: {error}");
     for cause in error.chain().skip(1) {
         let _ = writeln!(stderr, "  because: {cause}");

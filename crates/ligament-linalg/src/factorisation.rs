@@ -40,6 +40,9 @@ pub trait Factorisation {
 
     /// Numbers of positive and negative pivots. The eigenvalues have the same signs (Sylvester's law of inertia).
     fn inertia(&self) -> Inertia;
+
+    /// A number that differs, as good as certainly, between factors whose values differ in a bit.
+    fn digest(&self) -> u64;
 }
 
 /// A right-hand side after the forward substitution, in the order of elimination.

@@ -85,8 +85,8 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// For each degree of freedom, whether some bond resists it, shape (n_degrees_of_freedom).
     fn resisted(&self) -> Vec<bool>;
 
-    /// Largest stiffness of a point.
-    fn largest_point_stiffness(&self) -> PointStiffness;
+    /// Stiffness of each point with all its bonds, shape (n_points).
+    fn point_stiffness(&self) -> Vec<PointStiffness>;
 
     /// Sorts points so that those of the first half lie before those of the second along the longer side of all; ties are
     /// broken by number.

@@ -22,6 +22,8 @@ pub struct BondSweep {
     pub deformations: Vec<BondDeformation>,
     /// Internal forces of the intact bonds.
     pub internal: InternalForces,
+    /// Sum of the sizes of the end forces that meet at each degree of freedom, shape (n_degrees_of_freedom), N and N m.
+    pub sizes: Vec<f64>,
     /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
     pub stored_energy: f64,
     /// What they would store if what the temperature gives them at load factor 1 were their deformation, J.
@@ -118,6 +120,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
                 values: sums.iter().flat_map(|forces| forces.sum).collect(),
                 thermal: parts.iter().map(|part| part.thermal).sum(),
             },
+            sizes: sums.iter().flat_map(|forces| forces.size).collect(),
             stored_energy: parts.iter().map(|part| part.energy).sum(),
             expansion_energy: parts.iter().map(|part| part.expansion_energy).sum(),
             deformations,

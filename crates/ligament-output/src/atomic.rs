@@ -18,13 +18,86 @@ pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write_and_rename(path, contents).map_err(Error::system("write", path))
 }
 
+/// Writes `contents` to `path`, and what was there to `older`; all of it is safely on the disk when this returns.
+///
+/// At any moment one of the two is whole.
+///
+/// # Errors
+///
+/// If the file cannot be written or put in its place.
+pub(crate) fn rotate_file(path: &Path, older: &Path, contents: &[u8]) -> Result<(), Error> {
+    let rotate = || {
+        let temporary = temporary_path(path)?;
+        let moved = write_synced(&temporary, contents).and_then(|()| {
+            if path.exists() {
+                fs::rename(path, older)?;
+            }
+            fs::rename(&temporary, path)?;
+            sync_folder(path)
+        });
+        if moved.is_err() {
+            let _ = fs::remove_file(&temporary);
+        }
+        moved
+    };
+    rotate().map_err(Error::system("write", path))
+}
+
+/// Removes a file, if there is one.
+///
+/// # Errors
+///
+/// If it cannot be removed.
+pub(crate) fn remove_file(path: &Path) -> Result<(), Error> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(Error::system("remove", path)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Brings the names in the folder of a file to the disk; some systems cannot, and need not.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    if let Some(folder) = path.parent().filter(|it| !it.as_os_str().is_empty()) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
 /// The text of a file.
 ///
 /// # Errors
 ///
 /// If the file cannot be read.
 pub fn read_text(path: &Path) -> Result<String, Error> {
-    fs::read_to_string(path).map_err(Error::system("read", path))
+    let text = read_bytes(path).and_then(|bytes| {
+        String::from_utf8(bytes)
+            .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is no text"))
+    });
+    text.map_err(Error::system("read", path))
+}
+
+/// The bytes of a file; of a pipe or a device, which may never end, none.
+pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = fs::metadata(path)?.file_type();
+    match kind.is_file() || kind.is_dir() {
+        true => fs::read(path),
+        false => Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "it is a pipe or a device",
+        )),
+    }
+}
+
+/// Gives a file or folder another name.
+///
+/// # Errors
+///
+/// If the system refuses.
+pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
+    fs::rename(from, to).map_err(Error::system("move", from))
 }
 
 fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {

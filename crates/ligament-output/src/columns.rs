@@ -1,5 +1,8 @@
 //! Words in columns, for people.
 
+/// Letters of a column at most; a longer word stands out of it.
+pub const WIDEST: usize = 120;
+
 /// Rows of words as lines whose columns are equally wide and two spaces apart: words of the first `n_left` columns stand at
 /// the left, others at the right. A row of two in a wider table is a name with a remark, which widens no column.
 pub fn aligned(rows: &[Vec<String>], n_left: usize) -> Vec<String> {
@@ -7,7 +10,7 @@ pub fn aligned(rows: &[Vec<String>], n_left: usize) -> Vec<String> {
     let width = |column: usize| {
         let rows = rows.iter().filter(|row| row.len() > 2 || n_columns == 2);
         let widths = rows.filter_map(|row| Some(row.get(column)?.chars().count()));
-        widths.max().unwrap_or(0)
+        widths.max().unwrap_or(0).min(WIDEST)
     };
     let widths: Vec<usize> = (0..n_columns).map(width).collect();
     let line = |row: &Vec<String>| {

@@ -4,7 +4,7 @@ pub mod read;
 
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::Write as _;
+use std::io::{Seek, SeekFrom, Write as _};
 use std::path::PathBuf;
 
 use crate::Error;
@@ -90,6 +90,42 @@ impl Table {
     /// Creates the file as [`Table::create`] does, with the columns of a header such as `step,load`.
     pub fn with_header(path: impl Into<PathBuf>, header: &str) -> Result<Self, Error> {
         Self::create(path, &header.split(',').collect::<Vec<_>>())
+    }
+
+    /// Opens a table again and cuts it back to so many bytes, where rows go on.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such file, it is shorter, or it cannot be written.
+    pub fn cut_back(
+        path: impl Into<PathBuf>,
+        n_columns: usize,
+        length: u64,
+    ) -> Result<Self, Error> {
+        let path = path.into();
+        let open = || {
+            let mut file = File::options().write(true).open(&path)?;
+            file.set_len(length)?;
+            file.seek(SeekFrom::End(0))?;
+            Ok(file)
+        };
+        let file = open().map_err(Error::system("write", &path))?;
+        Ok(Self {
+            path,
+            file,
+            n_columns,
+        })
+    }
+
+    /// Bytes of the table so far, which are safely on the disk when this returns.
+    ///
+    /// # Errors
+    ///
+    /// If the system cannot tell, or cannot get them there.
+    pub fn synced_length(&self) -> Result<u64, Error> {
+        let synced = self.file.sync_data().and_then(|()| self.file.metadata());
+        let metadata = synced.map_err(Error::system("write", &self.path))?;
+        Ok(metadata.len())
     }
 
     /// Appends one row, one value per column of the header.

@@ -64,6 +64,17 @@ pub enum Error {
         "{0} already holds the results of an earlier run; choose another folder with --out, or replace them with --force"
     )]
     ResultsExist(PathBuf),
+    /// Another process writes to the folder.
+    #[error(
+        "{path} is in use: {} writes its results there; wait for its end, or choose another folder with --out",
+        process.map_or_else(|| "another run".to_owned(), |it| format!("another run (process {it})"))
+    )]
+    Busy {
+        /// The folder meant.
+        path: PathBuf,
+        /// Number of the process, where it has told.
+        process: Option<u32>,
+    },
     /// The folder holds files, but nothing shows that they are results, so it is never replaced.
     #[error(
         "{path} exists and is not a result folder (it holds files, but no {marker}), so \

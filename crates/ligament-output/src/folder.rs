@@ -1,62 +1,153 @@
 //! The folder that holds the results of one run.
 
-use std::ffi::OsString;
+mod kind;
+mod lock;
+mod replacement;
+
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::atomic::replace_file;
+use crate::atomic::{remove_file, replace_file};
+use lock::Lock;
+use replacement::{behind, beside, free_place_aside};
 
-/// The file that every run writes first; it shows that a folder holds results and nothing else.
-pub const RESOLVED_CASE: &str = "case.resolved.toml";
+pub use kind::{Kind, RESOLVED_CASE};
+pub use replacement::{put_in_place, recover};
 
-/// A folder for the results of one run, new or empty when created.
+/// A folder for the results of one run, to which no other process writes.
 ///
-/// A run writes [`RESOLVED_CASE`] first: by it a later run recognises the folder as one it may replace. What is no run
-/// has another such file, its marker.
+/// A run writes the marker of its kind first: by it a later run recognises the folder as one it may replace. Results that
+/// replace earlier ones are made in `NAME.new` beside them, and take their place when [`ResultFolder::finish`] says that they
+/// are complete; until then the earlier ones are as they were.
 #[derive(Debug)]
 pub struct ResultFolder {
+    /// The place where files are written.
     path: PathBuf,
+    kind: Kind,
+    lock: Lock,
+    /// The earlier results that these are to replace, and the lock on them.
+    replaces: Option<(PathBuf, Lock)>,
 }
 
 impl ResultFolder {
-    /// Creates the folder and its parents. An existing empty folder is used as it is.
+    /// Creates the folder of a run and its parents. An existing empty folder is used as it is.
     ///
-    /// A folder with results is refused unless `replace` is set; then it is moved aside to `NAME.replaced`, the new
-    /// folder is created and the old one removed. A folder with other files is refused in any case.
-    pub fn create(path: impl Into<PathBuf>, replace: bool) -> Result<Self, Error> {
-        Self::create_marked(path, RESOLVED_CASE, replace)
+    /// A folder with results is refused unless `replace` is set; then the new ones are made beside it. A folder with other
+    /// files alone is refused in any case.
+    ///
+    /// # Errors
+    ///
+    /// If the folder may not be used, another process writes to it, or it cannot be made.
+    pub fn create(path: impl AsRef<Path>, replace: bool) -> Result<Self, Error> {
+        Self::create_marked(path, Kind::RUN, replace)
     }
 
-    /// Creates a folder that is recognised by another file than [`RESOLVED_CASE`], which the caller writes first.
-    pub fn create_marked(
-        path: impl Into<PathBuf>,
-        marker: &'static str,
-        replace: bool,
-    ) -> Result<Self, Error> {
-        let path = path.into();
-        match Occupant::admitted(&path, marker, replace)? {
-            Occupant::Nothing => create_folder(&path)?,
-            Occupant::EmptyFolder => {}
-            Occupant::Results => replace_folder(&path)?,
+    /// Creates a folder of another kind, whose marker the caller writes first.
+    ///
+    /// # Errors
+    ///
+    /// As [`ResultFolder::create`].
+    pub fn create_marked(path: impl AsRef<Path>, kind: Kind, replace: bool) -> Result<Self, Error> {
+        let given = path.as_ref();
+        Self::check_marked(given, kind, replace)?;
+        let path = resolved(given);
+        fs::create_dir_all(&path).map_err(Error::system("create", &path))?;
+        let lock = Lock::take(&path)?;
+        // Another process may have filled the folder before the lock was there.
+        match Occupant::admitted(&path, given, kind, replace)? {
+            Occupant::Nothing => Ok(Self::locked(path, kind, lock)),
+            Occupant::Results => Self::beside(path, kind, lock),
         }
-        Ok(Self { path })
+    }
+
+    /// A new folder beside earlier results; what a run that was killed has left there goes.
+    fn beside(path: PathBuf, kind: Kind, lock: Lock) -> Result<Self, Error> {
+        let new = beside(&path)?;
+        Occupant::admitted(&new, &new, kind, true)?;
+        fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
+        let new_lock = Lock::take(&new)?;
+        replacement::clear(&new, kind)?;
+        Ok(Self {
+            replaces: Some((path, lock)),
+            ..Self::locked(new, kind, new_lock)
+        })
+    }
+
+    fn locked(path: PathBuf, kind: Kind, lock: Lock) -> Self {
+        Self {
+            path,
+            kind,
+            lock,
+            replaces: None,
+        }
     }
 
     /// A folder that is there already, with what it holds: for work that is taken up again.
-    pub fn existing(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into() }
+    ///
+    /// # Errors
+    ///
+    /// If another process writes to the folder, or it cannot be written.
+    pub fn existing(path: impl AsRef<Path>, kind: Kind) -> Result<Self, Error> {
+        let path = resolved(path.as_ref());
+        recover(&path, kind)?;
+        let lock = Lock::take(&path)?;
+        Ok(Self::locked(path, kind, lock))
     }
 
-    /// Fails as [`ResultFolder::create`] would, and touches nothing: for a run to ask before its work begins.
+    /// The folder of a run that was stopped, with what it holds. Where the run was to replace earlier results, `NAME` and
+    /// `NAME.new` both give the new ones, which take the place of the earlier ones when they are finished.
+    ///
+    /// # Errors
+    ///
+    /// As [`ResultFolder::existing`].
+    pub fn resumed(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let (path, kind) = (resolved(path.as_ref()), Kind::RUN);
+        recover(&path, kind)?;
+        let holds_results = |it: &PathBuf| it.join(kind.marker).is_file();
+        let old = behind(&path).filter(holds_results).unwrap_or(path);
+        let lock = Lock::take(&old)?;
+        let Some(new) = beside(&old).ok().filter(holds_results) else {
+            return Ok(Self::locked(old, kind, lock));
+        };
+        let new_lock = Lock::take(&new)?;
+        Ok(Self {
+            replaces: Some((old, lock)),
+            ..Self::locked(new, kind, new_lock)
+        })
+    }
+
+    /// Fails as [`ResultFolder::create`] would, and makes nothing: for a run to ask before its work begins.
+    ///
+    /// # Errors
+    ///
+    /// If the folder may not be used, or another process writes to it.
     pub fn check(path: &Path, replace: bool) -> Result<(), Error> {
-        Occupant::admitted(path, RESOLVED_CASE, replace).map(|_| ())
+        Self::check_marked(path, Kind::RUN, replace)
     }
 
-    /// The folder itself.
+    fn check_marked(given: &Path, kind: Kind, replace: bool) -> Result<(), Error> {
+        let path = resolved(given);
+        recover(&path, kind)?;
+        Lock::check(&path)?;
+        if let Occupant::Results = Occupant::admitted(&path, given, kind, replace)? {
+            free_place_aside(&path)?;
+            let new = beside(&path)?;
+            Lock::check(&new)?;
+            Occupant::admitted(&new, &new, kind, true)?;
+        }
+        Ok(())
+    }
+
+    /// The folder itself, where files are written: `NAME.new` while earlier results are there.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The earlier results that these are to replace.
+    pub fn replaces(&self) -> Option<&Path> {
+        self.replaces.as_ref().map(|(folder, _)| folder.as_path())
     }
 
     /// The path of a file in the folder.
@@ -65,72 +156,88 @@ impl ResultFolder {
     }
 
     /// Writes a text file in the folder atomically, replacing an earlier one of that name.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be written.
     pub fn write_text(&self, name: &str, text: &str) -> Result<(), Error> {
         replace_file(&self.file(name), text.as_bytes())
+    }
+
+    /// Removes a file of the folder, if it is there.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be removed.
+    pub fn remove(&self, name: &str) -> Result<(), Error> {
+        remove_file(&self.file(name))
+    }
+
+    /// Ends the work on the folder: the results are complete, and take the place of earlier ones.
+    ///
+    /// Files that are not the program's own stay; a link to a folder stays a link.
+    ///
+    /// # Errors
+    ///
+    /// If the results cannot be put in place; they are then where they were made.
+    pub fn finish(mut self) -> Result<(), Error> {
+        let Some((folder, mut old_lock)) = self.replaces.take() else {
+            return Ok(());
+        };
+        put_in_place(&self.path, &folder, self.kind, || Ok(()))?;
+        // Its file went with the old results.
+        old_lock.moved_to(&self.path);
+        self.lock.moved_to(&folder);
+        Ok(())
     }
 }
 
 /// The occupant of the place of a result folder, where a run may put its results.
 enum Occupant {
+    /// Nothing, or an empty folder.
     Nothing,
-    EmptyFolder,
     /// Results, to be replaced.
     Results,
 }
 
 impl Occupant {
-    fn admitted(path: &Path, marker: &'static str, replace: bool) -> Result<Self, Error> {
+    /// The occupant of a path, which the user gave as `given`.
+    fn admitted(path: &Path, given: &Path, kind: Kind, replace: bool) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Nothing),
             Err(error) => return Err(Error::system("look at", path)(error)),
         };
-        let path_buf = path.to_path_buf();
+        let (given, marker) = (given.to_path_buf(), kind.marker);
         if !metadata.is_dir() {
-            return Err(Error::NotAFolder(path_buf));
+            return Err(Error::NotAFolder(given));
         }
-        let mut entries = fs::read_dir(path).map_err(Error::system("list", path))?;
-        if entries.next().is_none() {
-            return Ok(Self::EmptyFolder);
+        let entries = fs::read_dir(path).map_err(Error::system("list", path))?;
+        let mut names = entries.flatten().map(|entry| entry.file_name());
+        // What a run that was killed leaves before it has written anything.
+        let is_trace = |name: &str| name.starts_with('.') && kind.may_remove(name);
+        if names.all(|name| is_trace(&name.to_string_lossy())) {
+            return Ok(Self::Nothing);
         }
         match path.join(marker).is_file() {
             true if replace => Ok(Self::Results),
-            true => Err(Error::ResultsExist(path_buf)),
+            true => Err(Error::ResultsExist(given)),
             false => Err(Error::NotAResultFolder {
-                path: path_buf,
+                path: given,
                 marker,
             }),
         }
     }
 }
 
-/// Replaces a result folder by an empty one. The old results are removed last, so a failure on the way keeps them.
-fn replace_folder(path: &Path) -> Result<(), Error> {
-    let aside = replaced_path(path)?;
-    // `exists` would follow a dangling link.
-    if fs::symlink_metadata(&aside).is_ok() {
-        return Err(Error::ReplacedExists(aside));
+/// The folder that a path means: what a link points to, and no separator at the end.
+fn resolved(path: &Path) -> PathBuf {
+    let plain: PathBuf = path.components().collect();
+    let is_link = fs::symlink_metadata(&plain).is_ok_and(|it| it.is_symlink());
+    match fs::canonicalize(&plain) {
+        Ok(target) if is_link => target,
+        _ => plain,
     }
-    fs::rename(path, &aside).map_err(Error::system("move aside", path))?;
-    if let Err(error) = create_folder(path) {
-        // Back to where it was, if that still works; the failure to report is the first one.
-        let _ = fs::rename(&aside, path);
-        return Err(error);
-    }
-    fs::remove_dir_all(&aside).map_err(Error::system("remove", &aside))
-}
-
-/// The sibling `NAME.replaced` of a folder `NAME`.
-fn replaced_path(path: &Path) -> Result<PathBuf, Error> {
-    let name = path.file_name();
-    let name = name.ok_or_else(|| Error::UnnamedFolder(path.to_path_buf()))?;
-    let mut replaced = OsString::from(name);
-    replaced.push(".replaced");
-    Ok(path.with_file_name(replaced))
-}
-
-fn create_folder(path: &Path) -> Result<(), Error> {
-    fs::create_dir_all(path).map_err(Error::system("create", path))
 }
 
 #[cfg(test)]
@@ -164,7 +271,8 @@ mod tests {
             .unwrap();
         let text = fs::read_to_string(folder.path().join("summary.json")).unwrap();
         assert_eq!(text, "{\"volume\": 1.0}");
-        assert_eq!(n_entries(folder.path()), 1);
+        drop(folder);
+        assert_eq!(n_entries(&parent.path().join("a/b")), 1);
     }
 
     #[test]
@@ -188,21 +296,117 @@ mod tests {
         assert_eq!(n_entries(&path), 1);
     }
 
+    fn names_in(path: &Path) -> Vec<String> {
+        let entries = fs::read_dir(path).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// Makes new results in a folder, up to the end.
+    fn replace(path: &Path) {
+        let folder = ResultFolder::create(path, true).unwrap();
+        folder.write_text(RESOLVED_CASE, "new").unwrap();
+        folder.finish().unwrap();
+    }
+
     #[test]
-    fn replaces_results() {
+    fn earlier_results_stay_until_the_new_ones_are_complete() {
         let (parent, path) = results_with(&[RESOLVED_CASE, "fields_0000.vtu"]);
         ResultFolder::check(&path, true).unwrap();
         assert_eq!(n_entries(&path), 2, "a check touches nothing");
-        ResultFolder::create(&path, true).unwrap();
-        assert_eq!(n_entries(&path), 0);
+        let folder = ResultFolder::create(&path, true).unwrap();
+        folder.write_text(RESOLVED_CASE, "new").unwrap();
+        assert_eq!(folder.path(), parent.path().join("results.new"));
+        drop(folder);
+        assert_eq!(names_in(&path), [RESOLVED_CASE, "fields_0000.vtu"]);
+        replace(&path);
+        assert_eq!(names_in(&path), [RESOLVED_CASE]);
+        assert_eq!(fs::read_to_string(path.join(RESOLVED_CASE)).unwrap(), "new");
         assert_eq!(n_entries(parent.path()), 1, "the old results are gone");
+    }
+
+    #[test]
+    fn files_of_others_stay() {
+        let foreign = ["history.ods", "thesis.tex"];
+        let (parent, path) = results_with(&[RESOLVED_CASE, "history.csv", foreign[0], foreign[1]]);
+        fs::create_dir(path.join("pictures")).unwrap();
+        fs::write(path.join("pictures/a.png"), "old").unwrap();
+        replace(&path);
+        let left = [RESOLVED_CASE, foreign[0], "pictures", foreign[1]];
+        assert_eq!(names_in(&path), left);
+        assert!(path.join("pictures/a.png").is_file());
+        assert_eq!(n_entries(parent.path()), 1);
+    }
+
+    #[test]
+    fn one_process_writes_to_a_folder_at_a_time() {
+        for old in [&[][..], &[RESOLVED_CASE]] {
+            let (_parent, path) = results_with(old);
+            let first = ResultFolder::create(&path, true).unwrap();
+            for error in [
+                ResultFolder::check(&path, true).unwrap_err(),
+                ResultFolder::create(&path, true).unwrap_err(),
+                ResultFolder::existing(&path, Kind::RUN).unwrap_err(),
+            ] {
+                let message = error.to_string();
+                assert!(
+                    message.contains(&std::process::id().to_string()),
+                    "{message}"
+                );
+            }
+            drop(first);
+            ResultFolder::create(&path, true).unwrap();
+        }
+    }
+
+    #[test]
+    fn what_a_kill_leaves_does_not_lock() {
+        let (_parent, path) = results_with(&[".lock", ".case.resolved.toml.17.partial"]);
+        ResultFolder::create(&path, false).unwrap();
+    }
+
+    #[test]
+    fn a_replacement_that_was_cut_short_goes_on() {
+        // Killed between the two renames, with the new results and without any.
+        for new in [true, false] {
+            let (parent, path) = results_with(&[RESOLVED_CASE, "thesis.tex", ".replaced"]);
+            fs::rename(&path, parent.path().join("results.replaced")).unwrap();
+            if new {
+                fs::create_dir(parent.path().join("results.new")).unwrap();
+                fs::write(parent.path().join("results.new").join(RESOLVED_CASE), "new").unwrap();
+            }
+            let error = ResultFolder::check(&path, false).unwrap_err();
+            assert!(matches!(error, Error::ResultsExist(_)));
+            let text = fs::read_to_string(path.join(RESOLVED_CASE)).unwrap();
+            assert_eq!(text, if new { "new" } else { "old" });
+            assert!(path.join("thesis.tex").is_file());
+            assert_eq!(n_entries(parent.path()), 1);
+        }
+    }
+
+    #[test]
+    fn a_run_that_was_to_replace_results_is_resumed_by_either_name() {
+        for name in ["results", "results.new"] {
+            let (parent, path) = results_with(&[RESOLVED_CASE]);
+            let folder = ResultFolder::create(&path, true).unwrap();
+            folder.write_text(RESOLVED_CASE, "new").unwrap();
+            drop(folder);
+            let folder = ResultFolder::resumed(parent.path().join(name)).unwrap();
+            assert_eq!(folder.path(), parent.path().join("results.new"));
+            folder.finish().unwrap();
+            assert_eq!(fs::read_to_string(path.join(RESOLVED_CASE)).unwrap(), "new");
+            assert_eq!(n_entries(parent.path()), 1);
+        }
     }
 
     #[test]
     fn a_trailing_separator_does_not_matter() {
         let (parent, path) = results_with(&[RESOLVED_CASE]);
-        ResultFolder::create(path.join(""), true).unwrap();
-        assert_eq!(n_entries(&path), 0);
+        replace(&path.join(""));
+        assert_eq!(fs::read_to_string(path.join(RESOLVED_CASE)).unwrap(), "new");
         assert_eq!(n_entries(parent.path()), 1);
     }
 
@@ -257,12 +461,13 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn replacing_a_link_keeps_what_it_points_to() {
-        let (parent, path) = results_with(&[RESOLVED_CASE]);
+    fn a_linked_folder_stays_a_link() {
+        let (parent, path) = results_with(&[RESOLVED_CASE, "history.csv"]);
         let link = parent.path().join("link");
         std::os::unix::fs::symlink(&path, &link).unwrap();
-        ResultFolder::create(&link, true).unwrap();
-        assert_eq!(n_entries(&link), 0);
-        assert_eq!(n_entries(&path), 1);
+        replace(&link.join(""));
+        assert_eq!(fs::read_link(&link).unwrap(), path);
+        assert_eq!(names_in(&path), [RESOLVED_CASE]);
+        assert_eq!(n_entries(parent.path()), 2);
     }
 }

@@ -6,6 +6,7 @@
 //! | [`pvd`] | the list of those outputs with their times, which ParaView opens as a series |
 //! | [`csv`] | tables of scalars over the steps |
 //! | [`columns`] | words in columns, for people |
+//! | [`checkpoint`] | a run at a moment, from which it can go on |
 //! | [`folder`] | the folder that holds them, without destroying what was there |
 //! | [`results`] | all of these from a run, as its observer |
 //!
@@ -14,14 +15,16 @@
 //! slices.
 
 mod atomic;
+pub mod checkpoint;
 pub mod columns;
 pub mod csv;
 mod error;
 pub mod folder;
 pub mod pvd;
 pub mod results;
+pub mod terminal;
 pub mod vtu;
 mod xml;
 
-pub use atomic::{read_text, replace_file};
+pub use atomic::{read_text, rename, replace_file};
 pub use error::{Error, FieldLocation};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::Error;
-use crate::atomic::replace_file;
+use crate::atomic::{remove_file, replace_file};
 use crate::xml::escape_attribute;
 
 /// A list of VTU files with their times, which ParaView opens as one series.
@@ -27,6 +27,30 @@ impl Collection {
             path: path.into(),
             outputs: Vec::new(),
         }
+    }
+
+    /// A collection with these outputs, whose file is made anew; without any there is none.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be replaced or removed.
+    pub fn with_outputs(
+        path: impl Into<PathBuf>,
+        outputs: Vec<(f64, String)>,
+    ) -> Result<Self, Error> {
+        let path = path.into();
+        let collection = Self { path, outputs };
+        if collection.outputs.is_empty() {
+            remove_file(&collection.path)?;
+        } else {
+            replace_file(&collection.path, collection.to_xml().as_bytes())?;
+        }
+        Ok(collection)
+    }
+
+    /// The outputs so far: times and file names.
+    pub fn outputs(&self) -> &[(f64, String)] {
+        &self.outputs
     }
 
     /// Lists `file`, relative to the folder of the collection, under `time` and rewrites the collection atomically, so

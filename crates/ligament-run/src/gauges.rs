@@ -26,7 +26,8 @@ pub fn words(free: &FreeBody, body: &dyn Body) -> String {
             .map(load)
             .collect();
         format!(
-            "the loads on it are NOT in equilibrium ({}), and these gauges carry what is missing",
+            "the loads on it are NOT in equilibrium ({}), which leaves the body without equilibrium: support it, or \
+             balance the loads",
             loads.join(", ")
         )
     };

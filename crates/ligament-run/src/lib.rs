@@ -3,21 +3,29 @@
 //! | module | holds |
 //! |---|---|
 //! | [`run`] | the route of loads, and of natural modes |
+//! | [`resume`] | going on with a run that was stopped, from its checkpoint |
+//! | [`inputs`] | what decides about the results of a run |
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
-//! | [`stages`], [`memory`] | time and memory that a run takes |
+//! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
 //! | [`gauges`] | rigid motions that nothing holds, in words |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+mod checkpoints;
+mod destination;
+pub mod disk;
 pub mod gauges;
+pub mod inputs;
+mod loading;
 pub mod memory;
 pub mod model;
 mod modes;
 pub mod progress;
+pub mod resume;
 pub mod run;
 pub mod stages;
 pub mod summary;

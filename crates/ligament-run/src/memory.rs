@@ -1,6 +1,14 @@
-//! Memory that a case takes while its equations are solved.
+//! Memory that a case takes, foreseen, and what there is.
 
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
+use ligament_analysis::Equilibrium;
+use ligament_analysis::driver::Problem;
 use ligament_analysis::stiffness::Stiffness;
+use ligament_case::case::{CaseFile, LatticeSection};
 use ligament_model::BondSystem;
 
 /// Bytes that a stored value of the factor takes.
@@ -11,10 +19,198 @@ const FACTOR_VALUE: usize = size_of::<f64>();
 /// 10,000 points took. The correction, which is over by then, takes 170 at its peak.
 const BOND: usize = 250;
 
+/// Bytes of a point before there is any bond: position, volume, cell and corners.
+const POINT: usize = 200;
+
+/// Runs of 100,000 points take 9 times what their bonds take, and the factor grows with the logarithm of the points: below this
+/// share of the memory nothing need be analysed to know that it suffices.
+const MOST_OVER_BONDS: usize = 40;
+
+/// What the program itself takes, bytes.
+const PROGRAM: u64 = 10_000_000;
+
+/// Share added for what the estimate leaves out: files on their way to disk, room that the allocator keeps. Runs of 846 to
+/// 4,808 points took 1.0 to 1.3 times the equations and the program.
+const MARGIN: f64 = 1.3;
+
+/// A run that would take more memory than there is.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "the run would take {:.1} GB of memory{}, and there are {:.1} GB for it; take fewer points or a smaller horizon, run it on a \
+     larger machine, or say by solver.memory how many GB it may take",
+    gigabytes(*needed),
+    if *is_bound { " or more" } else { "" },
+    gigabytes(*available)
+)]
+pub struct TooLarge {
+    /// Bytes that the run takes.
+    pub needed: u64,
+    /// Whether it may take far more: the factor is not counted in.
+    pub is_bound: bool,
+    /// Bytes that there are.
+    pub available: u64,
+}
+
+fn gigabytes(bytes: u64) -> f64 {
+    bytes as f64 / 1e9
+}
+
 /// Estimated bytes of the equations of a system and of what stands around them.
 pub fn of_equations(system: &BondSystem, stiffness: &Stiffness) -> usize {
     let symbolic = stiffness.symbolic();
     let (matrix, factor) = (symbolic.pattern().n_entries(), symbolic.n_factor_values());
     // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.
     FACTOR_VALUE * factor + 4 * FACTOR_VALUE * matrix + BOND * system.bonds.len()
+}
+
+/// Bytes that a run takes at most whose equations take so many.
+pub fn of_run(equations: usize) -> u64 {
+    (MARGIN * (equations as u64 + PROGRAM) as f64) as u64
+}
+
+/// Fails where the points and bonds of a lattice, not yet made, would take more memory than there is.
+///
+/// # Errors
+///
+/// With both numbers.
+pub fn foresee_lattice(case: &CaseFile, lattice: &LatticeSection) -> Result<(), TooLarge> {
+    let points = lattice.cells.iter().map(|&it| f64::from(it)).product();
+    let [dx, dy] = lattice.spacing.0;
+    let model = &case.case.model;
+    let spacings = model
+        .horizon
+        .map(|length| PI * (length / dx) * (length / dy));
+    let of_factor = |factor: f64| PI * factor * factor;
+    let family = spacings.or(model.horizon_factor.map(of_factor));
+    foresee_bonds(case, points, family.unwrap_or_default())
+}
+
+/// Fails where the bonds of a body, not yet searched, would take more memory than there is.
+///
+/// # Errors
+///
+/// With both numbers.
+pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
+    let positions = setup.body.positions();
+    let points = positions.len() as f64;
+    let family = match setup.horizon {
+        Horizon::Factor(factor) => PI * factor * factor,
+        Horizon::Length(length) => {
+            let [low, high] = ligament_case::mesh_file::bounding_box(positions);
+            PI * length * length * points / ((high[0] - low[0]) * (high[1] - low[1]))
+        }
+    };
+    foresee_bonds(case, points, family)
+}
+
+/// Each bond is one of two families; no point has more neighbours than there are others.
+fn foresee_bonds(case: &CaseFile, points: f64, family: f64) -> Result<(), TooLarge> {
+    let bonds = 0.5 * points * family.min(points);
+    let needed = (POINT as f64 * points + BOND as f64 * bonds) as u64;
+    compare(case, needed, true)
+}
+
+/// Fails where the equations of a problem would take more memory than there is.
+///
+/// # Errors
+///
+/// With both numbers, or if the equations cannot be analysed.
+pub fn foresee_equations(
+    case: &CaseFile,
+    system: &BondSystem,
+    problem: &Problem,
+) -> anyhow::Result<()> {
+    let most = (MOST_OVER_BONDS * BOND * system.bonds.len()) as u64;
+    if allowed(case).is_none_or(|there| most <= there) {
+        return Ok(());
+    }
+    let equilibrium = Equilibrium::new(problem, ELASTIC_ENERGY_TOLERANCE)?;
+    Ok(foresee(case, system, equilibrium.stiffness())?)
+}
+
+/// Fails where equations that were analysed would take more memory than there is.
+///
+/// # Errors
+///
+/// With both numbers.
+pub fn foresee(
+    case: &CaseFile,
+    system: &BondSystem,
+    stiffness: &Stiffness,
+) -> Result<(), TooLarge> {
+    compare(
+        case,
+        of_equations(system, stiffness) as u64 + PROGRAM,
+        false,
+    )
+}
+
+fn compare(case: &CaseFile, needed: u64, is_bound: bool) -> Result<(), TooLarge> {
+    match allowed(case) {
+        Some(available) if needed > available => Err(TooLarge {
+            needed,
+            is_bound,
+            available,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Memory that a case may take, bytes: what it says, or what there is.
+pub fn allowed(case: &CaseFile) -> Option<u64> {
+    let given = case.case.solver.memory;
+    given.map(|it| (1e9 * it) as u64).or_else(available)
+}
+
+/// Memory that programs can take without others being moved out, bytes: what the system has left and, under limits for this
+/// process (cgroups, as batch systems and containers set them, or that of the shell), what these leave. `None` where none is
+/// known.
+pub fn available() -> Option<u64> {
+    let limits = [
+        of_system(),
+        of_cgroup(),
+        of_files(
+            Path::new("/sys/fs/cgroup/memory"),
+            ["memory.limit_in_bytes", "memory.usage_in_bytes"],
+        ),
+        of_shell(),
+    ];
+    limits.into_iter().flatten().min()
+}
+
+/// The number of KiB behind a name in a list such as /proc/meminfo, in bytes.
+fn kibibytes(list: &str, name: &str) -> Option<u64> {
+    let text = fs::read_to_string(list).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kibibytes)
+}
+
+fn of_system() -> Option<u64> {
+    kibibytes("/proc/meminfo", "MemAvailable:")
+}
+
+fn of_cgroup() -> Option<u64> {
+    let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
+    let group = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
+    let folder = Path::new("/sys/fs/cgroup").join(group);
+    of_files(&folder, ["memory.max", "memory.current"])
+}
+
+fn of_files(folder: &Path, [limit, usage]: [&str; 2]) -> Option<u64> {
+    let number = |name: &str| {
+        let text = fs::read_to_string(folder.join(name)).ok()?;
+        text.trim().parse::<u64>().ok()
+    };
+    Some(number(limit)?.saturating_sub(number(usage)?))
+}
+
+/// What `ulimit -v` leaves of the addresses of this process.
+fn of_shell() -> Option<u64> {
+    let limits = fs::read_to_string("/proc/self/limits").ok()?;
+    let line = limits
+        .lines()
+        .find_map(|line| line.strip_prefix("Max address space"))?;
+    let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(limit.saturating_sub(kibibytes("/proc/self/status", "VmSize:")?))
 }

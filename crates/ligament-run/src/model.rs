@@ -3,6 +3,7 @@
 pub use ligament::Model;
 use ligament::stage::{Finding, StageWatcher};
 
+use crate::memory;
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;
@@ -57,6 +58,10 @@ pub fn build_model(
     progress: &Progress,
 ) -> anyhow::Result<Model> {
     let mut preparation = Preparation { stages, progress };
+    if let Some(lattice) = &case.case.lattice {
+        memory::foresee_lattice(case, lattice)?;
+    }
     let setup = case.setup(&mut preparation)?;
+    memory::foresee_model(case, &setup)?;
     Ok(Model::build(setup, &mut preparation).map_err(|error| case.located(error))?)
 }

@@ -1,13 +1,13 @@
 //! The route of a modal analysis: from the model to modes on disk.
 
-use std::path::Path;
-
 use anyhow::Context;
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
-use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
+use ligament_output::folder::ResultFolder;
 use ligament_output::results::write_modes;
 
+use crate::destination::make_results;
+use crate::memory;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
@@ -18,28 +18,27 @@ pub(crate) fn find_modes(
     case: &CaseFile,
     settings: ModalSettings,
     model: &Model,
-    out: &Path,
-    force: bool,
+    create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
     let vibration = Vibration::new(&model.setup, &model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
+    memory::foresee(case, &model.system, analysis.stiffness())?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 
     // Nothing is written, and nothing replaced, before the modes are there.
-    let folder = ResultFolder::create(out, force)?;
-    folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    stages.time("output", || {
-        let grid = model.body().grid();
-        write_modes(&folder, &grid, &*model.system, &model.fixed, &outcome)
-    })?;
-
-    let summary = ModalSummary::new(case, model, &outcome, stages.done());
-    let text =
-        serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
-    folder.write_text("summary.json", &(text + "\n"))?;
-    Ok(summary)
+    make_results(case, create, |folder| {
+        stages.time("output", || {
+            let grid = model.body().grid();
+            write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)
+        })?;
+        let summary = ModalSummary::new(case, model, &outcome, stages.done());
+        let text = serde_json::to_string_pretty(&summary)
+            .context("the summary cannot be written as JSON")?;
+        folder.write_text("summary.json", &(text + "\n"))?;
+        Ok((summary, true))
+    })
 }

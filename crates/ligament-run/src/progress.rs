@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use ligament::units::Units;
+use ligament_output::terminal::plain;
 
 /// Steps that follow sooner than this on the last logged one are left out of a log, ...
 const LOG_PAUSE: Duration = Duration::from_secs(2);
@@ -94,7 +95,7 @@ impl Progress {
     pub fn stage(&self, message: &str) {
         match (&self.bar, self.mode) {
             (_, ProgressMode::Quiet) => {}
-            (Some(bar), _) => bar.println(message),
+            (Some(bar), _) => bar.println(plain(message)),
             (None, _) => write_line(message),
         }
     }
@@ -160,7 +161,7 @@ fn style(has_total: bool) -> ProgressStyle {
 
 /// Progress that cannot be written (a closed pipe) must not end the run.
 fn write_line(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", plain(line));
 }
 
 fn log_line(line: &StepLine, done: bool, total: Option<u64>, elapsed: Duration) -> String {

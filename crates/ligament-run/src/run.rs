@@ -3,20 +3,22 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use anyhow::Context;
 use ligament::Loading;
-use ligament::run::{follow, on_threads};
+use ligament::run::on_threads;
 use ligament::setup::Analysis;
-use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::results::{ResultWriter, Time, WriteRule};
+use ligament_output::folder::ResultFolder;
 
+use crate::destination::{self, make_results};
+use crate::loading::LoadedBody;
+use crate::memory;
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
-use crate::watch::Watch;
-use ligament_case::case::{CaseFile, StressField};
+use ligament_case::case::CaseFile;
+
+pub use crate::loading::IsStopped;
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,80 +37,98 @@ impl Report {
             Self::Modes(summary) => summary.write(out),
         }
     }
+
+    /// Whether the run was stopped by its user, and can go on.
+    pub fn is_stopped(&self) -> bool {
+        match self {
+            Self::Loading(summary) => summary.is_stopped(),
+            Self::Modes(_) => false,
+        }
+    }
+}
+
+/// A run that is asked for.
+pub struct Request<'a> {
+    /// The case.
+    pub case: &'a CaseFile,
+    /// The folder of its results.
+    pub out: &'a Path,
+    /// Whether results of an earlier run may be replaced.
+    pub force: bool,
+    /// Tells whether the user wants it to stop.
+    pub is_stopped: IsStopped<'a>,
 }
 
 /// Runs a case and writes its results into a new folder.
 pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
-    on_threads(case.threads(), || run_here(case, out, force, mode))?
+    let request = Request {
+        case,
+        out,
+        force,
+        is_stopped: &|| false,
+    };
+    request.run(mode)
 }
 
-/// Runs a case on the threads of the caller.
-fn run_here(
-    case: &CaseFile,
-    out: &Path,
-    force: bool,
-    mode: ProgressMode,
-) -> anyhow::Result<Report> {
-    ResultFolder::check(out, force)?;
-    let mut stages = Stages::default();
-    let mut progress = Progress::new(mode);
-    let model = build_model(case, &mut stages, &progress)?;
-    if let Analysis::Modal(settings) = model.setup.analysis {
-        let summary = find_modes(case, settings, &model, out, force, stages)?;
-        progress.finish(&format!("{} modes found", summary.modes.len()));
-        Ok(Report::Modes(Box::new(summary)))
-    } else {
-        let summary = follow_loads(case, &model, out, force, stages, progress)?;
-        Ok(Report::Loading(Box::new(summary)))
+impl Request<'_> {
+    /// Runs the case and writes its results into a new folder, until it is stopped.
+    ///
+    /// # Errors
+    ///
+    /// If the folder cannot be used, something is wrong with the case, or results cannot be written.
+    pub fn run(&self, mode: ProgressMode) -> anyhow::Result<Report> {
+        on_threads(self.case.threads(), || self.run_here(mode))?
+    }
+
+    /// Runs the case on the threads of the caller.
+    fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
+        ResultFolder::check(self.out, self.force)?;
+        let mut stages = Stages::default();
+        let mut progress = Progress::new(mode);
+        let model = build_model(self.case, &mut stages, &progress)?;
+        if let Analysis::Modal(settings) = model.setup.analysis {
+            let create = || ResultFolder::create(self.out, self.force);
+            let summary = find_modes(self.case, settings, &model, create, stages)?;
+            progress.finish(&format!("{} modes found", summary.modes.len()));
+            Ok(Report::Modes(Box::new(summary)))
+        } else {
+            let summary = follow_loads(self, &model, stages, progress)?;
+            Ok(Report::Loading(Box::new(summary)))
+        }
     }
 }
 
 /// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
 fn follow_loads(
-    case: &CaseFile,
+    request: &Request<'_>,
     model: &Model,
-    out: &Path,
-    force: bool,
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
+    let case = request.case;
     let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
     let problem = loading.problem(&model.system, &model.criteria);
-
-    // Nothing is written, and nothing replaced, before all input was found good.
-    let folder = ResultFolder::create(out, force)?;
-    folder.write_text(RESOLVED_CASE, &case.resolved_toml()?)?;
-    let grid = model.body().grid();
-    let output = &case.case.output;
-    let rule = WriteRule {
-        fields_every: output.fields_every.unwrap_or_default() as usize,
-        bonds: output.bonds,
-        model: output.model,
-        virial: output.stress.contains(&StressField::Virial),
-        traction: output.stress.contains(&StressField::Traction),
-        time: match model.setup.analysis {
-            Analysis::Event(_) => Time::Step,
-            _ => Time::Load,
-        },
-    };
-    let writer = ResultWriter::new(&folder, &grid, &model.fixed, rule, &problem)?;
-    let mut watch = Watch::new(writer, &mut progress, &model.setup);
-    let outcome = stages.time("solution", || {
-        follow(&problem, &model.setup.analysis, &mut watch)
-    })?;
-
-    let notices = watch.into_notices();
-    let summary = Summary::new(
-        case,
-        model,
-        &loading.boundary,
-        &outcome,
-        notices,
-        stages.done(),
+    memory::foresee_equations(case, &model.system, &problem)?;
+    anyhow::ensure!(
+        !(request.is_stopped)(),
+        "stopped before the first solution: nothing was written"
     );
-    let text =
-        serde_json::to_string_pretty(&summary).context("the summary cannot be written as JSON")?;
-    folder.write_text("summary.json", &(text + "\n"))?;
-    progress.finish(&outcome.termination.to_string());
-    Ok(summary)
+    // Nothing is written, and nothing replaced, before all input was found good.
+    let create = || ResultFolder::create(request.out, request.force);
+    make_results(case, create, |folder| {
+        if let Some(words) = destination::words(folder) {
+            progress.stage(&words);
+        }
+        let body = LoadedBody {
+            case,
+            model,
+            loading: &loading,
+            folder,
+            is_stopped: request.is_stopped,
+        };
+        let summary = body.follow(None, &mut stages, &mut progress)?;
+        progress.finish(&summary.termination_message);
+        let is_complete = !summary.is_stopped();
+        Ok((summary, is_complete))
+    })
 }

@@ -6,9 +6,9 @@ mod solver;
 
 use std::io::{self, Write};
 
-use ligament_analysis::ProportionalLoading;
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
+use ligament_analysis::{ProportionalLoading, Termination};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -122,6 +122,12 @@ impl From<Stability> for StabilitySummary {
     }
 }
 
+/// Why a run ended, in words, with points by their tags and places.
+pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
+    let body = model.body();
+    outcome.termination.words(&|point| body.place(point))
+}
+
 /// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
 pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
     let changes = &boundary.temperature_change;
@@ -161,13 +167,18 @@ impl Summary {
             steps: history.len().saturating_sub(1),
             exact_path: outcome.rows == Rows::Events,
             termination: outcome.termination.name(),
-            termination_message: outcome.termination.to_string(),
+            termination_message: ending(outcome, model),
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
             stages: stages.to_vec(),
             warnings,
         }
+    }
+
+    /// Whether the run was stopped by its user.
+    pub fn is_stopped(&self) -> bool {
+        self.termination == Termination::Stopped.name()
     }
 
     /// The lines that a user sees at the end of a run.

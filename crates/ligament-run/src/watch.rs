@@ -2,18 +2,25 @@
 
 use ligament::setup::Analysis;
 use ligament::{Body, Setup};
-use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::Termination;
+use ligament_analysis::history::{
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+};
 use ligament_output::results::ResultWriter;
 
+use crate::checkpoints::Checkpoints;
 use crate::gauges;
+use crate::loading::IsStopped;
 use crate::progress::{Progress, StepLine};
 
 /// Notices that are shown while the run goes on, and points that a notice lists; all are in `summary.json`.
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
-pub struct Watch<'a> {
+pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
+    checkpoints: Checkpoints<'a>,
+    is_stopped: IsStopped<'a>,
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
@@ -21,8 +28,14 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Watches the run of a setup with a writer and a progress display.
-    pub fn new(writer: ResultWriter<'a>, progress: &'a mut Progress, setup: &'a Setup) -> Self {
+    /// Watches the run of a setup with a writer, checkpoints and a progress display; it goes on with some notices.
+    pub(crate) fn new(
+        (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
+        is_stopped: IsStopped<'a>,
+        progress: &'a mut Progress,
+        setup: &'a Setup,
+        notices: Vec<String>,
+    ) -> Self {
         let total = match &setup.analysis {
             Analysis::Stepped(settings) => Some(settings.load_factors.len() as u64),
             Analysis::Event(_) => None,
@@ -39,16 +52,18 @@ impl<'a> Watch<'a> {
         };
         Self {
             writer,
+            checkpoints,
+            is_stopped,
             progress,
-            notices: Vec::new(),
+            notices,
             last,
             body: &*setup.body,
         }
     }
 
-    /// What the user should know of the run.
-    pub fn into_notices(self) -> Vec<String> {
-        self.notices
+    /// What the user should know of the run, and its checkpoints.
+    pub(crate) fn into_parts(self) -> (Vec<String>, Checkpoints<'a>) {
+        (self.notices, self.checkpoints)
     }
 
     /// A notice with points given by their tags.
@@ -124,6 +139,22 @@ impl Observer for Watch<'_> {
         Ok(())
     }
 
+    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
+        let is_stopped = moment.end.is_none() && (self.is_stopped)();
+        let end = if is_stopped {
+            Some(&Termination::Stopped)
+        } else {
+            moment.end
+        };
+        if self.checkpoints.is_due(end) {
+            let solution = (moment.checkpoint)();
+            let results = self.writer.so_far().map_err(failed)?;
+            let written = (self.checkpoints).write(solution, &results, &self.notices);
+            written.map_err(failed)?;
+        }
+        Ok(if is_stopped { Onward::Stop } else { Onward::Go })
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         self.last = StepLine {
             step: record.step as u64,
@@ -138,4 +169,8 @@ impl Observer for Watch<'_> {
         }
         self.writer.step(record, view)
     }
+}
+
+fn failed(error: ligament_output::Error) -> ObserverError {
+    ObserverError(Box::new(error))
 }

@@ -6,15 +6,14 @@
 //! | [`calibrate`] | with which value of a key a result meets a target |
 //! | [`yielding`] | at which load the first bond yields, and how the directions of the bonds distort that |
 //!
-//! What they share: results by their names (`quantities`), lines of least squares (`line_fit`), what decides about the
-//! results of a run (`inputs`), and meshes made by other programs ([`meshing`]), because a study may vary a geometry.
+//! What they share: results by their names (`quantities`), lines of least squares (`line_fit`), and meshes made by other programs
+//! ([`meshing`]), because a study may vary a geometry.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
 pub mod calibrate;
-mod inputs;
 mod line_fit;
 pub mod meshing;
 mod quantities;

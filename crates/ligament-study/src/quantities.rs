@@ -1,12 +1,12 @@
 //! Results by their names: the numbers and words of a summary, such as `first_peak.reaction`.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use ligament::suggestion::hint;
+use ligament_case::input_file;
 
 /// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
 const COUNTED: [&str; 1] = ["warnings"];
@@ -87,7 +87,7 @@ impl Quantities {
     /// Reads those of a run from the summary in its folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, QuantityError> {
         let path = folder.join("summary.json");
-        let text = fs::read_to_string(&path).map_err(|source| QuantityError::Read {
+        let text = input_file::read_text(&path).map_err(|source| QuantityError::Read {
             path: path.clone(),
             source,
         })?;

@@ -15,7 +15,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use ligament_output::folder::ResultFolder;
+use ligament_output::folder::{Kind, ResultFolder};
 
 use ligament::suggestion::hint;
 
@@ -121,7 +121,8 @@ pub enum VerifyError {
 /// entry fails.
 pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     let chosen = select(&request.names)?;
-    let folder = ResultFolder::create_marked(&request.out, files::SUMMARY, request.force)?;
+    let folder =
+        ResultFolder::create_marked(&request.out, Kind::marked(files::SUMMARY), request.force)?;
     let mut summary = files::Summary::create(&folder)?;
     let mut done = Vec::new();
     for experiment in chosen {
@@ -133,6 +134,7 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
         done.push((experiment, findings));
     }
     folder.write_text("README.md", &markdown::text(&done, request.extent))?;
+    folder.finish()?;
     let all: Tally = done
         .iter()
         .map(|(_, findings)| Tally::from_findings(findings))
@@ -141,7 +143,7 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     writeln!(
         screen,
         "report in {}",
-        folder.path().join("README.md").display()
+        request.out.join("README.md").display()
     )?;
     Ok(conclude(&all)?)
 }

@@ -108,6 +108,72 @@ pub enum Fault {
         /// The first of them, in words.
         first: String,
     },
+    /// Two points that nearly coincide.
+    #[error(
+        "{} and {} are only {distance:.1e} m apart, where points are {size:.1e} m in size: their bond would outdo all others. If they \
+         are one, merge them (`Coherence Mesh;`, or a larger Geometry.Tolerance); if they are the faces of a slit, move these apart",
+        places[0], places[1]
+    )]
+    NearPoints {
+        /// The two points, in words.
+        places: [String; 2],
+        /// Their distance, m.
+        distance: f64,
+        /// Side of the square of the area of the first, m.
+        size: f64,
+    },
+    /// Bonds that do not hold a body together which its cells do.
+    #[error(
+        "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
+         (direction {:.2}, {:.2}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
+         a horizon factor of 3", places[0], places[1], along[0], along[1]
+    )]
+    Torn {
+        /// Number of parts by the bonds.
+        parts: usize,
+        /// Number of parts of the mesh.
+        of_body: usize,
+        /// Ends of a side of a cell that lie in two parts, in words.
+        places: [String; 2],
+        /// Direction of the side, without sign.
+        along: [f64; 2],
+        /// Length of the side, m.
+        length: f64,
+        /// Horizon of its ends, m.
+        horizon: f64,
+        /// The horizon that the side needs, in words.
+        remedy: String,
+    },
+    /// A bond whose stiffness is not a number.
+    #[error(
+        "the stiffness of the bond from {} to {} is not a number: look for a size, thickness or stiffness that is out of all \
+         proportion (SI units: m, Pa)", places[0], places[1]
+    )]
+    NoNumber {
+        /// Ends of the bond, in words.
+        places: [String; 2],
+    },
+    /// Bonds too stiff or too soft for their energies to be numbers.
+    #[error(
+        "the stiffest bond has {rigidity:.1e} J, and numbers end at 1e308 and 1e-308: look for a size, thickness or stiffness that \
+         is out of all proportion (SI units: m, Pa)"
+    )]
+    OutOfNumbers {
+        /// The largest axial rigidity, J.
+        rigidity: f64,
+    },
+    /// A position that is not on the body.
+    #[error(
+        "({:.6}, {:.6}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away", position[0], position[1]
+    )]
+    OffBody {
+        /// The position, m.
+        position: [f64; 2],
+        /// The nearest point, in words.
+        nearest: String,
+        /// Its distance, m.
+        distance: f64,
+    },
     /// Cells of a mesh on top of others.
     #[error(
         "cells of the mesh overlap: its outline crosses itself between {from} and {to}. Bodies that touch share nodes: mesh them as one \

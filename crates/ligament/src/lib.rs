@@ -51,6 +51,7 @@ pub mod patch_test;
 pub mod prelude;
 pub mod run;
 pub mod setup;
+mod soundness;
 pub mod stage;
 pub mod suggestion;
 pub mod units;

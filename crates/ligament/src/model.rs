@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::outline::{bonds_outside, first_crossing, spacing_inside};
+use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
@@ -12,10 +12,11 @@ use ligament_model::{
 };
 
 use crate::body::Body;
-use crate::error::{Fault, Field, SetupError};
+use crate::error::SetupError;
 use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::setup::{CorrectionDomain, Setup};
+use crate::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning::{self, Warning};
 
@@ -52,7 +53,7 @@ impl Model {
         let (bonds, mut absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
-        require_neighbours(&*setup.body, &bonds)?;
+        require_connected(&setup, &cloud, &horizons, &bonds)?;
         watcher.found(&Finding::Bonds {
             points: cloud.len(),
             bonds: bonds.len(),
@@ -88,7 +89,7 @@ impl Model {
         };
         let system = stage(watcher, "rigidities", || {
             bond_system(&setup, cloud, bonds, stiffness, &correction)
-        });
+        })?;
         let criteria = stage(watcher, "criteria", || {
             formulation::criteria(&setup, &system, &fixed.no_fail)
         })?;
@@ -136,6 +137,7 @@ fn points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupEr
     let n_materials = setup.materials.len();
     let (body, thickness) = (&setup.body, setup.thickness());
     let cloud = body.cloud(thickness, material_of_cell, n_materials);
+    require_distinct(&**body, &cloud)?;
     forbid_overlap(&**body, &cloud)?;
     if setup.bonds_through_voids || body.cells().is_empty() {
         return Ok(cloud);
@@ -167,10 +169,12 @@ fn bond_system(
     bonds: BondSet,
     stiffness: BondStiffness,
     correction: &Correction,
-) -> BondSystem {
+) -> Result<BondSystem, SetupError> {
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
-    BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
+    let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
+    require_numbers(&*setup.body, &system)?;
+    Ok(system)
 }
 
 /// The bonds inside the body, and those that its voids part.
@@ -202,31 +206,6 @@ fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<Ab
             absence,
         })
         .collect()
-}
-
-/// The error of cells that lie on others.
-fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
-    let Some([from, to]) = first_crossing(body.cells(), cloud) else {
-        return Ok(());
-    };
-    Err(Field::whole("body").error(Fault::Overlap {
-        from: body.place(from),
-        to: body.place(to),
-    }))
-}
-
-/// The error of points that have no neighbour at all: no correction gives them a stiffness.
-fn require_neighbours(body: &dyn Body, bonds: &BondSet) -> Result<(), SetupError> {
-    let lone = bonds.lone_points();
-    let Some(&first) = lone.first() else {
-        return Ok(());
-    };
-    let fault = Fault::LonePoints {
-        count: lone.len(),
-        n_points: bonds.incidence.n_points(),
-        first: body.place(first),
-    };
-    Err(Field::whole("horizon").error(fault))
 }
 
 /// Bonds that pre-cracks leave, with their stiffness and correction.

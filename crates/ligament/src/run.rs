@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use ligament_analysis::Observer;
-use ligament_analysis::driver::{self, Outcome, Problem};
+use ligament_analysis::checkpoint::CheckpointError;
+use ligament_analysis::driver::{self, Outcome, Problem, Restored};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
 use ligament_analysis::probe::Probe;
@@ -82,6 +83,47 @@ pub fn follow(
         Analysis::Event(settings) => driver::event::run(problem, settings, observer)?,
         Analysis::Modal(_) => return Err(other_analysis(analysis, "the answer to loads")),
     })
+}
+
+/// The run that a checkpoint holds, ready to go on.
+///
+/// # Errors
+///
+/// If the checkpoint is damaged or not of this problem and analysis, or the analysis breaks no bonds.
+pub fn restore(
+    problem: &Problem,
+    analysis: &Analysis,
+    checkpoint: &[u8],
+) -> Result<Restored, Error> {
+    Ok(match analysis {
+        Analysis::Stepped(settings) => driver::stepped::restore(problem, settings, checkpoint)?,
+        Analysis::Event(settings) => driver::event::restore(problem, settings, checkpoint)?,
+        Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
+    })
+}
+
+/// Goes on with a run from its checkpoint, to the same bits as if it had never stopped.
+///
+/// # Errors
+///
+/// If the run is of another driver, or the observer fails.
+pub fn resume(
+    problem: &Problem,
+    analysis: &Analysis,
+    restored: Restored,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    Ok(match analysis {
+        Analysis::Stepped(settings) => {
+            driver::stepped::resume(problem, settings, restored, observer)?
+        }
+        Analysis::Event(settings) => driver::event::resume(problem, settings, restored, observer)?,
+        Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
+    })
+}
+
+fn without_fracture() -> Error {
+    ligament_analysis::SetupError::Checkpoint(CheckpointError::NoFracture).into()
 }
 
 fn other_analysis(found: &Analysis, wanted: &'static str) -> Error {

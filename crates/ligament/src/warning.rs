@@ -41,6 +41,19 @@ pub enum Warning {
         /// Whether the setup gives this factor.
         is_given: bool,
     },
+    /// Horizons as large as the body.
+    #[error(
+        "the horizon of {place} is {horizon:.4e} m, more than half of the body's length of {length:.4e} m: nearly all points are bonded to \
+         each other, and the answer is not that of the material; a horizon factor of 3 is usual"
+    )]
+    LargeHorizon {
+        /// A point with the smallest horizon, in words.
+        place: String,
+        /// Its horizon, m.
+        horizon: f64,
+        /// Longer side of the box around the body, m.
+        length: f64,
+    },
     /// A domain correction that did not converge.
     #[error(
         "the domain correction did not converge in {sweeps} sweeps (last change {last_change:.2e}): {off} of {n_points} points have \
@@ -149,6 +162,7 @@ pub(crate) fn of_model(
 ) -> Vec<Warning> {
     let body = &*setup.body;
     let mut warnings: Vec<Warning> = body.remarks().into_iter().map(Warning::Body).collect();
+    warnings.extend(large_horizon(body, fixed));
     if let Some(CorrectionReport::Domain(_)) = correction {
         warnings.extend(small_horizon(setup, spacing, fixed));
     }
@@ -188,6 +202,21 @@ fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<
         }
     };
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
+}
+
+fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
+    let extent = |axis: usize| {
+        let places = body.positions().iter().map(|it| it[axis]);
+        places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
+    };
+    let length = extent(0).max(extent(1));
+    let horizons = fixed.horizon.iter().enumerate();
+    let (point, &horizon) = horizons.min_by(|one, other| one.1.total_cmp(other.1))?;
+    (horizon > 0.5 * length).then(|| Warning::LargeHorizon {
+        place: body.place(point as u32),
+        horizon,
+        length,
+    })
 }
 
 fn not_met(body: &dyn Body, report: &patch::Report) -> Warning {

@@ -47,6 +47,15 @@ impl Connectivity {
         }
     }
 
+    /// The body with the bonds that are intact (n_bonds), where all is held that can be.
+    pub(crate) fn held(system: &dyn Bonds, intact: &[bool]) -> Self {
+        Self {
+            fragments: Fragments::find(system, intact),
+            changed: Vec::new(),
+            ..Self::new(system)
+        }
+    }
+
     /// The fragments.
     pub fn fragments(&self) -> &Fragments {
         &self.fragments

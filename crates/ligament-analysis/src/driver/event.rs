@@ -7,14 +7,17 @@
 //! goes on along its line to the next critical load factor, which may be lower. So the path snaps back as it must, and
 //! there is no step size. A stepped test in displacement follows its envelope, [`super::Outcome::envelope`].
 
+use std::mem;
 use std::time::Instant;
 
+use super::course::{Place, Restored};
 use super::outcome::{Outcome, Rows};
 use super::path::{NO_LOAD, Path, StopRules};
-use super::recorder::{StepCounters, largest_ratio};
+use super::recorder::{Energies, StepCounters, largest_ratio};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_to_break};
+use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
@@ -70,12 +73,77 @@ pub fn run(
     Ok(following.path.into_outcome(termination, Rows::Events))
 }
 
+/// The run of a checkpoint, ready to go on.
+///
+/// # Errors
+///
+/// If the checkpoint is damaged, or of another problem or driver.
+pub fn restore(
+    problem: &Problem,
+    settings: &EventSettings,
+    checkpoint: &[u8],
+) -> Result<Restored, SetupError> {
+    let restored = Restored::read(problem, settings.energy_tolerance, checkpoint)?;
+    match restored.place {
+        Place::Event(_) => Ok(restored),
+        Place::LoadStep(_) => Err(CheckpointError::OtherDriver.into()),
+    }
+}
+
+/// Goes on with a run as if it had never stopped; the stop rules may be others than before.
+///
+/// # Errors
+///
+/// If the run is of another driver, or an observer fails.
+pub fn resume(
+    problem: &Problem,
+    settings: &EventSettings,
+    restored: Restored,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    let Place::Event(step) = restored.place else {
+        return Err(CheckpointError::OtherDriver.into());
+    };
+    let (path, line) = Path::go_on(problem, settings.stop, restored, observer);
+    let mut following = Following {
+        loaded: problem.loads.loaded_degrees_of_freedom(),
+        path,
+        settings,
+    };
+    let termination = following.go_on(step, line)?;
+    Ok(following.path.into_outcome(termination, Rows::Events))
+}
+
 /// The run on its way.
 struct Following<'a> {
     path: Path<'a>,
     settings: &'a EventSettings,
     /// Degrees of freedom that something moves or loads.
     loaded: Vec<u32>,
+}
+
+/// What the way along a line changes, as it was before.
+struct Before {
+    load_factor: f64,
+    displacement: Vec<f64>,
+    energies: Energies,
+}
+
+impl Before {
+    fn new(path: &Path<'_>) -> Self {
+        Self {
+            load_factor: path.state.load_factor,
+            displacement: path.state.displacement.clone(),
+            energies: path.energies.clone(),
+        }
+    }
+
+    /// Exchanges it for what it is now.
+    fn swap(&mut self, path: &mut Path<'_>) {
+        mem::swap(&mut self.load_factor, &mut path.state.load_factor);
+        mem::swap(&mut self.displacement, &mut path.state.displacement);
+        mem::swap(&mut self.energies, &mut path.energies);
+    }
 }
 
 /// Where the line of the present bonds is followed to.
@@ -92,13 +160,18 @@ struct Goal {
 impl Following<'_> {
     /// Follows the path from an equilibrium of the whole body to the end of the run.
     fn follow(&mut self) -> Result<Termination, SetupError> {
-        let mut step = 1;
+        let step = 1;
         self.path.enter(step, 0)?;
-        let mut line = match self.path.balance(step, &Breakage::default())? {
-            Attempt::Balanced(balanced) => balanced,
-            Attempt::Unbalanced(reason) => return Ok(Termination::NoEquilibrium { step, reason }),
-        };
+        match self.path.balance(step, &Breakage::default())? {
+            Attempt::Balanced(line) => self.go_on(step, line),
+            Attempt::Unbalanced(reason) => Ok(Termination::NoEquilibrium { step, reason }),
+        }
+    }
+
+    /// Follows the path from an equilibrium on the line to an event.
+    fn go_on(&mut self, mut step: usize, mut line: Balanced) -> Result<Termination, SetupError> {
         loop {
+            let before = Before::new(&self.path);
             let Goal {
                 load_factor,
                 ratio,
@@ -106,11 +179,12 @@ impl Following<'_> {
                 end,
             } = self.goal(&line);
             let critical = self.move_along_line(&line, load_factor);
-            self.path.enter(step, 0)?;
             self.path.account(step, &Breakage::default(), &critical)?;
             let end = end
                 .or_else(|| self.path.interruption())
                 .or_else(|| self.path.end_at_rest(&critical));
+            let end = self.offer(before, step, &line, end)?;
+            self.path.enter(step, 0)?;
             let goes_on = usize::from(end.is_none());
             let counters = StepCounters {
                 step,
@@ -132,7 +206,7 @@ impl Following<'_> {
             line = match self.path.balance(step, &breakage)? {
                 Attempt::Balanced(balanced) => balanced,
                 Attempt::Unbalanced(reason) => {
-                    let end = Termination::NoEquilibrium { step, reason };
+                    let end = self.path.without_equilibrium(step, reason);
                     return self.end(step + 1, &critical, end);
                 }
             };
@@ -142,6 +216,20 @@ impl Following<'_> {
                 return self.end(step, &line, Termination::FellApart);
             }
         }
+    }
+
+    /// Offers the moment before the way along a line, when it is known whether the run ends there.
+    fn offer(
+        &mut self,
+        mut before: Before,
+        step: usize,
+        line: &Balanced,
+        end: Option<Termination>,
+    ) -> Result<Option<Termination>, SetupError> {
+        before.swap(&mut self.path);
+        let end = self.path.offer(&|| Place::Event(step), line, end)?;
+        before.swap(&mut self.path);
+        Ok(end)
     }
 
     /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.

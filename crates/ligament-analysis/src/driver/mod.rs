@@ -1,5 +1,6 @@
 //! Drivers: one file for each way to follow a loading.
 
+mod course;
 mod dissipation;
 pub mod elastic;
 pub mod event;
@@ -10,5 +11,6 @@ mod start;
 pub mod stepped;
 
 pub use crate::problem::Problem;
+pub use course::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use path::StopRules;

@@ -3,6 +3,7 @@
 use crate::balanced::Stability;
 use crate::costs::Costs;
 use crate::history::{StepRecord, Termination};
+use crate::serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 
@@ -48,6 +49,12 @@ pub struct LoadPoint {
     /// Load factor.
     pub load_factor: f64,
 }
+
+serial!(LoadPoint {
+    displacement,
+    reaction,
+    load_factor
+});
 
 impl Outcome {
     /// The record at rest with the largest reaction.

@@ -5,20 +5,25 @@
 
 use std::time::Instant;
 
+use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
-use super::start::{ElasticAnswer, Start, begin, report_loose, report_mechanisms};
-use crate::balanced::{Attempt, Balanced, Unbalanced};
+use super::start::{Start, begin, report_loose, report_mechanisms};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
-use crate::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, Termination, View};
+use crate::history::{
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, Termination, View,
+};
 use crate::load_program::ControlKind;
 use crate::problem::Problem;
+use crate::serial::Serial;
 use crate::softening::Softening;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// Rules that end a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,18 +60,11 @@ pub(super) struct Path<'a> {
     pub(super) observer: &'a mut dyn Observer,
     pub(super) equilibrium: Equilibrium,
     pub(super) state: State,
-    pub(super) elastic: ElasticAnswer,
-    pub(super) broken: usize,
+    pub(super) energies: Energies,
+    pub(super) course: Course,
     /// Whether a given force acts on a part that nothing holds any more.
     pub(super) collapsed: bool,
     stop: StopRules,
-    energies: Energies,
-    history: Vec<StepRecord>,
-    peak: f64,
-    energy_was_negative: bool,
-    /// Solves up to the last equilibrium, and up to the last record.
-    solves: [usize; 2],
-    negative_eigenvalues: usize,
     started: Instant,
 }
 
@@ -90,19 +88,42 @@ impl<'a> Path<'a> {
             observer,
             equilibrium,
             state: unloaded,
-            elastic,
-            broken: 0,
+            energies: Energies::unloaded(problem),
+            course: Course {
+                elastic,
+                broken: 0,
+                history: Vec::new(),
+                peak: 0.0,
+                energy_was_negative: false,
+                solves,
+                negative_eigenvalues: 0,
+            },
             collapsed: false,
             stop,
-            energies: Energies::unloaded(problem),
-            history: Vec::new(),
-            peak: 0.0,
-            energy_was_negative: false,
-            solves,
-            negative_eigenvalues: 0,
             started: Instant::now(),
         };
         Ok((path, at_one))
+    }
+
+    /// Goes on from a checkpoint; also gives the equilibrium there.
+    pub(super) fn go_on(
+        problem: &'a Problem,
+        stop: StopRules,
+        restored: Restored,
+        observer: &'a mut dyn Observer,
+    ) -> (Self, Balanced) {
+        let path = Self {
+            problem,
+            observer,
+            equilibrium: restored.equilibrium,
+            state: restored.state,
+            energies: restored.energies,
+            course: restored.course,
+            collapsed: false,
+            stop,
+            started: Instant::now(),
+        };
+        (path, restored.balanced)
     }
 
     /// Lets the bonds soften from here on, if those of the criteria do.
@@ -115,7 +136,8 @@ impl<'a> Path<'a> {
     /// Tells the observer what comes next.
     pub(super) fn enter(&mut self, step: usize, round: usize) -> Result<(), ObserverError> {
         let load_factor = self.state.load_factor;
-        self.observer.round(step, round, load_factor, self.broken)
+        self.observer
+            .round(step, round, load_factor, self.course.broken)
     }
 
     /// Equilibrium of the state after the last breakage; a negative energy is none unless the case says to go on. Without an
@@ -144,12 +166,46 @@ impl<'a> Path<'a> {
             self.state.softening = softening;
             return Ok(attempt);
         }
-        if is_negative && !std::mem::replace(&mut self.energy_was_negative, true) {
+        if is_negative && !std::mem::replace(&mut self.course.energy_was_negative, true) {
             self.observer.notice(&Notice::NegativeEnergy { step })?;
         }
-        self.solves[0] = self.equilibrium.costs().solves;
-        self.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
+        self.course.solves[0] = self.equilibrium.costs().solves;
+        self.course.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
         Ok(attempt)
+    }
+
+    /// Offers the present moment, an equilibrium that is accounted for, to the observer. Gives the reason why the run ends
+    /// there: the given one, or that the observer stops it.
+    pub(super) fn offer(
+        &mut self,
+        place: &dyn Fn() -> Place,
+        balanced: &Balanced,
+        end: Option<Termination>,
+    ) -> Result<Option<Termination>, SetupError> {
+        let Self {
+            observer,
+            equilibrium,
+            state,
+            energies,
+            course,
+            ..
+        } = self;
+        let checkpoint = || {
+            let mut out = Vec::new();
+            place().write(&mut out);
+            state.write(&mut out);
+            course.write(&mut out);
+            equilibrium.write(&mut out);
+            energies.write(&mut out);
+            proof(balanced).write(&mut out);
+            out
+        };
+        let moment = Moment {
+            end: end.as_ref(),
+            checkpoint: &checkpoint,
+        };
+        let onward = observer.moment(&moment)?;
+        Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
     }
 
     /// Adds up work and released energy, and reports mechanisms.
@@ -182,7 +238,7 @@ impl<'a> Path<'a> {
             let deformation = balanced.deformations[bond as usize];
             let verdict = criteria.breaking(bond as usize, &deformation)?;
             Some(BreakRecord {
-                order: self.broken + place + 1,
+                order: self.course.broken + place + 1,
                 step,
                 round,
                 load_factor,
@@ -195,7 +251,7 @@ impl<'a> Path<'a> {
             })
         };
         let records: Vec<BreakRecord> = bonds.iter().enumerate().filter_map(of_bond).collect();
-        self.broken += bonds.len();
+        self.course.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
             dissipation::break_bond(self.problem, &mut self.state, record);
@@ -230,17 +286,29 @@ impl<'a> Path<'a> {
     /// Whether the load of an equilibrium is rounding against the largest so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
         let (_, reaction) = self.control(balanced);
-        reaction <= NO_LOAD * self.peak
+        reaction <= NO_LOAD * self.course.peak
     }
 
     /// The rule that ends the run wherever it is, if one does.
     pub(super) fn interruption(&self) -> Option<Termination> {
         let seconds = self.started.elapsed().as_secs_f64();
-        if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.broken >= bonds) {
+        if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.course.broken >= bonds) {
             return Some(Termination::BondsBroken { bonds });
         }
         let is_over = |&allowed: &f64| seconds >= allowed;
         (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
+    }
+
+    /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
+    /// that the body collapsed under it.
+    pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
+        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
+        match reason {
+            Unbalanced::CarriedByHold { place, force } if !is_whole => {
+                Termination::LostStiffness { step, place, force }
+            }
+            reason => Termination::NoEquilibrium { step, reason },
+        }
     }
 
     /// What ends the run with an equilibrium that is at rest.
@@ -254,16 +322,18 @@ impl<'a> Path<'a> {
             return Some(Termination::DisplacementReached { displacement });
         }
         // Bonds that soften take load away before any breaks.
-        if self.broken == 0 && (self.state.softening.remaining.is_empty() || self.peak == 0.0) {
+        if self.course.broken == 0
+            && (self.state.softening.remaining.is_empty() || self.course.peak == 0.0)
+        {
             return None;
         }
-        if reaction <= NO_LOAD * self.peak {
+        if reaction <= NO_LOAD * self.course.peak {
             return Some(Termination::FellApart);
         }
         let fraction = self
             .stop
             .load_fraction
-            .filter(|&fraction| reaction <= fraction * self.peak)?;
+            .filter(|&fraction| reaction <= fraction * self.course.peak)?;
         Some(Termination::LoadFraction { fraction })
     }
 
@@ -275,12 +345,12 @@ impl<'a> Path<'a> {
         is_last: bool,
     ) -> Result<(), SetupError> {
         let counters = StepCounters {
-            broken: self.broken,
-            solves: self.solves[0] - self.solves[1],
-            negative_eigenvalues: self.negative_eigenvalues,
+            broken: self.course.broken,
+            solves: self.course.solves[0] - self.course.solves[1],
+            negative_eigenvalues: self.course.negative_eigenvalues,
             ..counters
         };
-        self.solves[1] = self.equilibrium.costs().solves;
+        self.course.solves[1] = self.equilibrium.costs().solves;
         let record = step_record(
             self.problem,
             &self.state,
@@ -289,7 +359,7 @@ impl<'a> Path<'a> {
             self.equilibrium.fragments(),
             counters,
         );
-        self.peak = self.peak.max(record.reaction);
+        self.course.peak = self.course.peak.max(record.reaction);
         let view = View {
             system: &*self.problem.system,
             state: &self.state,
@@ -301,19 +371,19 @@ impl<'a> Path<'a> {
             is_last,
         };
         self.observer.step(&record, &view)?;
-        self.history.push(record);
+        self.course.history.push(record);
         Ok(())
     }
 
     /// What the run was.
     pub(super) fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
         Outcome {
-            history: self.history,
+            history: self.course.history,
             rows,
             termination,
-            elastic_stiffness: self.elastic.stiffness,
-            first_break: self.elastic.first_break,
-            stability: self.elastic.stability,
+            elastic_stiffness: self.course.elastic.stiffness,
+            first_break: self.course.elastic.first_break,
+            stability: self.course.elastic.stability,
             costs: *self.equilibrium.costs(),
             solver: *self.equilibrium.choice(),
             state: self.state,

@@ -6,9 +6,12 @@ use rayon::prelude::*;
 
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::history::StepRecord;
 use crate::problem::Problem;
+use crate::serial;
+use crate::serial::Serial;
 use crate::state::State;
 
 /// Energies along the path.
@@ -38,7 +41,49 @@ struct Loaded {
     displacement: f64,
 }
 
+serial!(Loaded {
+    force,
+    displacement
+});
+
 impl Energies {
+    /// Appends what is not made of the problem and the state.
+    pub(super) fn write(&self, out: &mut Vec<u8>) {
+        let Self {
+            external_work,
+            released,
+            last_loaded,
+            thermal,
+            loaded: _,
+            last: _,
+        } = self;
+        external_work.write(out);
+        released.write(out);
+        last_loaded.write(out);
+        thermal.write(out);
+    }
+
+    /// The energies that were written in a state of equilibrium.
+    pub(super) fn read(
+        problem: &Problem,
+        state: &State,
+        balanced: &Balanced,
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
+        let mut energies = Self {
+            external_work: Serial::read(from)?,
+            released: Serial::read(from)?,
+            last_loaded: Serial::read(from)?,
+            thermal: Serial::read(from)?,
+            ..Self::unloaded(problem)
+        };
+        if energies.last_loaded.len() != energies.loaded.len() {
+            return Err(CheckpointError::OtherModel);
+        }
+        energies.keep(state, balanced);
+        Ok(energies)
+    }
+
     /// The energies of the unloaded body.
     pub(super) fn unloaded(problem: &Problem) -> Self {
         let loaded = problem.loads.loaded_degrees_of_freedom();
@@ -91,7 +136,12 @@ impl Energies {
                 self.released += (problem.system).mutual_energy(&state.intact, bond, &lost, both);
             }
         }
-        let now = balanced.deformations.iter().zip(remaining);
+        self.keep(state, balanced);
+    }
+
+    /// Keeps deformations and what is left of the bonds.
+    fn keep(&mut self, state: &State, balanced: &Balanced) {
+        let now = (balanced.deformations.iter()).zip(&state.softening.remaining);
         self.last.clear();
         self.last
             .extend(now.map(|(deformation, left)| (*deformation, *left)));
@@ -110,6 +160,17 @@ pub(super) struct StepCounters {
     pub(super) negative_eigenvalues: usize,
     pub(super) largest_ratio: f64,
 }
+
+serial!(StepCounters {
+    step,
+    broken,
+    broken_in_step,
+    rounds,
+    solves,
+    at_rest,
+    negative_eigenvalues,
+    largest_ratio,
+});
 
 /// The record of a state of equilibrium.
 pub(super) fn step_record(

@@ -9,6 +9,7 @@ use crate::error::SetupError;
 use crate::gauges;
 use crate::history::{Notice, Observer, ObserverError, StepRecord, View};
 use crate::problem::Problem;
+use crate::serial;
 use crate::state::State;
 
 /// What is known before the first load step.
@@ -27,6 +28,12 @@ pub(super) struct ElasticAnswer {
     pub(super) first_break: Option<LoadPoint>,
     pub(super) stability: Option<Stability>,
 }
+
+serial!(ElasticAnswer {
+    stiffness,
+    first_break,
+    stability
+});
 
 /// Holds what nothing holds, and solves once at load factor one for the stiffness, the first breakage and the inertia.
 pub(super) fn begin(

@@ -3,14 +3,18 @@
 //! In a load step: equilibrium; the bonds beyond their critical stretch in order; the first of them break; equilibrium
 //! again; until none is left to break.
 
+use std::mem;
 use std::time::Instant;
 
+use super::course::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::{Path, StopRules};
 use super::recorder::{StepCounters, largest_ratio};
+use super::start::ElasticAnswer;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
+use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
@@ -40,21 +44,86 @@ pub fn run(
 ) -> Result<Outcome, SetupError> {
     let (mut path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     path.soften();
-    let load_factors = refined(settings, path.elastic.first_break);
+    let load_factors = load_factors(settings, &path.course.elastic);
     let mut stepping = Stepping {
         path,
         settings,
-        last_step: load_factors.len(),
+        load_factors: &load_factors,
         load_factor_before: 0.0,
     };
-    let mut termination = Termination::StepsDone;
-    for (step, &load_factor) in std::iter::once(&0.0).chain(&load_factors).enumerate() {
-        if let Some(end) = stepping.load_step(step, load_factor)? {
-            termination = end;
-            break;
-        }
-    }
+    let termination = stepping.steps_from(0)?;
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
+}
+
+/// The run of a checkpoint, ready to go on.
+///
+/// # Errors
+///
+/// If the checkpoint is damaged, or of another problem or driver, or if the load steps up to it are others.
+pub fn restore(
+    problem: &Problem,
+    settings: &SteppedSettings,
+    checkpoint: &[u8],
+) -> Result<Restored, SetupError> {
+    let restored = Restored::read(problem, settings.energy_tolerance, checkpoint)?;
+    let Place::LoadStep(InLoadStep {
+        load_factors: done, ..
+    }) = &restored.place
+    else {
+        return Err(CheckpointError::OtherDriver.into());
+    };
+    let planned = load_factors(settings, &restored.course.elastic);
+    let is_same =
+        |step: &usize| planned.get(*step).map(|it| it.to_bits()) == Some(done[*step].to_bits());
+    match (0..done.len()).find(|step| !is_same(step)) {
+        None => Ok(restored),
+        Some(step) => Err(CheckpointError::OtherLoading {
+            step,
+            was: done[step],
+        }
+        .into()),
+    }
+}
+
+/// Goes on with a run as if it had never stopped; the stop rules may be others than before, and load steps may follow.
+///
+/// # Errors
+///
+/// If the run is of another driver, or an observer fails.
+pub fn resume(
+    problem: &Problem,
+    settings: &SteppedSettings,
+    mut restored: Restored,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    let place = mem::replace(&mut restored.place, Place::Event(0));
+    let Place::LoadStep(InLoadStep {
+        counters,
+        load_factor_before,
+        ..
+    }) = place
+    else {
+        return Err(CheckpointError::OtherDriver.into());
+    };
+    let load_factors = load_factors(settings, &restored.course.elastic);
+    let (path, balanced) = Path::go_on(problem, settings.stop, restored, observer);
+    let mut stepping = Stepping {
+        path,
+        settings,
+        load_factors: &load_factors,
+        load_factor_before,
+    };
+    let termination = match stepping.come_to_rest(counters, balanced)? {
+        Some(end) => end,
+        None => stepping.steps_from(counters.step + 1)?,
+    };
+    Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
+}
+
+/// The load factors of all steps, that of the unloaded body first.
+fn load_factors(settings: &SteppedSettings, elastic: &ElasticAnswer) -> Vec<f64> {
+    let steps = refined(settings, elastic.first_break);
+    std::iter::once(0.0).chain(steps).collect()
 }
 
 /// The load factors with the step of the first breakage divided.
@@ -92,55 +161,75 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 struct Stepping<'a> {
     path: Path<'a>,
     settings: &'a SteppedSettings,
-    last_step: usize,
+    /// Load factors of all steps, that of the unloaded body first.
+    load_factors: &'a [f64],
     /// Load factor of the step before.
     load_factor_before: f64,
 }
 
 impl Stepping<'_> {
+    /// Does the load steps from one on, and gives the reason why the run ends.
+    fn steps_from(&mut self, first: usize) -> Result<Termination, SetupError> {
+        for step in first..self.load_factors.len() {
+            if let Some(end) = self.load_step(step)? {
+                return Ok(end);
+            }
+        }
+        Ok(Termination::StepsDone)
+    }
+
     /// Does one load step, and gives the reason why the run ends, if it does.
-    ///
-    /// Where breakages leave no equilibrium, the step shows the last one before them.
-    fn load_step(
-        &mut self,
-        step: usize,
-        load_factor: f64,
-    ) -> Result<Option<Termination>, SetupError> {
-        self.path.state.load_factor = load_factor;
-        let mut counters = StepCounters {
+    fn load_step(&mut self, step: usize) -> Result<Option<Termination>, SetupError> {
+        self.path.state.load_factor = self.load_factors[step];
+        let counters = StepCounters {
             step,
             ..Default::default()
         };
-        let mut breakage = Breakage::default();
-        let mut last: Option<Balanced> = None;
+        let nothing = Breakage::default();
+        self.path.enter(step, counters.rounds)?;
+        match self.path.balance(step, &nothing)? {
+            Attempt::Balanced(balanced) => {
+                self.path.account(step, &nothing, &balanced)?;
+                self.come_to_rest(counters, balanced)
+            }
+            Attempt::Unbalanced(reason) => Ok(Some(self.path.without_equilibrium(step, reason))),
+        }
+    }
+
+    /// Breaks the bonds of a load step from an equilibrium on, until none is left to break.
+    ///
+    /// Where breakages leave no equilibrium, the step shows the last one before them.
+    fn come_to_rest(
+        &mut self,
+        mut counters: StepCounters,
+        mut balanced: Balanced,
+    ) -> Result<Option<Termination>, SetupError> {
+        let step = counters.step;
         loop {
-            self.path.enter(step, counters.rounds)?;
-            let balanced = match self.path.balance(step, &breakage)? {
-                Attempt::Balanced(balanced) => balanced,
-                Attempt::Unbalanced(reason) => {
-                    let end = Some(Termination::NoEquilibrium { step, reason });
-                    return match last {
-                        Some(balanced) => self.record(&balanced, counters, end),
-                        None => Ok(end),
-                    };
-                }
-            };
-            self.path.account(step, &breakage, &balanced)?;
             let next = self.next_to_break(&balanced);
             counters.at_rest = next.is_empty();
-            let interrupted = self.interruption(&counters);
-            if counters.at_rest || interrupted.is_some() {
-                return self.record(&balanced, counters, interrupted);
+            let end = self.end(&balanced, &counters);
+            let end = self.offer(&balanced, counters, end)?;
+            if counters.at_rest || end.is_some() {
+                return self.record(&balanced, counters, end);
             }
             counters.rounds += 1;
             counters.broken_in_step += next.len();
-            breakage = self
+            let breakage = self
                 .path
                 .break_bonds(&next, &balanced, step, counters.rounds)?;
             if self.path.collapsed {
                 return self.record(&balanced, counters, Some(Termination::Collapsed));
             }
-            last = Some(balanced);
+            self.path.enter(step, counters.rounds)?;
+            balanced = match self.path.balance(step, &breakage)? {
+                Attempt::Balanced(balanced) => balanced,
+                Attempt::Unbalanced(reason) => {
+                    let end = Some(self.path.without_equilibrium(step, reason));
+                    return self.record(&balanced, counters, end);
+                }
+            };
+            self.path.account(step, &breakage, &balanced)?;
         }
     }
 
@@ -156,14 +245,40 @@ impl Stepping<'_> {
         next
     }
 
-    /// What ends the run in the middle of a load step.
-    fn interruption(&self, counters: &StepCounters) -> Option<Termination> {
+    /// What ends the run in an equilibrium of a load step.
+    fn end(&self, balanced: &Balanced, counters: &StepCounters) -> Option<Termination> {
         let exhausted = !counters.at_rest && counters.rounds >= self.settings.round_limit;
         let not_at_rest = exhausted.then_some(Termination::NotAtRest {
             step: counters.step,
             rounds: counters.rounds,
         });
-        self.path.interruption().or(not_at_rest)
+        let interruption = self.path.interruption().or(not_at_rest);
+        interruption.or_else(|| {
+            // A load that is taken back is no failure.
+            let is_unloading = self.path.state.load_factor.abs() < self.load_factor_before.abs();
+            let at_rest = self.path.end_at_rest(balanced);
+            at_rest.filter(|_| counters.at_rest && !is_unloading)
+        })
+    }
+
+    /// Offers the moment of an equilibrium of a load step.
+    fn offer(
+        &mut self,
+        balanced: &Balanced,
+        counters: StepCounters,
+        end: Option<Termination>,
+    ) -> Result<Option<Termination>, SetupError> {
+        let is_last = counters.at_rest && counters.step + 1 == self.load_factors.len();
+        let done = end.is_none() && is_last;
+        let place = || {
+            Place::LoadStep(InLoadStep {
+                counters,
+                load_factor_before: self.load_factor_before,
+                load_factors: self.load_factors[..=counters.step].to_vec(),
+            })
+        };
+        let end = end.or(done.then_some(Termination::StepsDone));
+        self.path.offer(&place, balanced, end)
     }
 
     /// Ends the load step: records it and tells whether it was the last.
@@ -171,18 +286,12 @@ impl Stepping<'_> {
         &mut self,
         balanced: &Balanced,
         mut counters: StepCounters,
-        interrupted: Option<Termination>,
+        end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         counters.largest_ratio =
             largest_ratio(&self.path.state, balanced, &self.path.problem.criteria);
-        // A load that is taken back is no failure.
-        let load_factor = self.path.state.load_factor.abs();
-        let is_unloading = load_factor < self.load_factor_before.abs();
-        let at_rest = || self.path.end_at_rest(balanced).filter(|_| !is_unloading);
-        let end = interrupted.or_else(at_rest);
         self.load_factor_before = self.path.state.load_factor;
-        let is_last = end.is_some() || counters.step == self.last_step;
-        self.path.record(balanced, counters, is_last)?;
+        self.path.record(balanced, counters, end.is_some())?;
         Ok(end)
     }
 }

@@ -5,39 +5,56 @@ use std::time::Instant;
 
 use ligament_linalg::FactorKind;
 use ligament_model::element::BondDeformation;
-use ligament_model::interface::PointStiffness;
 
-use crate::balanced::{Balanced, Unbalanced};
+use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::error::SetupError;
-use crate::internal::{self, BondSweep, InternalForces};
+use crate::internal::{BondSweep, InternalForces};
+use crate::load_program::LoadProgram;
 use crate::problem::Problem;
+use crate::serial::Serial;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::tangent::TangentSolver;
 use crate::tangent::direct::DirectSolver;
 use crate::tangent::unsymmetric::UnsymmetricSolver;
+use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
-
-/// Residual, relative to the forces that meet at a point, below which a state is in equilibrium.
-///
-/// With linear bonds one solve gets there; the paper's second iterate, which would only confirm it, is skipped.
-pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-10;
 
 /// A residual above this is no equilibrium whatever the energies say.
 const LARGEST_RESIDUAL: f64 = 1e-6;
-
-/// What rounding makes of the internal forces of a body that moves freely, relative to the stiffness of a point times the
-/// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
-pub(crate) const ROUNDING: f64 = 1e-14;
 
 /// Part of the energy of the expansions that counts as nothing in the energy of motion of a heated body: that of a body that
 /// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
 
-/// Forces below this share of the largest so far are rounding of those, to within [`RESIDUAL_TOLERANCE`].
-const UNLOADED: f64 = 1e-5;
+/// A state on its way to equilibrium, as the bonds see it.
+pub(super) struct Iterate {
+    deformations: Vec<BondDeformation>,
+    internal: InternalForces,
+    pub(super) stored_energy: f64,
+    pub(super) residual: Residual,
+    pub(super) extents: Extents,
+    negative_energy: Option<f64>,
+}
+
+impl Iterate {
+    /// The iterate as an equilibrium that took some iterations and met some mechanisms.
+    pub(super) fn balanced(self, iterations: usize, mechanisms: Vec<u32>) -> Balanced {
+        Balanced {
+            deformations: self.deformations,
+            internal: self.internal,
+            stored_energy: self.stored_energy,
+            residual: self.residual.relative,
+            iterations,
+            negative_energy: self.negative_energy,
+            mechanisms,
+        }
+    }
+}
 
 /// The equations of a problem and their solver.
 pub(super) struct Equations {
@@ -46,10 +63,13 @@ pub(super) struct Equations {
     pub(super) solver: Box<dyn TangentSolver>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
-    /// Largest stiffness of a point: force and moment for a displacement of size one against its neighbours.
-    point_stiffness: PointStiffness,
+    local_stiffness: LocalStiffness,
+    /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
+    loaded: Vec<u32>,
     /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
-    pub(super) largest_forces: (f64, f64),
+    pub(super) largest_extents: Extents,
+    /// Largest stiffness of a point against displacements, N/m.
+    stiffest: f64,
     pub(super) costs: Costs,
 }
 
@@ -64,6 +84,7 @@ impl Equations {
         } else {
             Box::new(DirectSolver::new(stiffness.clone()))
         };
+        let local_stiffness = LocalStiffness::new(&**system);
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
             energy_tolerance: if system.is_linear() && system.has_energy() {
@@ -71,8 +92,10 @@ impl Equations {
             } else {
                 0.0
             },
-            point_stiffness: system.largest_point_stiffness(),
-            largest_forces: (0.0, 0.0),
+            stiffest: local_stiffness.largest(),
+            local_stiffness,
+            loaded: loaded(&**loads),
+            largest_extents: Extents::default(),
             costs: Costs {
                 analysis: stiffness.analysis_time(),
                 ..Costs::default()
@@ -81,6 +104,44 @@ impl Equations {
             stiffness,
             solver,
         })
+    }
+
+    /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
+    pub(super) fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
+        self.loaded = loaded(&*loads);
+        self.problem.loads = loads;
+    }
+
+    /// Appends what is not made of the problem.
+    pub(super) fn write(&self, out: &mut Vec<u8>) {
+        let Self {
+            largest_extents,
+            costs,
+            solver,
+            problem: _,
+            stiffness: _,
+            energy_tolerance: _,
+            local_stiffness: _,
+            loaded: _,
+            stiffest: _,
+        } = self;
+        largest_extents.write(out);
+        costs.write(out);
+        solver.write(out);
+    }
+
+    /// Makes fresh equations as they were when the bytes were written, and measures the state, which was in equilibrium.
+    pub(super) fn restore(
+        &mut self,
+        state: &State,
+        from: &mut &[u8],
+    ) -> Result<Balanced, CheckpointError> {
+        self.largest_extents = Serial::read(from)?;
+        let costs = Serial::read(from)?;
+        self.solver.restore(from)?;
+        let measured = self.measure(state).balanced(0, Vec::new());
+        self.costs = costs;
+        Ok(measured)
     }
 
     /// Degree of freedom of each unknown, ascending.
@@ -96,6 +157,45 @@ impl Equations {
     pub(super) fn prescribe(&self, state: &mut State) {
         let loads = &self.problem.loads;
         loads.prescribe(state.load_factor, &mut state.displacement);
+    }
+
+    /// The end of an iteration that came to rest: an equilibrium, unless holds carry what no bond does.
+    pub(super) fn settled(
+        &self,
+        iterate: Iterate,
+        iterations: usize,
+        mechanisms: Vec<u32>,
+    ) -> Attempt {
+        if let Some((dof, force)) = iterate.residual.carried {
+            let place = self.place(dof as usize);
+            return Attempt::Unbalanced(Unbalanced::CarriedByHold { place, force });
+        }
+        if !iterate.stored_energy.is_finite() {
+            let energy = iterate.stored_energy;
+            return Attempt::Unbalanced(Unbalanced::EnergyOutOfRange { energy });
+        }
+        Attempt::Balanced(iterate.balanced(iterations, mechanisms))
+    }
+
+    /// The end of an iteration that does not come to rest.
+    pub(super) fn not_settled(&self, residual: &Residual, iterations: usize) -> Attempt {
+        let place = self.place(residual.degree_of_freedom as usize);
+        Attempt::Unbalanced(if residual.relative.is_finite() {
+            Unbalanced::NotConverged {
+                residual: residual.relative,
+                iterations,
+                place,
+            }
+        } else {
+            Unbalanced::ForceOutOfRange { place }
+        })
+    }
+
+    fn place(&self, dof: usize) -> Place {
+        Place {
+            point: self.layout().point(dof),
+            component: self.layout().component(dof),
+        }
     }
 
     /// Adds a correction (n_unknowns) to the displacements of a state.
@@ -117,10 +217,16 @@ impl Equations {
     }
 
     /// Whether the energy of an iterate is that of the one before (NHPD eq. 21), and its residual no obstacle.
-    pub(super) fn energy_settled(&self, previous_energy: f64, iterate: &Balanced) -> bool {
+    pub(super) fn energy_settled(&self, previous_energy: f64, iterate: &Iterate) -> bool {
         let energy = iterate.stored_energy;
         let change = ((energy - previous_energy) / energy).abs();
-        change < self.energy_tolerance && iterate.residual <= LARGEST_RESIDUAL
+        change < self.energy_tolerance && iterate.residual.relative <= LARGEST_RESIDUAL
+    }
+
+    /// Whether a residual is small enough, once something was solved: where nothing is loaded yet there is none at all.
+    pub(super) fn is_small(&self, residual: &Residual, tolerance: f64) -> bool {
+        let is_guess = self.costs.solves == 0 && self.costs.changes == 0;
+        residual.relative <= if is_guess { 0.0 } else { tolerance }
     }
 
     /// The correction K du = F - K u of an iterate (NHPD eqs 19 and 20), shape (n_unknowns); adds mechanisms that the
@@ -128,7 +234,7 @@ impl Equations {
     pub(super) fn correction(
         &mut self,
         state: &mut State,
-        iterate: &Balanced,
+        iterate: &Iterate,
         mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
         mechanisms.extend(self.prepare_solver(state)?);
@@ -137,7 +243,7 @@ impl Equations {
     }
 
     /// Deformations, forces, residual and energy of a state.
-    pub(super) fn measure(&mut self, state: &State) -> Balanced {
+    pub(super) fn measure(&mut self, state: &State) -> Iterate {
         let start = Instant::now();
         let deformations = self.deformations(state);
         self.costs.bonds += start.elapsed();
@@ -158,7 +264,7 @@ impl Equations {
         &mut self,
         state: &State,
         deformations: Vec<BondDeformation>,
-    ) -> Balanced {
+    ) -> Iterate {
         let start = Instant::now();
         let swept = self.problem.system.forces(
             state.bonds(),
@@ -169,21 +275,24 @@ impl Equations {
         let BondSweep {
             deformations,
             internal,
+            sizes,
             stored_energy,
             expansion_energy,
         } = swept;
-        let residual = self.relative_residual(state, &internal);
+        let extents = self.local_stiffness.extents(&sizes);
+        let displacement = self.largest_displacement(state);
+        let residual = self.residual(state, &internal, extents, displacement);
         self.costs.bonds += start.elapsed();
         let cancelled = CANCELLED * state.load_factor.powi(2) * expansion_energy.abs();
-        let of_rounding = self.energy_of_rounding(state) + cancelled;
-        Balanced {
+        let rounding = ROUNDING * self.stiffest * displacement.powi(2);
+        let has_negative = energy_of_motion < -(rounding + cancelled);
+        Iterate {
             deformations,
             internal,
             stored_energy,
             residual,
-            iterations: 0,
-            negative_energy: Some(energy_of_motion).filter(|energy| *energy < -of_rounding),
-            mechanisms: Vec::new(),
+            extents,
+            negative_energy: Some(energy_of_motion).filter(|_| has_negative),
         }
     }
 
@@ -197,37 +306,27 @@ impl Equations {
         force
     }
 
-    /// F - K u, but where the state is held, relative to the forces that meet at a point.
-    fn relative_residual(&self, state: &State, internal: &InternalForces) -> f64 {
-        let mut residual = self.out_of_balance(state, internal);
-        for (value, &dof) in residual.iter_mut().zip(self.degrees_of_freedom()) {
-            if state.held[dof as usize] {
-                *value = 0.0;
-            }
-        }
-        // A load that no bond carries yet would be measured against nothing.
-        let largest_load = self.problem.loads.largest_force(state.load_factor);
-        let (force, moment) = self.forces_of_rounding(state);
-        let scales = InternalForces {
-            values: Vec::new(),
-            force_scale: (internal.force_scale)
-                .max(largest_load)
-                .max(force / RESIDUAL_TOLERANCE)
-                .max(UNLOADED * self.largest_forces.0),
-            moment_scale: (internal.moment_scale)
-                .max(moment / RESIDUAL_TOLERANCE)
-                .max(UNLOADED * self.largest_forces.1),
-            thermal: internal.thermal,
-        };
-        internal::relative_residual(&residual, self.stiffness.unknowns(), &scales)
-    }
-
-    /// Force and moment at a point that are rounding of the displacements, N and N m.
-    fn forces_of_rounding(&self, state: &State) -> (f64, f64) {
-        let displacement = self.largest_displacement(state);
-        let PointStiffness { force, moment } = self.point_stiffness;
-        let rounding = |stiffness: f64| ROUNDING * stiffness * displacement;
-        (rounding(force), rounding(moment))
+    /// F - K u relative to what may act at each degree of freedom, and what of it rests on holds.
+    fn residual(
+        &self,
+        state: &State,
+        internal: &InternalForces,
+        extents: Extents,
+        displacement: f64,
+    ) -> Residual {
+        let (loads, unknowns) = (&self.problem.loads, self.stiffness.unknowns());
+        let given = loads.forces(state.load_factor, &self.loaded);
+        let given = || self.loaded.iter().copied().zip(given.iter().copied());
+        let largest = self.largest_extents;
+        let scales = (self.local_stiffness).scales(extents, largest, given(), displacement);
+        let out_of_balance = self.out_of_balance(state, internal);
+        let of_unknowns = (self.degrees_of_freedom().iter().copied()).zip(out_of_balance);
+        // No bond resists these: what loads them is carried by nothing.
+        let is_known = |dof: usize| unknowns.number(dof).is_none();
+        let of_others = given().filter(|(dof, _)| is_known(*dof as usize));
+        scales.residual(of_unknowns.chain(of_others), |dof| {
+            state.held[dof] || is_known(dof)
+        })
     }
 
     fn largest_displacement(&self, state: &State) -> f64 {
@@ -235,9 +334,20 @@ impl Equations {
         displacements.fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
-    /// Energy that is rounding of the displacements, J.
-    fn energy_of_rounding(&self, state: &State) -> f64 {
-        self.forces_of_rounding(state).0 * self.largest_displacement(state)
+    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom).
+    pub(super) fn rounding(&self, state: &State) -> Vec<f64> {
+        let displacement = self.largest_displacement(state);
+        self.local_stiffness.rounding(displacement)
+    }
+
+    /// The larger of the largest force at a point in a state, N, and what counts of the one before.
+    pub(super) fn largest_force(&self, now: f64) -> f64 {
+        now.max(self.largest_extents.unloaded_force())
+    }
+
+    /// Keeps the size of the forces of an equilibrium.
+    pub(super) fn remember(&mut self, extents: Extents) {
+        self.largest_extents = self.largest_extents.or(extents);
     }
 
     /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.
@@ -264,13 +374,19 @@ impl Equations {
 
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.degrees_of_freedom()[unknown] as usize;
-        let point = self.layout().point(dof);
-        let component = self.layout().component(dof).name();
+        let place = self.place(dof);
         let is_llt = self.stiffness.choice().factorisation == FactorKind::Llt;
         if is_llt && self.problem.system.some_negative() {
-            Unbalanced::NotPositiveDefinite { point, component }
+            Unbalanced::NotPositiveDefinite { place }
         } else {
-            Unbalanced::VanishingPivot { point, component }
+            Unbalanced::VanishingPivot { place }
         }
     }
+}
+
+/// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
+fn loaded(loads: &dyn LoadProgram) -> Vec<u32> {
+    let mut loaded = loads.loaded_degrees_of_freedom();
+    loaded.retain(|&dof| !loads.is_prescribed(dof as usize));
+    loaded
 }

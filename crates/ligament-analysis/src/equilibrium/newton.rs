@@ -1,7 +1,8 @@
 //! Equilibrium of bonds that are whole or broken: Newton-Raphson (NHPD eqs 19 to 21).
 
-use super::equations::{Equations, RESIDUAL_TOLERANCE};
-use crate::balanced::{Attempt, Balanced, Unbalanced};
+use super::equations::Equations;
+use super::residual::RESIDUAL_TOLERANCE;
+use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
@@ -28,10 +29,10 @@ pub(super) fn balance(
     let mut previous_energy = f64::NAN;
     let mut iterations = usize::from(equations.follow(state, breakage));
     loop {
-        let balanced = equations.measure(state);
-        let (residual, energy) = (balanced.residual, balanced.stored_energy);
+        let iterate = equations.measure(state);
+        let (residual, energy) = (iterate.residual, iterate.stored_energy);
         if iterations > 0 {
-            observer.iteration(iterations, residual, energy)?;
+            observer.iteration(iterations, residual.relative, energy)?;
         }
         let is_changed = equations.solver.is_changed();
         let tolerance = if is_changed && iterations == 1 {
@@ -39,25 +40,18 @@ pub(super) fn balance(
         } else {
             RESIDUAL_TOLERANCE
         };
-        let energy_settled = !is_changed && equations.energy_settled(previous_energy, &balanced);
-        if residual <= tolerance || energy_settled {
-            return Ok(Attempt::Balanced(Balanced {
-                iterations,
-                mechanisms,
-                ..balanced
-            }));
+        let energy_settled = !is_changed && equations.energy_settled(previous_energy, &iterate);
+        if equations.is_small(&residual, tolerance) || energy_settled {
+            return Ok(equations.settled(iterate, iterations, mechanisms));
         }
-        if iterations == ITERATION_LIMIT {
-            return Ok(Attempt::Unbalanced(Unbalanced::NotConverged {
-                residual,
-                iterations,
-            }));
+        if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
+            return Ok(equations.not_settled(&residual, iterations));
         }
         // One refinement may be needed after many changes; if it is not enough, the factor is worn out.
         if is_changed && iterations >= 2 {
             equations.solver.forget();
         }
-        match equations.correction(state, &balanced, &mut mechanisms) {
+        match equations.correction(state, &iterate, &mut mechanisms) {
             Ok(correction) => equations.add_correction(state, &correction),
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         }

@@ -1,8 +1,9 @@
 //! Equilibrium of bonds that soften: iteration with their secant stiffness, mixed by Anderson's method.
 
 use super::anderson::Mixing;
-use super::equations::{Equations, RESIDUAL_TOLERANCE};
-use crate::balanced::{Attempt, Balanced, Unbalanced};
+use super::equations::{Equations, Iterate};
+use super::residual::RESIDUAL_TOLERANCE;
+use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
@@ -40,43 +41,37 @@ pub(super) fn balance(
     let mut iterations = usize::from(equations.follow(state, breakage));
     loop {
         let is_one_way = iterations > ONE_WAY_AFTER;
-        let (is_settled, balanced) = measure(equations, state, is_one_way);
-        let residual = balanced.residual;
+        let (is_settled, iterate) = measure(equations, state, is_one_way);
+        let residual = iterate.residual;
         if iterations > 0 {
-            observer.iteration(iterations, residual, balanced.stored_energy)?;
+            observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
-        let energy_settled = equations.energy_settled(previous_energy, &balanced);
-        if residual <= RESIDUAL_TOLERANCE || energy_settled {
-            settle(equations, state, &balanced);
-            return Ok(Attempt::Balanced(Balanced {
-                iterations,
-                mechanisms,
-                ..balanced
-            }));
+        let energy_settled = equations.energy_settled(previous_energy, &iterate);
+        if equations.is_small(&residual, RESIDUAL_TOLERANCE) || energy_settled {
+            state.softening.settle();
+            equations.remember(iterate.extents);
+            return Ok(equations.settled(iterate, iterations, mechanisms));
         }
-        if iterations == ITERATION_LIMIT {
-            return Ok(Attempt::Unbalanced(Unbalanced::NotConverged {
-                residual,
-                iterations,
-            }));
+        if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
+            return Ok(equations.not_settled(&residual, iterations));
         }
-        let correction = match equations.correction(state, &balanced, &mut mechanisms) {
+        let correction = match equations.correction(state, &iterate, &mut mechanisms) {
             Ok(correction) => correction,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
         let may_mix = iterations >= MIXING_FROM && !is_one_way && is_settled;
-        if !may_mix || residual > previous_residual {
+        if !may_mix || residual.relative > previous_residual {
             mixing.restart();
         }
         let step = mixing.step(at_unknowns(equations, state), correction);
         equations.add_correction(state, &step);
-        (previous_residual, previous_energy) = (residual, balanced.stored_energy);
+        (previous_residual, previous_energy) = (residual.relative, iterate.stored_energy);
         iterations += 1;
     }
 }
 
 /// Softens the bonds of an iterate and measures it; tells whether the same bonds go on along their laws as before.
-fn measure(equations: &mut Equations, state: &mut State, is_one_way: bool) -> (bool, Balanced) {
+fn measure(equations: &mut Equations, state: &mut State, is_one_way: bool) -> (bool, Iterate) {
     let deformations = equations.deformations(state);
     let State {
         softening, intact, ..
@@ -85,17 +80,6 @@ fn measure(equations: &mut Equations, state: &mut State, is_one_way: bool) -> (b
     let is_settled = softening.follow(criteria, intact, &deformations, is_one_way);
     equations.solver.weaken(state, &mut equations.costs);
     (is_settled, equations.measure_deformed(state, deformations))
-}
-
-/// Takes the extremes of an equilibrium for good, and keeps the size of its forces.
-fn settle(equations: &mut Equations, state: &mut State, balanced: &Balanced) {
-    state.softening.settle();
-    let internal = &balanced.internal;
-    let (force, moment) = equations.largest_forces;
-    equations.largest_forces = (
-        force.max(internal.force_scale),
-        moment.max(internal.moment_scale),
-    );
 }
 
 /// Displacements and rotations of a state at the unknowns, shape (n_unknowns).

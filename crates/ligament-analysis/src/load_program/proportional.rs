@@ -162,11 +162,6 @@ impl LoadProgram for ProportionalLoading {
         degrees_of_freedom.iter().map(force).collect()
     }
 
-    fn largest_force(&self, time: f64) -> f64 {
-        let sizes = self.force.iter().map(|force| force.abs());
-        sizes.fold(0.0, f64::max) * time.abs()
-    }
-
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_> {
         ThermalStrain::proportional(&self.thermal_strain, time)
     }

@@ -117,9 +117,8 @@ impl ModalAnalysis {
     /// inertia), and if there are more than were found, those are sought.
     pub fn find(mut self) -> Result<ModalOutcome, ModalError> {
         let start = Instant::now();
-        let matrix = self
-            .stiffness
-            .assemble(&State::fresh(&*self.problem.system));
+        let fresh = State::fresh(&*self.problem.system);
+        let matrix = self.stiffness.assemble(fresh.bonds(), &fresh.held);
         self.costs.assembly += start.elapsed();
         let largest = self.largest_ratio(&matrix);
         let rigid_below = RIGID * largest;

@@ -10,6 +10,7 @@ use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
 use crate::state::BondsLeft;
 use crate::unknowns::Unknowns;
+use ligament_model::interface::PointStiffness;
 use ligament_model::thermal::ThermalStrain;
 
 /// omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds: exact to the square of the shape's error.
@@ -83,11 +84,16 @@ fn residual(
         .collect();
     let displacements = unknowns.layout().displacements(shape);
     let largest = displacements.fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let stiffness = system.largest_point_stiffness();
+    let stiffness = system.point_stiffness();
+    let stiffest = |of: fn(&PointStiffness) -> f64| stiffness.iter().map(of).fold(0.0, f64::max);
     let of_rounding = |stiffness: f64| ROUNDING / RESIDUAL_TOLERANCE * stiffness * largest;
     let scales = InternalForces {
-        force_scale: internal.force_scale.max(of_rounding(stiffness.force)),
-        moment_scale: internal.moment_scale.max(of_rounding(stiffness.moment)),
+        force_scale: internal
+            .force_scale
+            .max(of_rounding(stiffest(|it| it.force))),
+        moment_scale: internal
+            .moment_scale
+            .max(of_rounding(stiffest(|it| it.moment))),
         thermal: 0.0,
         values: Vec::new(),
     };

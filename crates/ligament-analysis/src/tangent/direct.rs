@@ -7,9 +7,12 @@ use ligament_linalg::{FactorError, Factorisation, Inertia, SymmetricMatrix, VANI
 use ligament_model::element::Remaining;
 
 use super::TangentSolver;
+use super::making::Making;
 use super::terms::{Coupled, due_bonds};
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
+use crate::serial::Serial;
 use crate::solver::{SolverChoice, Update};
 use crate::state::State;
 use crate::stiffness::Stiffness;
@@ -21,10 +24,8 @@ pub(crate) struct DirectSolver {
     factor: Option<Box<dyn Factorisation>>,
     /// A factor that is out of date: its memory is used again.
     stale: Option<Box<dyn Factorisation>>,
-    /// Degrees of freedom that were held when the factor was made, and so are cut off from the others.
-    cut_off: Vec<bool>,
-    /// Whether the factor was changed since it was made.
-    is_changed: bool,
+    /// How the factor came about.
+    making: Making,
     /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
     remaining: Vec<Remaining>,
     /// Elements that were lost or changed so far.
@@ -38,8 +39,7 @@ impl DirectSolver {
             stiffness,
             factor: None,
             stale: None,
-            cut_off: Vec::new(),
-            is_changed: false,
+            making: Making::default(),
             remaining: Vec::new(),
             n_changed: 0,
         }
@@ -48,7 +48,7 @@ impl DirectSolver {
     fn coupled(&self) -> Coupled<'_> {
         Coupled {
             stiffness: &self.stiffness,
-            cut_off: &self.cut_off,
+            cut_off: &self.making.held,
         }
     }
 
@@ -116,7 +116,7 @@ impl TangentSolver for DirectSolver {
         self.keep_held(state, &mut correction);
         costs.backward += start.elapsed();
         costs.solves += 1;
-        self.is_changed = true;
+        self.making.changes.push(terms);
         self.factor = Some(factor);
         Some(correction)
     }
@@ -145,7 +145,7 @@ impl TangentSolver for DirectSolver {
         costs.changes += 1;
         match changed {
             Ok(_) => {
-                self.is_changed = true;
+                self.making.changes.push(terms);
                 self.factor = Some(factor);
             }
             Err(_) => self.stale = Some(factor),
@@ -157,7 +157,7 @@ impl TangentSolver for DirectSolver {
             return Ok(Vec::new());
         }
         let start = Instant::now();
-        let matrix = self.stiffness.assemble(state);
+        let matrix = self.stiffness.assemble(state.bonds(), &state.held);
         costs.assembly += start.elapsed();
         let start = Instant::now();
         let factor = match self.stale.take() {
@@ -178,9 +178,8 @@ impl TangentSolver for DirectSolver {
         };
         if vanishing.is_empty() {
             self.factor = factor.ok();
-            self.cut_off.clone_from(&state.held);
+            self.making = Making::begun(state);
             self.remaining.clone_from(&state.softening.remaining);
-            self.is_changed = false;
         }
         Ok(vanishing)
     }
@@ -189,7 +188,7 @@ impl TangentSolver for DirectSolver {
         let start = Instant::now();
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
         for (value, &dof) in force.iter_mut().zip(dofs) {
-            if self.cut_off[dof as usize] {
+            if self.making.held[dof as usize] {
                 *value = 0.0;
             }
         }
@@ -203,7 +202,7 @@ impl TangentSolver for DirectSolver {
     }
 
     fn is_changed(&self) -> bool {
-        self.factor.is_some() && self.is_changed
+        self.factor.is_some() && !self.making.changes.is_empty()
     }
 
     fn forget(&mut self) {
@@ -212,6 +211,34 @@ impl TangentSolver for DirectSolver {
 
     fn inertia(&self) -> Option<Inertia> {
         self.factor.as_ref().map(|factor| factor.inertia())
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        self.n_changed.write(out);
+        let factor = self.factor.as_ref().map(|factor| factor.digest());
+        factor.write(out);
+        if factor.is_some() {
+            self.making.write(out);
+            self.remaining.write(out);
+        }
+    }
+
+    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        self.n_changed = Serial::read(from)?;
+        let Some(digest) = Option::<u64>::read(from)? else {
+            return Ok(());
+        };
+        self.making = Serial::read(from)?;
+        self.remaining = Serial::read(from)?;
+        if !self.making.fits(&self.stiffness) {
+            return Err(CheckpointError::OtherModel);
+        }
+        let factor = self.making.factor(&self.stiffness);
+        self.factor = factor.filter(|factor| factor.digest() == digest);
+        match self.factor {
+            Some(_) => Ok(()),
+            None => Err(CheckpointError::OtherArithmetic),
+        }
     }
 }
 

@@ -6,8 +6,11 @@ use std::time::Instant;
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
 
 use super::TangentSolver;
+use super::making::Making;
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
+use crate::serial::Serial;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use ligament_model::thermal::ThermalStrain;
@@ -16,6 +19,8 @@ use ligament_model::thermal::ThermalStrain;
 pub(crate) struct UnsymmetricSolver {
     stiffness: Arc<Stiffness>,
     factor: Option<Lu>,
+    /// What the factor was made of.
+    making: Making,
 }
 
 impl UnsymmetricSolver {
@@ -24,22 +29,23 @@ impl UnsymmetricSolver {
         Self {
             stiffness,
             factor: None,
+            making: Making::default(),
         }
     }
 
     /// Derivatives of the internal forces by the unknowns; a held one stands alone.
-    fn matrix(&self, state: &State) -> GeneralMatrix {
+    fn matrix(&self, Making { intact, held, .. }: &Making) -> GeneralMatrix {
         let (system, unknowns) = (self.stiffness.system(), self.stiffness.unknowns());
-        let free = |dof: usize| unknowns.number(dof).filter(|_| !state.held[dof]);
+        let free = |dof: usize| unknowns.number(dof).filter(|_| !held[dof]);
         let mut entries = Vec::new();
-        system.add_derivatives(&state.intact, &mut |row, column, value| {
+        system.add_derivatives(intact, &mut |row, column, value| {
             if let (Some(row), Some(column)) = (free(row), free(column)) {
                 entries.push((row, column, value));
             }
         });
-        let held = unknowns.degrees_of_freedom().iter().enumerate();
+        let all = unknowns.degrees_of_freedom().iter().enumerate();
         entries.extend(
-            held.filter(|&(_, &dof)| state.held[dof as usize])
+            all.filter(|&(_, &dof)| held[dof as usize])
                 .map(|(unknown, _)| (unknown, unknown, 1.0)),
         );
         GeneralMatrix::of_entries(unknowns.len(), entries)
@@ -67,10 +73,12 @@ impl TangentSolver for UnsymmetricSolver {
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         if self.factor.is_none() {
             let start = Instant::now();
-            let matrix = self.matrix(state);
+            let making = Making::begun(state);
+            let matrix = self.matrix(&making);
             costs.assembly += start.elapsed();
             let start = Instant::now();
             self.factor = Some(Lu::factorise(&matrix)?);
+            self.making = making;
             costs.factorisation += start.elapsed();
             costs.factorisations += 1;
         }
@@ -103,5 +111,22 @@ impl TangentSolver for UnsymmetricSolver {
 
     fn inertia(&self) -> Option<Inertia> {
         None
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        (self.factor.is_some().then(|| self.making.clone())).write(out);
+    }
+
+    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        let Some(making) = Option::<Making>::read(from)? else {
+            return Ok(());
+        };
+        if !making.fits(&self.stiffness) {
+            return Err(CheckpointError::OtherModel);
+        }
+        let factor = Lu::factorise(&self.matrix(&making));
+        self.factor = Some(factor.map_err(|_| CheckpointError::OtherArithmetic)?);
+        self.making = making;
+        Ok(())
     }
 }

@@ -12,6 +12,8 @@ use super::resolved;
 use super::sections::Case;
 use super::source::Source;
 
+use crate::input_file;
+
 /// A case with the text it was read from, so that faults found later can still be located.
 #[derive(Debug, Clone)]
 pub struct CaseFile {
@@ -28,7 +30,7 @@ impl CaseFile {
     ///
     /// If the file cannot be read, is not TOML, or a key or value of it or of an override is wrong.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let read = std::fs::read_to_string(path);
+        let read = input_file::read_text(path);
         let text = read.map_err(|source| CaseError::Read {
             path: path.to_owned(),
             source,

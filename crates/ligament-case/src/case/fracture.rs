@@ -18,6 +18,9 @@ use super::key_path::KeyPath;
 use super::values::{Numbers, missing, numbers, refuse, require};
 use super::word::Word;
 
+/// Equal load steps at most, and parts of one: each has a row in the history.
+const MOST_STEPS: u32 = 1_000_000;
+
 /// How bonds break while the load rises.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -37,7 +40,7 @@ pub struct Fracture {
     #[schemars(range(min = 1), extend("default" = stepped().round_limit))]
     pub max_iterations: Option<u32>,
     /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
-    #[schemars(extend("default" = stepped().refine_first_break))]
+    #[schemars(range(max = MOST_STEPS), extend("default" = stepped().refine_first_break))]
     pub refine_first_break: Option<u32>,
     /// Bonds closer than this (relative) to the worst one break together with it.
     #[serde(default = "tie_tolerance")]
@@ -219,6 +222,9 @@ impl<'de> Deserialize<'de> for Steps {
         let unfit = |found| Err(D::Error::invalid_type(found, &expected));
         match numbers(deserializer, expected)? {
             Numbers::Integer(0) => Err(D::Error::custom("must be at least 1, found 0")),
+            Numbers::Integer(count) if count > i64::from(MOST_STEPS) => Err(D::Error::custom(
+                format_args!("must be at most {MOST_STEPS}, found {count}"),
+            )),
             Numbers::Integer(count) => match u32::try_from(count) {
                 Ok(count) => Ok(Self::Uniform(count)),
                 Err(_) => unfit(Unexpected::Signed(count)),
@@ -237,7 +243,7 @@ impl JsonSchema for Steps {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "anyOf": [
-                { "description": "So many equal steps up to load factor 1.", "type": "integer", "minimum": 1 },
+                { "description": "So many equal steps up to load factor 1.", "type": "integer", "minimum": 1, "maximum": MOST_STEPS },
                 {
                     "description": "These load factors; where they fall, the body is unloaded.",
                     "type": "array", "items": { "type": "number" }, "minItems": 1,

@@ -8,7 +8,7 @@ use super::key_path::KeyPath;
 use super::values::require;
 
 /// What a run writes.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Load steps (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone.
@@ -17,6 +17,10 @@ pub struct Output {
     pub bonds: bool,
     /// Whether `model.vtu` is written, which `ligament explain` reads.
     pub model: bool,
+    /// Time between two checkpoints, from which `ligament resume` goes on, s; without it half a minute, and so long that they take
+    /// a fiftieth of the time. 0: only when the run is stopped.
+    #[schemars(range(min = 0))]
+    pub checkpoint_every: Option<f64>,
     /// Stresses at the points in the field files.
     #[schemars(extend("uniqueItems" = true))]
     pub stress: Vec<StressField>,
@@ -38,6 +42,7 @@ impl Default for Output {
             fields_every: None,
             bonds: false,
             model: true,
+            checkpoint_every: None,
             stress: Vec::new(),
         }
     }

@@ -14,7 +14,7 @@ use ligament_analysis::solver::{FactorKind, Ordering, SolverSettings, Update};
 pub const MOST_THREADS: u32 = 1024;
 
 /// How the equations are solved. The results are the same up to rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
     /// The factorisation of the stiffness.
@@ -29,6 +29,9 @@ pub struct Solver {
     /// Threads; without it one for each processor. Results do not depend on it.
     #[schemars(range(min = 1, max = MOST_THREADS))]
     pub threads: Option<u32>,
+    /// Memory that a run may take, GB; without it what the machine has left. A run that would take more is refused.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub memory: Option<f64>,
 }
 
 impl Solver {

@@ -10,12 +10,14 @@ use ligament_analysis::stiffness::Stiffness;
 
 use super::entry::entry;
 use ligament::Setup;
+use ligament_case::case::CaseFile;
 use ligament_run::memory;
 use ligament_run::model::Model;
 
 /// Writes the size of the equations and the choice of the solver.
 pub(super) fn write(
     out: &mut dyn Write,
+    case: &CaseFile,
     model: &Model,
     stiffness: &Stiffness,
 ) -> anyhow::Result<()> {
@@ -32,6 +34,16 @@ pub(super) fn write(
         "estimated memory",
         format!("{:.1} MB", bytes as f64 / 1e6),
     )?;
+    if let Some(there) = memory::allowed(case) {
+        entry(
+            out,
+            "memory there is",
+            format!("{:.1} MB", there as f64 / 1e6),
+        )?;
+    }
+    if let Err(too_large) = memory::foresee(case, &model.system, stiffness) {
+        writeln!(out, "warning: {too_large}")?;
+    }
     write_choice(out, &model.setup, stiffness.choice())?;
     entry(out, "ordering", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {

@@ -1,6 +1,7 @@
 //! What `ligament check` tells of a case with loads.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use ligament::Loading;
 use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE};
@@ -8,6 +9,7 @@ use ligament_analysis::gauges;
 use ligament_analysis::probe::Reading;
 use ligament_analysis::{ControlKind, Equilibrium};
 use ligament_case::case::CaseFile;
+use ligament_run::disk::{self, FieldsOnDisk};
 use ligament_run::gauges::words;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
@@ -41,7 +43,33 @@ pub(super) fn check(
     }
     write_loading(out, &model.setup.analysis)?;
     if let Some(equilibrium) = &equilibrium {
-        equations::write(out, model, equilibrium.stiffness())?;
+        equations::write(out, case, model, equilibrium.stiffness())?;
+    }
+    Ok(write_room(out, case, model)?)
+}
+
+/// Writes the room that fields take on a disk.
+fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+    let fields = FieldsOnDisk::new(case, model);
+    let free = disk::free(Path::new("."));
+    let megabytes = |bytes: f64| format!("{:.1} MB", bytes / 1e6);
+    let of_one = megabytes(fields.of_one);
+    let words = match (fields.most, fields.all()) {
+        (Some(most), Some(all)) => format!("{} at most, {most} states of {of_one}", megabytes(all)),
+        _ => format!("{of_one} every {} events", fields.every),
+    };
+    let words = match free {
+        Some(free) => format!("{words}; {} are free", megabytes(free)),
+        None => words,
+    };
+    entry(out, "fields on disk", words)?;
+    if let (Some(all), Some(free)) = (fields.all(), free)
+        && all > free
+    {
+        writeln!(
+            out,
+            "warning: the fields may take more room than the disk has: set a larger output.fields_every, or output.bonds = false"
+        )?;
     }
     Ok(())
 }

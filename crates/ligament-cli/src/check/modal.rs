@@ -53,7 +53,7 @@ pub(super) fn check(
             Rotations::Massless => "without inertia",
         };
         entry(out, "rotations", format!("{what}, {why}"))?;
-        equations::write(out, model, analysis.stiffness())?;
+        equations::write(out, case, model, analysis.stiffness())?;
     }
     Ok(())
 }

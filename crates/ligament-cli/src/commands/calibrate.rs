@@ -1,11 +1,11 @@
 //! `ligament calibrate`.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::numbers::{number, positive};
+use crate::terminal;
 use ligament_case::case::{CaseFile, MOST_THREADS};
 use ligament_study::calibrate::{Request, calibrate, line};
 
@@ -173,7 +173,7 @@ impl CalibrateArgs {
             out: runs.out.unwrap_or_else(default_out),
             force: runs.force,
         };
-        calibrate(&request, &mut io::stderr(), &mut io::stdout().lock())
+        calibrate(&request, &mut terminal::stderr(), &mut terminal::stdout())
     }
 
     fn by_line(self) -> anyhow::Result<()> {
@@ -188,7 +188,7 @@ impl CalibrateArgs {
             target: self.target,
         };
         let lines = line::lines(&request)?;
-        Ok(line::write(&request, &lines, &mut io::stdout().lock())?)
+        Ok(line::write(&request, &lines, &mut terminal::stdout())?)
     }
 }
 

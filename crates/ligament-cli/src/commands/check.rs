@@ -1,12 +1,12 @@
 //! `ligament check`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::case_args::CaseArgs;
 use crate::check::{Extent, check};
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -41,6 +41,6 @@ impl CheckArgs {
             (false, false) => Extent::Matrix,
             (false, true) => Extent::PatchTest,
         };
-        check(&case, extent, self.out.as_deref(), &mut io::stdout())
+        check(&case, extent, self.out.as_deref(), &mut terminal::stdout())
     }
 }

@@ -1,12 +1,12 @@
 //! `ligament explain`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::numbers::position;
 use crate::explain::{Request, Subject, explain};
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -70,6 +70,6 @@ impl ExplainArgs {
             csv: self.csv,
             json: self.json,
         };
-        explain(&request, &mut io::stdout().lock())
+        explain(&request, &mut terminal::stdout())
     }
 }

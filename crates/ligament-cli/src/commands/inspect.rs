@@ -1,6 +1,5 @@
 //! `ligament inspect`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -8,6 +7,7 @@ use clap::Args;
 use ligament_case::mesh_file::read_mesh;
 
 use crate::inspect::write_summary;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -27,6 +27,6 @@ impl InspectArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let mesh = read_mesh(&self.mesh)?;
-        Ok(write_summary(&mut io::stdout().lock(), &self.mesh, &mesh)?)
+        Ok(write_summary(&mut terminal::stdout(), &self.mesh, &mesh)?)
     }
 }

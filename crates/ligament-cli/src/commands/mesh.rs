@@ -1,12 +1,13 @@
 //! `ligament mesh`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::numbers::number;
 use crate::inspect::write_summary;
+use crate::terminal;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 use ligament_study::meshing::via_meshio::{ConversionRequest, convert, default_out};
 
@@ -76,7 +77,7 @@ impl MeshArgs {
             numbers: self.numbers,
         };
         let mesh = make_mesh(&request)?;
-        let mut out = io::stdout().lock();
+        let mut out = terminal::stdout();
         Ok(write_summary(&mut out, &request.out, &mesh)?)
     }
 
@@ -88,7 +89,7 @@ impl MeshArgs {
             python: self.python,
         };
         let converted = convert(&request)?;
-        let mut out = io::stdout().lock();
+        let mut out = terminal::stdout();
         write_summary(&mut out, &request.out, &converted.mesh)?;
         for remark in &converted.remarks {
             writeln!(out, "  note: {remark}")?;

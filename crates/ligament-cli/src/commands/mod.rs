@@ -10,11 +10,14 @@ mod mesh;
 mod new;
 mod numbers;
 mod plot;
+mod resume;
 mod run;
 mod schema;
 mod sweep;
 mod verify;
 mod yielding;
+
+use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -27,6 +30,7 @@ pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
 pub use new::NewArgs;
 pub use plot::PlotArgs;
+pub use resume::ResumeArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use sweep::SweepArgs;
@@ -53,12 +57,16 @@ Examples:
   ligament new disk.msh                     a case to start from: writes case.toml
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
+  ligament resume results/disk              go on with a run that was stopped
   ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament plot results/disk                a picture of its damage
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
-Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage.";
+Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 4 stopped by a signal (`ligament resume` goes on).";
+
+/// Exit code of a run that a signal stopped.
+const STOPPED: u8 = 4;
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -66,6 +74,13 @@ pub enum Command {
     /// Run a case: solve it, break bonds, write fields and history
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
+    /// Go on with a run that was stopped, killed or ended by a rule
+    ///
+    /// Takes up the last good checkpoint in the folder of its results and goes on, to the same results to
+    /// the last bit as if the run had never stopped. A run that ended because a stop rule was met goes on
+    /// with another one.
+    #[command(after_help = resume::EXAMPLES)]
+    Resume(ResumeArgs),
     /// Run a case over all combinations of some settings: a table, plots, fitted lines
     ///
     /// A study file names a case and axes: keys of the case with their values. Runs all combinations in
@@ -144,14 +159,15 @@ pub enum Command {
 }
 
 impl Cli {
-    /// Does what the command line asks for.
+    /// Does what the command line asks for, and gives the exit code.
     ///
     /// # Errors
     ///
     /// Whatever keeps the command from doing it, in words for the user.
-    pub fn execute(self) -> anyhow::Result<()> {
-        match self.command {
-            Command::Run(args) => args.execute(),
+    pub fn execute(self) -> anyhow::Result<ExitCode> {
+        let done = match self.command {
+            Command::Run(args) => return args.execute(),
+            Command::Resume(args) => return args.execute(),
             Command::Sweep(args) => args.execute(),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
@@ -164,7 +180,8 @@ impl Cli {
             Command::Verify(args) => args.execute(),
             Command::Schema(args) => args.execute(),
             Command::Completions(args) => args.execute(Self::command()),
-        }
+        };
+        done.map(|()| ExitCode::SUCCESS)
     }
 }
 

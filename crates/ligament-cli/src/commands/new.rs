@@ -1,6 +1,6 @@
 //! `ligament new`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -9,6 +9,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament_output::replace_file;
 
 use super::numbers::positive;
+use crate::terminal;
 use ligament::setup::Law;
 use ligament_case::case::MOST_CELLS;
 use ligament_case::starter::{of_lattice, of_mesh};
@@ -63,11 +64,11 @@ impl NewArgs {
         };
         replace_file(out, starter.text.as_bytes())?;
         for warning in &starter.warnings {
-            writeln!(io::stderr().lock(), "warning: {warning}")?;
+            writeln!(terminal::stderr(), "warning: {warning}")?;
         }
         let out = out.display();
         writeln!(
-            io::stdout().lock(),
+            terminal::stdout(),
             "wrote {out}: {}\nnext: replace the EXAMPLE values, then\n  ligament check {out}\n  ligament run {out}",
             starter.choice
         )?;

@@ -1,12 +1,13 @@
 //! `ligament plot`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::numbers;
+use crate::terminal;
 use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
@@ -134,7 +135,7 @@ impl PlotArgs {
                 target,
             })?
         };
-        Ok(writeln!(io::stdout(), "{}", path.display())?)
+        Ok(writeln!(terminal::stdout(), "{}", path.display())?)
     }
 }
 

@@ -1,13 +1,17 @@
 //! `ligament run`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use clap::Args;
 
+use super::STOPPED;
 use super::case_args::CaseArgs;
+use crate::stop_signal::StopSignal;
+use crate::terminal;
 use ligament_run::progress::ProgressMode;
-use ligament_run::run::run;
+use ligament_run::run::{Report, Request};
 use ligament_study::sweep::take_leash;
 
 pub(super) const EXAMPLES: &str = "\
@@ -43,17 +47,39 @@ pub struct RunArgs {
 
 impl RunArgs {
     /// Does it.
-    pub(super) fn execute(self) -> anyhow::Result<()> {
+    pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         if let Some(lock) = &self.leash {
             take_leash(lock)?;
         }
         let case = self.case.load()?;
+        // Without load steps there is nothing to go on with later, and for a sweep the run starts anew.
+        let stop = match (&self.leash, &case.case.fracture) {
+            (None, Some(_)) => StopSignal::awaited()?,
+            _ => StopSignal::default(),
+        };
         let out = self
             .out
             .unwrap_or_else(|| Path::new("results").join(case.name()));
-        let summary = run(&case, &out, self.force, ProgressMode::detect(self.quiet))?;
-        let mut stdout = io::stdout().lock();
-        summary.write(&mut stdout)?;
-        Ok(writeln!(stdout, "  results in         {}", out.display())?)
+        let request = Request {
+            case: &case,
+            out: &out,
+            force: self.force,
+            is_stopped: &|| stop.came(),
+        };
+        let report = request.run(ProgressMode::detect(self.quiet))?;
+        tell(&report, &out)
     }
+}
+
+/// Shows what a run found, and where its results are.
+pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
+    let mut stdout = terminal::stdout();
+    report.write(&mut stdout)?;
+    let out = out.display();
+    if report.is_stopped() {
+        writeln!(stdout, "  go on with         ligament resume {out}")?;
+        return Ok(ExitCode::from(STOPPED));
+    }
+    writeln!(stdout, "  results in         {out}")?;
+    Ok(ExitCode::SUCCESS)
 }

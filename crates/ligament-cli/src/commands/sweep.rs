@@ -1,11 +1,11 @@
 //! `ligament sweep`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::numbers::positive;
+use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_study::sweep::folder::Shard;
 use ligament_study::sweep::{Request, Settings, Task, sweep};
@@ -96,7 +96,7 @@ impl SweepArgs {
             out: self.out,
             task,
         };
-        sweep(&request, &mut io::stdout().lock())
+        sweep(&request, &mut terminal::stdout())
     }
 }
 

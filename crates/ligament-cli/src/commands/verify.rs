@@ -1,10 +1,10 @@
 //! `ligament verify`.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::terminal;
 use ligament_verify::report::console;
 use ligament_verify::table::Extent;
 use ligament_verify::{EXPERIMENTS, Request, verify};
@@ -40,7 +40,7 @@ pub struct VerifyArgs {
 impl VerifyArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
-        let mut stdout = io::stdout();
+        let mut stdout = terminal::stdout();
         if self.list {
             return Ok(console::list(&mut stdout, &EXPERIMENTS)?);
         }

@@ -1,6 +1,5 @@
 //! `ligament yield`.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -9,6 +8,7 @@ use ligament_model::failure::frictional::Calibration;
 
 use super::case_args::CaseArgs;
 use super::numbers::position;
+use crate::terminal;
 use ligament_case::case::MOST_THREADS;
 use ligament_study::yielding::criteria::Combination;
 use ligament_study::yielding::{Families, Place, Request, yielding};
@@ -114,6 +114,6 @@ impl YieldArgs {
             out: self.out.unwrap_or(default_out),
             force: self.force,
         };
-        yielding(&request, &mut io::stdout())
+        yielding(&request, &mut terminal::stdout())
     }
 }

@@ -41,6 +41,7 @@ fn help_teaches_every_command() {
     assert_eq!(output.status.code(), Some(0));
     for word in [
         "run",
+        "resume",
         "sweep",
         "check",
         "explain",
@@ -58,6 +59,7 @@ fn help_teaches_every_command() {
     }
     for command in [
         "run",
+        "resume",
         "sweep",
         "check",
         "explain",

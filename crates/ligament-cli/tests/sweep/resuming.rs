@@ -79,6 +79,44 @@ fn a_killed_sweep_goes_on() {
     );
 }
 
+/// A sweep that does all anew keeps the earlier results of a run until it has new ones; after a kill the same study goes on.
+#[test]
+fn a_killed_sweep_that_does_all_anew_loses_nothing() {
+    let place = Place::with(LONG);
+    assert_success(&place.sweep(&["--jobs", "1"]));
+    let (first, table) = (place.summaries(), place.table());
+    let mut command = place.command(&["--jobs", "1", "--force"]);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut sweep = command.spawn().unwrap();
+    let own = |summaries: BTreeMap<String, SystemTime>| -> BTreeMap<String, SystemTime> {
+        summaries
+            .into_iter()
+            .filter(|(name, _)| first.contains_key(name))
+            .collect()
+    };
+    let new =
+        |now: &BTreeMap<String, SystemTime>| now.iter().filter(|it| first[it.0] != *it.1).count();
+    wait_until("a run is done anew", || new(&own(place.summaries())) == 1);
+    sweep.kill().unwrap();
+    sweep.wait().unwrap();
+    assert_eq!(own(place.summaries()).len(), 3, "all have results");
+    assert_success(&place.sweep(&["--collect"]));
+    assert_eq!(place.table().lasting(), table.lasting());
+    assert!(stdout(&place.sweep(&["--list"])).contains("3 runs, 2 to do"));
+    let before = own(place.summaries());
+    assert_success(&place.sweep(&["--jobs", "1"]));
+    let after = own(place.summaries());
+    assert_eq!(new(&after), 3, "the rest was done anew");
+    assert_eq!(
+        before
+            .iter()
+            .filter(|(name, written)| after[*name] == **written)
+            .count(),
+        1
+    );
+    assert_eq!(place.summaries().len(), 3, "nothing is left beside");
+}
+
 /// A run ends when its sweep is killed, although nobody tells it.
 #[cfg(target_os = "linux")]
 #[test]

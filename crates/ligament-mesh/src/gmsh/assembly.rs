@@ -47,7 +47,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
         .filter(|cell| records.elements[cell.element].higher_order);
     let mut remarks = remarks(higher_order.count(), &uses);
     let groups = groups::collect(records, &corners, &cell_of_element, &mut remarks);
-    let fields = fields::on_nodes(records, &by_tag, &numbers, kept.len());
+    let fields = fields::on_nodes(records, &by_tag, &numbers);
     let node_tags = kept.iter().map(|node| node.tag).collect();
     let cells = planar.into_iter().map(|planar| planar.cell).collect();
     Ok(Mesh {

@@ -1,5 +1,7 @@
 //! `$NodeData`: values at the nodes, the same in both formats.
 
+use std::collections::BTreeMap;
+
 use super::cursor::{Cursor, shown};
 use super::error::GmshError;
 use super::records::{FieldRecord, Records};
@@ -82,22 +84,20 @@ pub(super) fn on_nodes(
     records: &Records,
     by_tag: &NodeIndices,
     numbers: &[Option<u32>],
-    n_nodes: usize,
 ) -> Vec<NodeField> {
     let field = |record: &FieldRecord| {
-        let length = if record.components == 1 { n_nodes } else { 0 };
-        let mut values = vec![None; length];
-        for &(tag, value) in &record.values {
-            let node = by_tag.get(tag).and_then(|index| numbers[index as usize]);
-            if let Some(node) = node {
-                values[node as usize] = Some(value);
-            }
-        }
+        let on_node = |&(tag, value): &(u64, f64)| {
+            let node = numbers[by_tag.get(tag)? as usize]?;
+            Some((node, value))
+        };
+        let mut values: BTreeMap<u32, f64> = BTreeMap::new();
+        // Of several rows of a node the last one counts.
+        values.extend(record.values.iter().filter_map(on_node));
         NodeField {
             name: record.name.clone(),
             time_step: record.time_step,
             components: record.components,
-            values,
+            values: values.into_iter().collect(),
         }
     };
     records.fields.iter().map(field).collect()

@@ -158,6 +158,22 @@ impl Orthotropic {
         turn.transpose() * self.principal_stiffness(plane) * turn
     }
 
+    /// Whether the stiffness of the plane can be computed: numbers may be too large for their products.
+    pub fn has_stiffness(&self) -> bool {
+        let mut compliance = self.principal_compliance();
+        let is_fine = |it: &Matrix3<f64>| {
+            it.try_inverse()
+                .is_some_and(|it| it.iter().all(|c| c.is_finite()))
+        };
+        let in_plane = is_fine(&compliance);
+        let across = self.out_of_plane.is_none_or(|across| {
+            let coupling = self.coupling_across(&across);
+            compliance -= across.young * coupling * coupling.transpose();
+            is_fine(&compliance)
+        });
+        in_plane && across
+    }
+
     /// Whether every strain costs energy, that is whether the compliance is positive definite.
     pub fn is_stable(&self) -> bool {
         let mut compliance = self.principal_compliance();

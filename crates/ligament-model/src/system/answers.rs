@@ -137,13 +137,9 @@ impl Bonds for BondSystem {
         resisted
     }
 
-    /// Largest sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
-    fn largest_point_stiffness(&self) -> PointStiffness {
-        let mut largest = PointStiffness {
-            force: 0.0,
-            moment: 0.0,
-        };
-        for point in 0..self.cloud.len() as u32 {
+    /// Sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
+    fn point_stiffness(&self) -> Vec<PointStiffness> {
+        let of_point = |point: u32| {
             let (mut force, mut moment) = (0.0, 0.0);
             for &bond in self.bonds.incidence.at(point) {
                 let bond = bond as usize;
@@ -151,10 +147,9 @@ impl Bonds for BondSystem {
                 force += (self.rigidities.axial[bond].abs() + shear) / length.powi(2);
                 moment += (shear + self.rigidities.rotational[bond].abs()) / length;
             }
-            largest.force = largest.force.max(force);
-            largest.moment = largest.moment.max(moment);
-        }
-        largest
+            PointStiffness { force, moment }
+        };
+        (0..self.cloud.len() as u32).map(of_point).collect()
     }
 
     fn halve(&self, points: &mut [u32]) {

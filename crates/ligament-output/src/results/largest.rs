@@ -1,6 +1,7 @@
 //! How near bonds came to their limits.
 
 use ligament_analysis::history::View;
+use ligament_analysis::serial;
 use rayon::prelude::*;
 
 use crate::vtu::Field;
@@ -25,6 +26,13 @@ struct Seen {
     criterion: u32,
 }
 
+serial!(Seen {
+    utilisation,
+    step,
+    criterion
+});
+serial!(Largest { of_bonds });
+
 /// The arrays of a file.
 pub(super) struct Columns {
     utilisation: Vec<f32>,
@@ -33,6 +41,12 @@ pub(super) struct Columns {
 }
 
 impl Largest {
+    /// Whether it is of so many bonds and criteria.
+    pub(super) fn fits(&self, n_bonds: usize, n_criteria: usize) -> bool {
+        let mut seen = self.of_bonds.iter();
+        self.of_bonds.len() == n_bonds && seen.all(|it| (it.criterion as usize) < n_criteria)
+    }
+
     pub(super) fn new(n_bonds: usize) -> Self {
         Self {
             of_bonds: vec![Seen::default(); n_bonds],

@@ -20,6 +20,7 @@ mod modes;
 pub mod outputs;
 mod point_fields;
 mod rule;
+mod so_far;
 pub mod stored;
 mod tables;
 
@@ -35,7 +36,9 @@ use crate::vtu::{self, Field, UnstructuredGrid};
 pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
+use outputs::remove_others;
 pub use rule::{Time, WriteRule};
+pub use so_far::SoFar;
 use tables::{Tables, deformation_names};
 
 /// Observer that writes the results of a run.
@@ -79,6 +82,63 @@ impl<'a> ResultWriter<'a> {
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
+        })
+    }
+
+    /// Goes on with the results of a run: what was written after the moment goes.
+    ///
+    /// # Errors
+    ///
+    /// If a file cannot be cut back or removed.
+    pub fn cut_back(
+        folder: &'a ResultFolder,
+        grid: &'a BodyGrid,
+        fixed: &'a FixedFields,
+        rule: WriteRule,
+        problem: &Problem,
+        so_far: SoFar,
+    ) -> Result<Self, Error> {
+        let SoFar {
+            tables,
+            fields,
+            bonds,
+            breaks,
+            largest,
+        } = so_far;
+        remove_others(folder, "fields", &fields)?;
+        remove_others(folder, "bonds", &bonds)?;
+        let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];
+        for (bond, step) in breaks {
+            step_of_breaking[bond as usize] = i64::from(step);
+        }
+        Ok(Self {
+            folder,
+            grid,
+            largest,
+            problem: problem.clone(),
+            fixed,
+            rule,
+            tables: Tables::cut_back(folder, problem, grid.tagged, &tables)?,
+            fields_collection: Collection::with_outputs(folder.file("fields.pvd"), fields)?,
+            bonds_collection: Collection::with_outputs(folder.file("bonds.pvd"), bonds)?,
+            step_of_breaking,
+        })
+    }
+
+    /// What was written so far; all of it is safely on the disk when this returns.
+    ///
+    /// # Errors
+    ///
+    /// If the system cannot get it there.
+    pub fn so_far(&self) -> Result<SoFar, Error> {
+        let steps = (0..).zip(&self.step_of_breaking);
+        let broken = steps.filter(|(_, step)| **step >= 0);
+        Ok(SoFar {
+            tables: self.tables.written()?,
+            fields: self.fields_collection.outputs().to_vec(),
+            bonds: self.bonds_collection.outputs().to_vec(),
+            breaks: broken.map(|(bond, step)| (bond, *step as u32)).collect(),
+            largest: self.largest.clone(),
         })
     }
 

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use ligament_model::Absence;
 
 use super::model_file::MODEL;
-use crate::folder::RESOLVED_CASE;
+use crate::atomic::remove_file;
+use crate::folder::{RESOLVED_CASE, ResultFolder};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -120,6 +121,34 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     let cut = pairs.filter(|(_, absent)| is_cut(absent));
     let tagged = cut.map(|(ends, _)| ends.map(|point| tags[point as usize]));
     Ok(Some(tagged.collect()))
+}
+
+/// Removes the fields of a run that starts anew in its folder.
+///
+/// # Errors
+///
+/// If they cannot be removed.
+pub fn clear(folder: &ResultFolder) -> Result<(), Error> {
+    for stem in ["fields", "bonds"] {
+        remove_others(folder, stem, &[])?;
+        folder.remove(&format!("{stem}.pvd"))?;
+    }
+    Ok(())
+}
+
+/// Removes the files `STEM_NNNN.vtu` that are none of the outputs.
+pub(super) fn remove_others(
+    folder: &ResultFolder,
+    stem: &str,
+    outputs: &[(f64, String)],
+) -> Result<(), Error> {
+    for path in numbered_files(folder.path(), stem)?.values() {
+        let is_output = outputs.iter().any(|(_, name)| folder.file(name) == *path);
+        if !is_output {
+            remove_file(path)?;
+        }
+    }
+    Ok(())
 }
 
 /// The files `STEM_NNNN.vtu` by their numbers.

@@ -5,7 +5,7 @@ use std::time::Duration;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
-use ligament_analysis::{Bonds, Component};
+use ligament_analysis::{Bonds, Component, serial};
 
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -64,6 +64,9 @@ const TIMINGS: [Timing; 7] = [
     ("connectivity_s", |it| it.connectivity),
 ];
 
+/// The tables that grow with a run.
+pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.csv", "timings.csv"];
+
 const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
 
 /// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
@@ -78,6 +81,11 @@ pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
         });
     }
     labels
+}
+
+/// Names of the failure criteria of a problem in results.
+fn labels_of(problem: &Problem) -> Vec<String> {
+    labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
 /// Writes the table of what each criterion looks at and what happens after its limit.
@@ -96,6 +104,17 @@ fn write_criteria(
     }
     Ok(())
 }
+
+/// How far the tables of a run are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Written {
+    /// Bytes of each of [`FILES`].
+    pub(super) lengths: [u64; 4],
+    /// Costs up to the last row of times.
+    costs: Costs,
+}
+
+serial!(Written { lengths, costs });
 
 pub(super) struct Tables {
     history: Table,
@@ -134,8 +153,44 @@ impl Tables {
         problem: &Problem,
         tagged: &str,
     ) -> Result<Self, Error> {
-        let criteria = labels(problem.criteria.list.iter().map(|criterion| criterion.name));
-        write_criteria(folder, problem, &criteria)?;
+        write_criteria(folder, problem, &labels_of(problem))?;
+        let create =
+            |place: usize, columns: &[&str]| Table::create(folder.file(FILES[place]), columns);
+        Self::with(problem, tagged, Costs::default(), &create)
+    }
+
+    /// The tables of a run that goes on, cut back to where it was.
+    pub(super) fn cut_back(
+        folder: &ResultFolder,
+        problem: &Problem,
+        tagged: &str,
+        written: &Written,
+    ) -> Result<Self, Error> {
+        let cut_back = |place: usize, columns: &[&str]| {
+            let length = written.lengths[place];
+            Table::cut_back(folder.file(FILES[place]), columns.len(), length)
+        };
+        Self::with(problem, tagged, written.costs, &cut_back)
+    }
+
+    /// How far the tables are; what they have is safely on the disk when this returns.
+    pub(super) fn written(&self) -> Result<Written, Error> {
+        let [history, iterations, breaks, timings] =
+            [&self.history, &self.iterations, &self.breaks, &self.timings]
+                .map(Table::synced_length);
+        Ok(Written {
+            lengths: [history?, iterations?, breaks?, timings?],
+            costs: self.costs_before,
+        })
+    }
+
+    /// The tables as they are made of the place of each in [`FILES`] and its columns.
+    fn with(
+        problem: &Problem,
+        tagged: &str,
+        costs_before: Costs,
+        table: &dyn Fn(usize, &[&str]) -> Result<Table, Error>,
+    ) -> Result<Self, Error> {
         let groups = problem.loads.groups().iter();
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
@@ -156,17 +211,17 @@ impl Tables {
             .chain(TIMINGS.iter().map(|column| column.0))
             .collect();
         Ok(Self {
-            history: Table::create(folder.file("history.csv"), &history_columns)?,
-            iterations: Table::create(folder.file("iterations.csv"), &ITERATIONS)?,
-            breaks: Table::create(folder.file("breaks.csv"), &breaks_columns)?,
-            timings: Table::create(folder.file("timings.csv"), &timings)?,
-            criteria,
+            history: table(0, &history_columns)?,
+            iterations: table(1, &ITERATIONS)?,
+            breaks: table(2, &breaks_columns)?,
+            timings: table(3, &timings)?,
+            criteria: labels_of(problem),
             n_components: deformation_names(&*problem.system).len(),
             step: 0,
             round: 0,
             load_factor: 0.0,
             broken: 0,
-            costs_before: Costs::default(),
+            costs_before,
         })
     }
 

@@ -3,7 +3,6 @@
 //! Only what [`write_vtu`](super::write_vtu) writes is read: one piece, arrays in blocks compressed by zlib. The text is searched
 //! once for the places of the arrays, and an array is decoded when it is asked for: a file of fields has some twenty.
 
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -13,8 +12,15 @@ use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use rayon::prelude::*;
 
 use super::Cell;
+use crate::atomic::read_bytes;
 use crate::xml::{attribute, unescape};
 use crate::{Error, FieldLocation};
+
+/// Corners of a cell at most.
+const MOST_CORNERS: usize = 4;
+
+/// Numbers that a field has for a point or cell at most.
+const MOST_COMPONENTS: usize = 16;
 
 /// Bytes of a number in the header of an array.
 const HEADER_ENTRY: usize = 8;
@@ -65,7 +71,7 @@ impl VtuFile {
     /// If the file cannot be read, or is no VTU file as this program writes them.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let bytes = fs::read(&path).map_err(Error::system("read", &path))?;
+        let bytes = read_bytes(&path).map_err(Error::system("read", &path))?;
         let strange = |reason: &str| Error::Unreadable {
             path: path.clone(),
             reason: reason.to_owned(),
@@ -251,14 +257,19 @@ impl VtuFile {
         from_bytes: impl Fn([u8; SIZE]) -> T,
     ) -> Result<Vec<T>, Error> {
         let damaged = || self.strange(format!("array {} is damaged", entry.name));
-        let bytes = decode(self.text[entry.content.clone()].trim()).ok_or_else(damaged)?;
-        let (values, rest) = bytes.as_chunks::<SIZE>();
-        let expected = match entry.section {
-            Section::Fields(FieldLocation::Point) | Section::Points => self.contents.n_points,
-            Section::Fields(FieldLocation::Cell) => self.contents.n_cells,
-            Section::Cells => values.len(),
+        let Contents {
+            n_points, n_cells, ..
+        } = self.contents;
+        let (fewest, most) = match entry.section {
+            Section::Fields(FieldLocation::Point) | Section::Points => (n_points, n_points),
+            Section::Fields(FieldLocation::Cell) => (n_cells, n_cells),
+            Section::Cells => (n_cells, MOST_CORNERS * n_cells),
         };
-        if rest.is_empty() && values.len() == expected * entry.n_components {
+        let [fewest, most] = [fewest, most].map(|it| it * entry.n_components);
+        let bytes = decode(self.text[entry.content.clone()].trim(), most * SIZE);
+        let bytes = bytes.ok_or_else(damaged)?;
+        let (values, rest) = bytes.as_chunks::<SIZE>();
+        if rest.is_empty() && (fewest..=most).contains(&values.len()) {
             Ok(values.iter().map(|bytes| from_bytes(*bytes)).collect())
         } else {
             Err(damaged())
@@ -297,8 +308,10 @@ fn contents(text: &str) -> Result<Contents, &'static str> {
                     section: section.ok_or("an array is out of place")?,
                     name: unescape(of("Name")?),
                     vtk_type: of("type")?.to_owned(),
-                    n_components: (count.ok().filter(|count| *count > 0))
-                        .ok_or("an array has no number of components")?,
+                    n_components: (count
+                        .ok()
+                        .filter(|count| (1..=MOST_COMPONENTS).contains(count)))
+                    .ok_or("an array has no number of components")?,
                     components: (0..).map_while(component).map(unescape).collect(),
                     content: at..at + length,
                 });
@@ -312,7 +325,12 @@ fn contents(text: &str) -> Result<Contents, &'static str> {
     if !text.trim_end().ends_with("</VTKFile>") {
         return Err("its end is missing");
     }
-    let (n_points, n_cells) = counts.ok_or("it has no number of points and cells")?;
+    let (n_points, n_cells): (usize, usize) =
+        counts.ok_or("it has no number of points and cells")?;
+    // However well it is compressed, a point or cell takes more than a byte for its position and corners.
+    if n_points.max(n_cells) > text.len() {
+        return Err("it is too short for its number of points and cells");
+    }
     Ok(Contents {
         arrays,
         n_points,
@@ -331,8 +349,9 @@ fn is_ours(tag: &str) -> bool {
     .all(|(key, value)| attribute(tag, key) == Some(value))
 }
 
-/// The bytes of an array: a header in base64, then the compressed blocks in base64 of their own. None where they are damaged.
-fn decode(text: &str) -> Option<Vec<u8>> {
+/// The bytes of an array, of which there are so many at most: a header in base64, then the compressed blocks in base64 of their
+/// own. None where they are damaged.
+fn decode(text: &str, most: usize) -> Option<Vec<u8>> {
     // Three bytes take four letters; the first three entries take 24 bytes.
     let start = BASE64_STANDARD.decode(text.get(..32)?).ok()?;
     let entry = |bytes: &[u8], place: usize| -> Option<usize> {
@@ -346,7 +365,7 @@ fn decode(text: &str) -> Option<Vec<u8>> {
     let compressed = BASE64_STANDARD.decode(&text[header_letters..]).ok()?;
     let (whole, last) = (entry(&header, 1)?, entry(&header, 2)?);
     let mut blocks = Vec::with_capacity(n_blocks);
-    let mut from = 0_usize;
+    let (mut from, mut left) = (0_usize, most);
     for block in 0..n_blocks {
         let to = from.checked_add(entry(&header, 3 + block)?)?;
         let size = if block + 1 == n_blocks && last > 0 {
@@ -356,6 +375,7 @@ fn decode(text: &str) -> Option<Vec<u8>> {
         };
         blocks.push((compressed.get(from..to)?, size));
         from = to;
+        left = left.checked_sub(size)?;
     }
     let inflated: Option<Vec<Vec<u8>>> = (blocks.par_iter())
         .map(|(block, size)| {
@@ -367,125 +387,4 @@ fn decode(text: &str) -> Option<Vec<u8>> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-    use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
-    use proptest::prelude::*;
-
-    /// Numbers with all bits, also those of what is no number.
-    fn floats(len: usize) -> impl Strategy<Value = Vec<f64>> {
-        proptest::collection::vec(any::<u64>().prop_map(f64::from_bits), len)
-    }
-
-    fn bits(values: &[f64]) -> Vec<u64> {
-        values.iter().map(|value| value.to_bits()).collect()
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(24))]
-
-        /// A block has 4096 numbers: lengths about it and about its double.
-        #[test]
-        fn what_was_written_is_read(
-            (numbers, integers) in prop_oneof![1_usize..9, 4094_usize..4099, 8191_usize..8194]
-                .prop_flat_map(|len| (floats(len), proptest::collection::vec(any::<i64>(), len))),
-            name: String,
-        ) {
-            let n_points = numbers.len();
-            let points: Vec<[f64; 2]> = numbers.iter().map(|x| [*x, -*x]).collect();
-            let cells: Vec<Cell> = (0..n_points as u32 - 1)
-                .map(|point| Cell::Line([point, point + 1]))
-                .chain([Cell::Vertex([0])])
-                .collect();
-            let single: Vec<f32> = (0..n_points).map(|point| point as f32 / 7.0).collect();
-            let vectors: Vec<[f64; 3]> = numbers.iter().map(|x| [*x, 0.0, -*x]).collect();
-            let grid = UnstructuredGrid {
-                points: &points,
-                cells: &cells,
-                point_fields: &[Field::scalar(&name, &numbers), Field::single("f32", &single)],
-                cell_fields: &[Field::integer(&name, &integers), Field::vector("v", &vectors)],
-            };
-            let folder = tempfile::tempdir().unwrap();
-            let path = folder.path().join("a.vtu");
-            write_vtu(&path, &grid).unwrap();
-
-            let file = VtuFile::open(&path).unwrap();
-            let (on_points, on_cells) = (FieldLocation::Point, FieldLocation::Cell);
-            let read = file.numbers(on_points, &name).unwrap().unwrap();
-            prop_assert_eq!(bits(&read), bits(&numbers));
-            let read = file.numbers(on_points, "f32").unwrap().unwrap();
-            prop_assert!(read.iter().zip(&single).all(|(a, b)| *a == f64::from(*b)));
-            prop_assert_eq!(read.len(), n_points);
-            let whole: Vec<f64> = integers.iter().map(|it| *it as f64).collect();
-            prop_assert_eq!(file.numbers(on_cells, &name).unwrap(), Some(whole));
-            prop_assert_eq!(file.integers(on_cells, &name).unwrap(), Some(integers));
-            let read = file.numbers(on_cells, "v").unwrap().unwrap();
-            prop_assert_eq!(bits(&read), bits(vectors.as_flattened()));
-            let read = file.points().unwrap();
-            prop_assert_eq!(bits(read.as_flattened()), bits(points.as_flattened()));
-            prop_assert_eq!(file.cells().unwrap(), cells);
-            prop_assert_eq!(file.components(on_cells, "v"), Some((3, &[][..])));
-            prop_assert_eq!(file.components(on_points, "v"), None);
-            prop_assert_eq!(file.numbers(on_cells, "w").unwrap(), None);
-            prop_assert!(file.lines().is_err(), "one cell is no line");
-            prop_assert!(file.integers(on_points, &name).is_err(), "numbers are no integers");
-        }
-    }
-
-    fn sample() -> (tempfile::TempDir, PathBuf, String) {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.vtu");
-        let grid = UnstructuredGrid {
-            points: &[[0.0, 1.0], [2.0, 3.0]],
-            cells: &[Cell::Line([0, 1])],
-            point_fields: &[Field::scalar("damage", &[0.25, 0.5])],
-            cell_fields: &[],
-        };
-        write_vtu(&path, &grid).unwrap();
-        let text = fs::read_to_string(&path).unwrap();
-        (folder, path, text)
-    }
-
-    /// No damage of a file panics or gives numbers that were not written.
-    #[test]
-    fn damaged_files_are_refused_or_read_as_they_were() {
-        let (_folder, path, text) = sample();
-        for cut in 0..text.len() {
-            fs::write(&path, &text[..cut]).unwrap();
-            let whole_but_for_its_last_line_feed = cut + 1 == text.len();
-            assert_eq!(
-                VtuFile::open(&path).is_ok(),
-                whole_but_for_its_last_line_feed,
-                "{cut}"
-            );
-        }
-        let mut refused = 0;
-        for place in 0..text.len() {
-            let mut bytes = text.clone().into_bytes();
-            bytes[place] = if bytes[place] == b'A' { b'B' } else { b'A' };
-            fs::write(&path, &bytes).unwrap();
-            let read =
-                VtuFile::open(&path).and_then(|file| file.numbers(FieldLocation::Point, "damage"));
-            match read {
-                Err(_) | Ok(None) => refused += 1,
-                Ok(Some(values)) => assert_eq!(values, [0.25, 0.5], "{place}"),
-            }
-        }
-        assert!(refused > 100, "{refused}");
-    }
-
-    #[test]
-    fn what_is_no_result_file_is_named() {
-        let (_folder, path, text) = sample();
-        let message = |text: &str| {
-            fs::write(&path, text).unwrap();
-            VtuFile::open(&path).unwrap_err().to_string()
-        };
-        assert!(message("mesh").ends_with("a.vtu: it is no VTU file of this program"));
-        let other = text.replace("vtkZLibDataCompressor", "vtkLZ4DataCompressor");
-        assert!(message(&other).ends_with("it is no VTU file of this program"));
-        let open = VtuFile::open(path.with_file_name("b.vtu"));
-        assert!(matches!(open, Err(Error::System { action: "read", .. })));
-    }
-}
+mod tests;

@@ -13,9 +13,9 @@ use std::io::Write;
 
 use anyhow::Context;
 
-use crate::inputs::{Contents, Inputs};
 use crate::quantities::Quantities;
 use ligament_case::case::{CaseError, CaseFile, Fault};
+use ligament_run::inputs::{Contents, Inputs};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use record::{Record, Run};
@@ -63,10 +63,15 @@ pub fn calibrate(
             }
         }
     };
+    let mut answer = Vec::new();
+    let why_not = record.why_not(&verdict);
+    if let Verdict::Met(trial) = &verdict {
+        record.write_answer(trial, &mut answer)?;
+    }
     record.close(&verdict)?;
     match verdict {
-        Verdict::Met(trial) => Ok(record.write_answer(&trial, out)?),
-        verdict => Err(CalibrationError::NotMet(record.why_not(&verdict)).into()),
+        Verdict::Met(_) => Ok(out.write_all(&answer)?),
+        _ => Err(CalibrationError::NotMet(why_not).into()),
     }
 }
 

@@ -5,16 +5,25 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use ligament_output::csv::{Table, Value};
-use ligament_output::folder::ResultFolder;
+use ligament_output::folder::{Kind, ResultFolder};
 use serde::{Deserialize, Serialize};
 
 use super::request::{CalibrationError, Request, setting};
 use super::search::{Trial, Verdict};
-use crate::inputs::Inputs;
 use crate::quantities::{Quantities, QuantityError};
+use ligament_run::inputs::Inputs;
 
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
+
+/// The folder of a calibration has a folder for each run.
+const KIND: Kind = Kind {
+    holds_run: |name| {
+        name.strip_prefix("run-")
+            .is_some_and(|it| it.parse::<usize>().is_ok())
+    },
+    ..Kind::marked(RECORD)
+};
 
 /// Ends of a run at which it was still carrying more load than before, so that a peak may lie beyond.
 const CUT_SHORT: [&str; 5] = [
@@ -109,8 +118,8 @@ impl Record {
             false => earlier_runs(request, inputs)?,
         };
         let folder = match earlier {
-            None => ResultFolder::create_marked(&request.out, RECORD, request.force)?,
-            Some(_) => ResultFolder::existing(&request.out),
+            None => ResultFolder::create_marked(&request.out, KIND, request.force)?,
+            Some(_) => ResultFolder::existing(&request.out, KIND)?,
         };
         let columns = [
             "run",
@@ -169,15 +178,16 @@ impl Record {
         Ok(())
     }
 
-    /// Notes how it ended.
-    pub(super) fn close(&self, verdict: &Verdict) -> anyhow::Result<()> {
+    /// Notes how it ended; an earlier calibration is replaced now.
+    pub(super) fn close(self, verdict: &Verdict) -> anyhow::Result<()> {
         let (outcome, value) = match verdict {
             Verdict::Met(trial) => ("met", Some(trial.key)),
             Verdict::Jump(_) => ("jump", None),
             Verdict::OutOfReach => ("out-of-reach", None),
             Verdict::OutOfTrials => ("out-of-runs", None),
         };
-        self.save(outcome, value)
+        self.save(outcome, value)?;
+        Ok(self.folder.finish()?)
     }
 
     fn save(&self, outcome: &'static str, value: Option<f64>) -> anyhow::Result<()> {
@@ -245,14 +255,14 @@ impl Record {
             "  use it by          --set {}",
             setting(key, trial.key)
         )?;
-        writeln!(out, "  record in          {}", self.folder.path().display())
+        writeln!(out, "  record in          {}", self.request.out.display())
     }
 
     /// Why there is no answer, for the user.
     pub(super) fn why_not(&self, verdict: &Verdict) -> String {
         let Request { key, of, .. } = &self.request;
         let n_runs = self.runs.len();
-        let record = self.folder.path().display();
+        let record = self.request.out.display();
         let off = |run: &&Run| self.off(&run.trial).abs();
         let best = self.runs.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         let nearest = best.map(|run| self.words(&run.trial)).unwrap_or_default();

@@ -126,12 +126,21 @@ fn declared_constants(geometry: &str) -> Vec<String> {
 
 fn call_gmsh(request: &MeshRequest, out: &Path) -> Result<Output, MeshingError> {
     let mut command = Command::new(&request.gmsh);
-    command.arg("-2").arg(&request.geometry).arg("-o").arg(out);
+    let [geometry, out] = [request.geometry.as_path(), out].map(operand);
+    command.arg("-2").arg(geometry).arg("-o").arg(out);
     command.args(["-format", "msh41"]);
     for (name, value) in &request.numbers {
         command.args(["-setnumber", name, &value.to_string()]);
     }
     output_of(&mut command, REMEDY)
+}
+
+/// A path that Gmsh does not take for an option.
+fn operand(path: &Path) -> PathBuf {
+    match path.as_os_str().as_encoded_bytes().first() {
+        Some(b'-') => Path::new(".").join(path),
+        _ => path.to_owned(),
+    }
 }
 
 fn lines(output: &Output) -> Vec<String> {

@@ -10,10 +10,14 @@ and ends in `end`. Where there is no such mesh it is `error`, the kind of the fa
 status is 1.
 """
 
+import sys
+
+# Packages come from where Python has them, never from the current folder, which may hold a file called numpy.py.
+sys.path = [place for place in sys.path if place not in ("", ".")]
+
 import contextlib
 import io
 import re
-import sys
 from pathlib import Path
 
 # Distinct values of cell data at most that are taken for the numbers of groups: more are numbers of cells.

@@ -1,7 +1,6 @@
-//! How much memory a run will take, and how much there is.
+//! How much memory a run will take.
 
 use std::collections::BTreeMap;
-use std::fs;
 
 use ligament::run::on_threads;
 use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Surface};
@@ -14,13 +13,6 @@ use ligament_run::memory;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
-
-/// What the program itself takes, bytes.
-const PROGRAM: u64 = 10_000_000;
-
-/// Share added for what the estimate leaves out: files on their way to disk, room that the allocator keeps. Runs of 846 to
-/// 4,808 points took 1.0 to 1.3 times the equations and the program.
-const MARGIN: f64 = 1.3;
 
 /// Estimates made so far; runs with the same body, horizons and supports share one.
 #[derive(Debug, Default)]
@@ -56,7 +48,7 @@ fn estimate(case: &CaseFile) -> anyhow::Result<u64> {
         _ => it,
     });
     let bytes = on_threads(plain.threads(), || equations(&plain))??;
-    Ok((MARGIN * (bytes as u64 + PROGRAM) as f64) as u64)
+    Ok(memory::of_run(bytes))
 }
 
 fn equations(case: &CaseFile) -> anyhow::Result<usize> {
@@ -82,31 +74,4 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
 pub(super) fn has_mesh(case: &CaseFile) -> bool {
     let mesh = case.case.mesh.as_ref();
     mesh.is_none_or(|section| section.file.is_file())
-}
-
-/// Memory that programs can take without others being moved out, bytes: what the system has left and, under a limit for this
-/// process (cgroup v2, as batch systems set it), what that leaves. `None` where neither is known.
-pub(super) fn available() -> Option<u64> {
-    let limits = [of_system(), of_cgroup()];
-    limits.into_iter().flatten().min()
-}
-
-fn of_system() -> Option<u64> {
-    let text = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text
-        .lines()
-        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(1024 * kibibytes)
-}
-
-fn of_cgroup() -> Option<u64> {
-    let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
-    let group = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
-    let folder = std::path::Path::new("/sys/fs/cgroup").join(group);
-    let number = |name: &str| {
-        let text = fs::read_to_string(folder.join(name)).ok()?;
-        text.trim().parse::<u64>().ok()
-    };
-    Some(number("memory.max")?.saturating_sub(number("memory.current")?))
 }

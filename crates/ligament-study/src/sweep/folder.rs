@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use ligament_output::folder::ResultFolder;
+use ligament_output::folder::{Kind, ResultFolder};
 use serde_json::json;
 
 use super::error::StudyError;
@@ -67,7 +67,7 @@ impl StudyFolder {
             if folder.is_marked() {
                 break;
             }
-            match ResultFolder::create_marked(path, MARKER, false) {
+            match ResultFolder::create_marked(path, Kind::marked(MARKER), false) {
                 Ok(new) => {
                     let marker = json!({
                         "study": study.source.path.to_string_lossy(),
@@ -99,7 +99,7 @@ impl StudyFolder {
         let hidden = format!(".{MARKER}.");
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-        names.all(|name| name == MARKER || name.starts_with(&hidden))
+        names.all(|name| name == MARKER || name == ".lock" || name.starts_with(&hidden))
     }
 
     /// Path of the folder.
@@ -115,6 +115,18 @@ impl StudyFolder {
     /// The record of a run, beside its results.
     pub(super) fn record(&self, run: &Run) -> PathBuf {
         self.path.join("records").join(format!("{}.json", run.name))
+    }
+
+    /// New results of a run that has earlier ones, until they are complete.
+    pub(super) fn new_run(&self, run: &Run) -> PathBuf {
+        self.path.join("runs").join(format!("{}~new", run.name))
+    }
+
+    /// The record of new results of a run that has earlier ones.
+    pub(super) fn new_record(&self, run: &Run) -> PathBuf {
+        self.path
+            .join("records")
+            .join(format!("{}~new.json", run.name))
     }
 
     /// What a run says.
@@ -218,7 +230,7 @@ fn open_lock(path: &Path) -> Result<File, StudyError> {
 }
 
 /// The error of a file of the folder.
-pub(super) fn file_error(action: &'static str, path: &Path, source: io::Error) -> StudyError {
+fn file_error(action: &'static str, path: &Path, source: io::Error) -> StudyError {
     StudyError::File {
         action,
         path: path.to_owned(),

@@ -1,5 +1,6 @@
 //! Runs as processes of their own: as many at once as there are cores and memory for.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::num::NonZero;
@@ -9,7 +10,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::estimate::{self, Estimates};
+use ligament_run::memory;
+
+use super::estimate::Estimates;
 use super::folder::StudyFolder;
 use super::plan::Run;
 use super::progress::StudyProgress;
@@ -40,7 +43,7 @@ impl Room {
             cores,
             bytes: gigabytes
                 .map(|it| (1e9 * it) as u64)
-                .or_else(estimate::available),
+                .or_else(memory::available),
             bytes_are_given: gigabytes.is_some(),
         }
     }
@@ -62,6 +65,8 @@ struct Ended {
 struct Running {
     index: usize,
     bytes: u64,
+    /// The folder in which its results are made.
+    place: PathBuf,
     /// Standard input of the run, which ends when this is dropped, if only because this process ends.
     _leash: Option<std::process::ChildStdin>,
 }
@@ -155,7 +160,7 @@ impl Launcher<'_> {
         let now = if self.room.bytes_are_given {
             None
         } else {
-            estimate::available()
+            memory::available()
         };
         by_estimates && now.is_none_or(|now| bytes <= now)
     }
@@ -170,17 +175,18 @@ impl Launcher<'_> {
         if !self.fits(bytes) {
             return Err(Refusal::Run(self.too_large(bytes)));
         }
-        record::begin(run, self.folder).map_err(Refusal::Folder)?;
+        let place = record::begin(run, self.folder).map_err(Refusal::Folder)?;
         let left = self.running.len() + self.runs.len() - next;
         let threads = self.room.threads(left);
         let begun = Instant::now();
         let mut child = self
-            .spawn(run, threads)
+            .spawn(run, &place, threads)
             .map_err(|error| Refusal::Folder(error.into()))?;
         progress.begins(run, threads);
         self.running.push(Running {
             index: next,
             bytes,
+            place,
             _leash: child.stdin.take(),
         });
         let sender = self.sender.clone();
@@ -196,18 +202,23 @@ impl Launcher<'_> {
         Ok(())
     }
 
-    fn spawn(&self, run: &Run, threads: usize) -> io::Result<Child> {
+    fn spawn(&self, run: &Run, place: &Path, threads: usize) -> io::Result<Child> {
         let log = File::create(self.folder.log(run))?;
         let mut command = Command::new(&self.program);
-        command.arg("run").arg(&run.case.source.path);
+        command.args(["run", "--force", "--quiet"]);
+        command.arg(format!("--threads={threads}"));
+        if let (true, Some(bytes)) = (self.room.bytes_are_given, self.room.bytes) {
+            command.arg(format!("--set=solver.memory={:?}", bytes as f64 / 1e9));
+        }
         for setting in &run.overrides {
-            command.arg("--set").arg(setting);
+            command.arg(format!("--set={setting}"));
         }
         command
-            .arg("--out")
-            .arg(self.folder.run(run))
-            .args(["--threads", &threads.to_string(), "--quiet", "--leash"])
-            .arg(self.lock)
+            .arg(option("--out", place))
+            .arg(option("--leash", self.lock));
+        // Behind this a path may begin with a hyphen.
+        command.arg("--").arg(&run.case.source.path);
+        command
             .stdin(Stdio::piped())
             .stdout(log.try_clone()?)
             .stderr(log);
@@ -225,12 +236,19 @@ impl Launcher<'_> {
         else {
             return Ok(());
         };
-        self.running.retain(|it| it.index != index);
+        let place = self.running.iter().position(|it| it.index == index);
+        let ended = place.map(|place| self.running.remove(place));
         self.time += time;
         let run = self.runs[index];
         let exit = status?;
         if !exit.success() {
-            record::fail(run, self.folder, &self.last_words(run, exit))?;
+            let reason = self.last_words(run, exit);
+            record::fail(run, self.folder, &reason)?;
+            progress.ends(run, &Status::Failed(reason), time);
+            return Ok(());
+        }
+        if let Some(Running { place, .. }) = ended {
+            record::complete(run, self.folder, &place)?;
         }
         let status = match Status::in_folder(run, self.folder) {
             Status::Missing | Status::Changed(_) => {
@@ -245,7 +263,7 @@ impl Launcher<'_> {
     fn too_large(&self, bytes: u64) -> String {
         let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         let room = self.room.bytes.unwrap_or_default();
-        let now = estimate::available().map_or(room, |now| now.min(room));
+        let now = memory::available().map_or(room, |now| now.min(room));
         let (what, advice) = if self.room.bytes_are_given {
             (room, "allow more by --memory")
         } else {
@@ -284,6 +302,14 @@ impl Launcher<'_> {
             }
         }
     }
+}
+
+/// An option with a path, whatever that begins with.
+fn option(name: &str, path: &Path) -> OsString {
+    let mut option = OsString::from(name);
+    option.push("=");
+    option.push(path);
+    option
 }
 
 /// Ties this process to the one that started it: holds a lock for as long as it lives, and ends when standard input does, which

@@ -25,6 +25,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use ligament_output::terminal::plain;
+use ligament_run::memory;
 use ligament_run::progress::ProgressMode;
 
 pub use error::StudyError;
@@ -165,10 +167,12 @@ fn not_done<'a>(
     let mut todo = Vec::new();
     let mut notes = Vec::new();
     for run in mine {
+        record::mend(run, folder)?;
         if force {
-            record::forget(run, folder)?;
+            record::demand(run, folder)?;
         }
         match Status::in_folder(run, folder) {
+            Status::Done(_) if record::is_demanded(run, folder) => {}
             Status::Done(_) => continue,
             Status::Changed(how) => {
                 notes.push(format!(
@@ -221,7 +225,7 @@ fn tell_problems(problems: &[String]) -> io::Result<()> {
     let mut stderr = io::stderr().lock();
     problems
         .iter()
-        .try_for_each(|problem| writeln!(stderr, "warning: {problem}"))
+        .try_for_each(|problem| writeln!(stderr, "warning: {}", plain(problem)))
 }
 
 /// Makes the tables and plots of runs that lie in one or several folders, each with the runs as they are there.
@@ -298,7 +302,7 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
             Status::Changed(_) => "changed",
             status => status.word(),
         };
-        todo += usize::from(word != "done");
+        todo += usize::from(word != "done" || record::is_demanded(run, &folder));
         let memory = match estimate::has_mesh(&run.case) {
             true => estimates.bytes(&run.case).map_or_else(
                 || "no model".to_owned(),
@@ -313,7 +317,7 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
             index + 1
         )?;
     }
-    if let Some(bytes) = estimate::available() {
+    if let Some(bytes) = memory::available() {
         writeln!(out, "memory available: {:.1} GB", bytes as f64 / 1e9)?;
     }
     Ok(writeln!(

@@ -1,16 +1,17 @@
 //! The runs of a study: all combinations of the values of its axes, each with a name and a checked case.
 
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use super::axis::{Axis, AxisPoint, Setting, short_words};
 use super::error::StudyError;
 use super::meshes::MeshPlan;
 use super::study::Study;
 use super::written::quoted;
-use crate::inputs::{Contents, Inputs};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, CaseFile, Location};
+use ligament_case::input_file;
+use ligament_run::inputs::{Contents, Inputs};
 
 /// Runs that a study may have.
 const MOST_RUNS: usize = 100_000;
@@ -89,7 +90,7 @@ pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
             most: MOST_RUNS,
         });
     }
-    let text = fs::read_to_string(&study.case).map_err(|source| CaseError::Read {
+    let text = input_file::read_text(&study.case).map_err(|source| CaseError::Read {
         path: study.case.clone(),
         source,
     })?;

@@ -11,6 +11,7 @@ use super::record::Status;
 use super::report::unknown_names;
 use super::study::Study;
 use crate::quantities::Quantities;
+use ligament_output::terminal::plain;
 use ligament_run::progress::{ProgressMode, duration_text};
 
 /// Shows how far a study is.
@@ -56,6 +57,7 @@ impl<'a> StudyProgress<'a> {
 
     /// Tells of something in a line of its own.
     pub(super) fn tell(&self, line: &str) {
+        let line = &*plain(line);
         match (&self.bar, self.mode) {
             (_, ProgressMode::Quiet) => {}
             (Some(bar), _) => bar.println(line),
@@ -90,7 +92,7 @@ impl<'a> StudyProgress<'a> {
     fn show_running(&self) {
         if let Some(bar) = &self.bar {
             let words: Vec<&str> = self.running.values().map(String::as_str).collect();
-            bar.set_message(format!("running: {}", words.join("; ")));
+            bar.set_message(format!("running: {}", plain(&words.join("; "))));
         }
     }
 

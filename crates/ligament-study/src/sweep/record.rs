@@ -1,14 +1,13 @@
 //! What is kept of a run beside its results, and what follows from both: whether it is done.
 
 use std::fs;
-use std::io;
+use std::path::{Path, PathBuf};
 
-use ligament_output::folder::ResultFolder;
-use ligament_output::replace_file;
+use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover};
+use ligament_output::{rename, replace_file};
 use serde::{Deserialize, Serialize};
 
-use super::error::StudyError;
-use super::folder::{StudyFolder, file_error};
+use super::folder::StudyFolder;
 use super::plan::Run;
 use crate::quantities::Quantities;
 
@@ -17,8 +16,9 @@ const SUMMARY: &str = "summary.json";
 
 /// A record of a run, written before it starts and again if it fails.
 ///
-/// At any time: where a summary is there, the record beside it holds the inputs that it was computed from. So an earlier
-/// summary is removed before a new record is written, and a run that was killed has no summary.
+/// At any time: where a summary is there, the record beside it holds the inputs that it was computed from. New results of a run
+/// that has a summary are made in a folder of their own, with a record of their own; both change places while the run has
+/// no results at all. A run that was killed has no summary.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Record {
     /// Version of the program.
@@ -48,21 +48,20 @@ pub(super) enum Status {
 impl Status {
     /// The status of a run in a folder.
     pub(super) fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
-        let text = fs::read_to_string(folder.record(run)).unwrap_or_default();
-        let Ok(record) = serde_json::from_str::<Record>(&text) else {
-            return Self::Missing;
-        };
-        let results = Quantities::read(&folder.run(run));
-        if record.inputs != run.inputs.text() {
-            return match results {
-                Ok(_) => Self::Changed(run.inputs.difference(&record.inputs)),
-                Err(_) => Self::Missing,
+        let record = Record::read(&folder.record(run));
+        let is_current = |it: &Record| it.inputs == run.inputs.text();
+        if let (Ok(results), Some(record)) = (Quantities::read(&folder.run(run)), &record) {
+            if is_current(record) {
+                return Self::Done(results);
+            }
+            return match Record::of_new(run, folder).and_then(|it| it.failed) {
+                Some(reason) => Self::Failed(reason),
+                None => Self::Changed(run.inputs.difference(&record.inputs)),
             };
         }
-        match (results, record.failed) {
-            (Ok(results), _) => Self::Done(results),
-            (Err(_), Some(reason)) => Self::Failed(reason),
-            (Err(_), None) => Self::Missing,
+        match record.filter(is_current).and_then(|it| it.failed) {
+            Some(reason) => Self::Failed(reason),
+            None => Self::Missing,
         }
     }
 
@@ -95,37 +94,75 @@ impl Record {
         }
     }
 
-    fn write(&self, run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
+    /// The record of results that are to replace earlier ones, where it is of the inputs of today.
+    fn of_new(run: &Run, folder: &StudyFolder) -> Option<Self> {
+        let record = Self::read(&folder.new_record(run));
+        record.filter(|it| it.inputs == run.inputs.text())
+    }
+
+    fn read(path: &Path) -> Option<Self> {
+        serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+    }
+
+    fn write(&self, path: &Path) -> anyhow::Result<()> {
         let text = serde_json::to_string_pretty(self)? + "\n";
-        Ok(replace_file(&folder.record(run), text.as_bytes())?)
+        Ok(replace_file(path, text.as_bytes())?)
     }
 }
 
-/// Makes room for a run: removes what an earlier one left, its summary first, and notes what is about to be computed.
-pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
-    forget(run, folder)?;
+fn has_summary(run: &Run, folder: &StudyFolder) -> bool {
+    folder.run(run).join(SUMMARY).is_file()
+}
+
+/// The place of the record of what is computed now: beside that of results that are there.
+fn record_of_now(run: &Run, folder: &StudyFolder) -> PathBuf {
+    match has_summary(run, folder) {
+        true => folder.new_record(run),
+        false => folder.record(run),
+    }
+}
+
+/// Notes that a run is to be done again, though it has results; whoever goes on with the study does it.
+pub(super) fn demand(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
+    Record::for_run(run).write(&record_of_now(run, folder))
+}
+
+/// Whether a run that has results is to be done again all the same.
+pub(super) fn is_demanded(run: &Run, folder: &StudyFolder) -> bool {
+    has_summary(run, folder) && Record::of_new(run, folder).is_some()
+}
+
+/// The folder in which a run is to put its results: its own, or one beside it while that has earlier ones. What is about to be
+/// computed is noted.
+pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> {
+    let place = match has_summary(run, folder) {
+        true => folder.new_run(run),
+        false => folder.run(run),
+    };
     // A link or a file in its place is not ours to remove; the run itself would refuse as well.
-    ResultFolder::check(&folder.run(run), false)?;
-    Record::for_run(run).write(run, folder)
+    ResultFolder::check(&place, true)?;
+    demand(run, folder)?;
+    Ok(place)
 }
 
-/// Removes the results of a run, its summary first.
-pub(super) fn forget(run: &Run, folder: &StudyFolder) -> Result<(), StudyError> {
-    let results = folder.run(run);
-    for (path, is_folder) in [(results.join(SUMMARY), false), (results, true)] {
-        let removed = if is_folder {
-            fs::remove_dir_all(&path)
-        } else {
-            fs::remove_file(&path)
-        };
-        match removed {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                return Err(file_error("remove", &path, error));
-            }
-            _ => {}
-        }
+/// Ends the exchange of results that a kill has cut short, the way that the records say.
+pub(super) fn mend(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
+    let (own, new) = (folder.run(run), folder.new_run(run));
+    let is_of_new = !folder.new_record(run).exists() && new.join(SUMMARY).is_file();
+    if !own.exists() && is_of_new {
+        rename(&new, &own)?;
     }
-    Ok(())
+    Ok(recover(&own, Kind::RUN)?)
+}
+
+/// Puts the results of a run that is done in the place of earlier ones, with their record.
+pub(super) fn complete(run: &Run, folder: &StudyFolder, place: &Path) -> anyhow::Result<()> {
+    let own = folder.run(run);
+    if place == own {
+        return Ok(());
+    }
+    let (new, old) = (folder.new_record(run), folder.record(run));
+    Ok(put_in_place(place, &own, Kind::RUN, || rename(&new, &old))?)
 }
 
 /// Notes why a run failed.
@@ -134,5 +171,5 @@ pub(super) fn fail(run: &Run, folder: &StudyFolder, reason: &str) -> anyhow::Res
         failed: Some(reason.to_owned()),
         ..Record::for_run(run)
     };
-    record.write(run, folder)
+    record.write(&record_of_now(run, folder))
 }

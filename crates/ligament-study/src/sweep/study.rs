@@ -1,6 +1,5 @@
 //! The study file: a base case, axes, derived results and plots, in TOML.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -16,6 +15,7 @@ use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::source::Source;
 use ligament_case::case::values::{require, require_column_name, require_unique};
 use ligament_case::case::{CaseError, Fault, Location};
+use ligament_case::input_file;
 
 /// A study: which cases to run and what to make of their results.
 #[derive(Debug, Clone)]
@@ -146,7 +146,7 @@ impl Study {
     ///
     /// If the file cannot be read, is not TOML, or a key or value of it is wrong.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
-        let text = fs::read_to_string(path).map_err(|source| StudyError::Read {
+        let text = input_file::read_text(path).map_err(|source| StudyError::Read {
             path: path.to_owned(),
             source,
         })?;

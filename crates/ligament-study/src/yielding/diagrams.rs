@@ -55,11 +55,11 @@ const WINDOW: f64 = 4.0;
 
 /// Writes the tables `yield.csv`, `orientation.csv`, `locus.csv` and the diagrams of them.
 pub(super) fn write(
-    folder: &ResultFolder,
+    folder: ResultFolder,
     comparisons: &[Comparison],
     strains: &[Strain],
 ) -> anyhow::Result<()> {
-    write_summary(folder, comparisons)?;
+    write_summary(&folder, comparisons)?;
     let mut orientation = Table::with_header(
         folder.file("orientation.csv"),
         "criterion,family,strain,orientation_deg,error",
@@ -75,7 +75,7 @@ pub(super) fn write(
             folder.write_text(&format!("{}.svg", plot.plot.name), &plot.to_svg()?)?;
         }
     }
-    Ok(())
+    Ok(folder.finish()?)
 }
 
 fn write_summary(folder: &ResultFolder, comparisons: &[Comparison]) -> anyhow::Result<()> {

@@ -86,7 +86,7 @@ fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyh
         &is_interior,
         &sizes,
     )?;
-    Ok(())
+    Ok(folder.finish()?)
 }
 
 /// Each criterion under each strain, with Poisson's ratio of each point, beside a lattice with a horizon of `ratio` spacings.

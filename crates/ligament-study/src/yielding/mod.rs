@@ -59,7 +59,7 @@ fn of_lattices(request: &Request, ratios: &[f64], screen: &mut dyn Write) -> any
         });
     }
     let strains = Strain::of_the_figures(poisson);
-    diagrams::write(&request.folder()?, &comparisons, &strains)?;
+    diagrams::write(request.folder()?, &comparisons, &strains)?;
     writeln!(
         screen,
         "lattices, nu = {poisson}, strains in units of the limit s0t, compressive over tensile strength {}\n",

@@ -53,7 +53,7 @@ pub(super) fn draw(
             return Err(YieldError::NeverYields { of: label }.into());
         }
         comparisons.retain(yields);
-        diagrams::write(&request.folder()?, &comparisons, &strains)?;
+        diagrams::write(request.folder()?, &comparisons, &strains)?;
         writeln!(screen, "{}", heading(&case.case.title))?;
         writeln!(screen, "family of {}\n", model.body().place(point))?;
         for comparison in &comparisons {

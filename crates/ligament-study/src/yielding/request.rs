@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use ligament_case::case::CaseFile;
 use ligament_model::failure::Calibration;
-use ligament_output::folder::ResultFolder;
+use ligament_output::folder::{Kind, ResultFolder};
 
 use super::criteria::{Combination, Strengths};
 use super::error::{RATIOS, YieldError};
@@ -51,6 +51,23 @@ pub enum Place {
     Tag(u64),
 }
 
+/// Files of a folder of yield diagrams, beside those with a criterion in their name.
+const FILES: [&str; 4] = [
+    "distribution.svg",
+    "locus.csv",
+    "orientation.csv",
+    "points.vtu",
+];
+
+/// The folder of yield diagrams.
+const KIND: Kind = Kind {
+    owns: |name| {
+        let is_diagram = |start: &&str| name.starts_with(*start) && name.ends_with(".svg");
+        FILES.contains(&name) || ["bond-", "error-", "locus-"].iter().any(is_diagram)
+    },
+    ..Kind::marked(SUMMARY)
+};
+
 impl Request {
     pub(super) fn check(&self) -> Result<(), YieldError> {
         if let Families::Lattices(ratios) = &self.of
@@ -78,6 +95,6 @@ impl Request {
 
     /// The folder, new or empty.
     pub(super) fn folder(&self) -> Result<ResultFolder, ligament_output::Error> {
-        ResultFolder::create_marked(&self.out, SUMMARY, self.force)
+        ResultFolder::create_marked(&self.out, KIND, self.force)
     }
 }

@@ -70,7 +70,7 @@ fn words(table: &Table, row: &Row, notes: &mut Vec<String>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use ligament_output::folder::ResultFolder;
+    use ligament_output::folder::{Kind, ResultFolder};
 
     use super::files::{SUMMARY, Summary};
     use super::*;
@@ -174,7 +174,8 @@ nu,known,allowed,subset,standing,instead,reason
     fn csv_has_all_digits_and_the_reason() {
         let parent = tempfile::tempdir().unwrap();
         let folder =
-            ResultFolder::create_marked(parent.path().join("out"), SUMMARY, false).unwrap();
+            ResultFolder::create_marked(parent.path().join("out"), Kind::marked(SUMMARY), false)
+                .unwrap();
         let mut summary = Summary::create(&folder).unwrap();
         let findings = findings().unwrap();
         files::write(&folder, &findings).unwrap();

@@ -1,5 +1,7 @@
 //! Places of a setup looked up in its body: groups, boxes, positions.
 
+use std::f64::consts::SQRT_2;
+
 use ligament_model::PointCloud;
 
 use crate::error::{Fault, Field, SetupError};
@@ -29,8 +31,41 @@ impl Places<'_> {
                 }
                 Ok(points)
             }
-            Place::At(position) => Ok(vec![self.cloud.nearest_point(*position)]),
+            Place::At(position) => {
+                let nearest = self.cloud.nearest_point(*position);
+                self.require_on_body(field, *position, nearest)?;
+                Ok(vec![nearest])
+            }
         }
+    }
+}
+
+impl Places<'_> {
+    /// Refuses a position farther from its nearest point than that is from its neighbours: a longest side of its cells, or a
+    /// diagonal of the spacing where there are none.
+    fn require_on_body(
+        &self,
+        field: Field,
+        position: [f64; 2],
+        nearest: u32,
+    ) -> Result<(), SetupError> {
+        let body = &*self.setup.body;
+        let [x, y] = body.positions()[nearest as usize];
+        let corners = body.cells().iter().map(|cell| cell.corners());
+        let around = corners.filter(|it| it.contains(&nearest)).flatten();
+        let reach = around
+            .map(|&corner| body.positions()[corner as usize])
+            .map(|p| (p[0] - x).hypot(p[1] - y))
+            .fold(SQRT_2 * self.cloud.spacing[nearest as usize], f64::max);
+        let distance = (x - position[0]).hypot(y - position[1]);
+        if distance <= reach {
+            return Ok(());
+        }
+        Err(field.error(Fault::OffBody {
+            position,
+            nearest: body.place(nearest),
+            distance,
+        }))
     }
 }
 

@@ -337,7 +337,12 @@ fn check_orthotropic(field: Field, constants: &Orthotropic) -> Checked {
         field.part("elasticity.poisson"),
         "so small that every strain costs energy (nu_12^2 < E_1/E_2, and the like across the plane)",
         constants.poisson,
-    )
+    )?;
+    if constants.has_stiffness() {
+        return Ok(());
+    }
+    let reason = "the constants are too large, too small or too far apart for a stiffness of them in double precision";
+    contradiction(field.part("elasticity"), reason)
 }
 
 fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {

@@ -127,7 +127,8 @@ impl Places<'_> {
                 let found = field::find(body, name, *time_step);
                 let found = found.map_err(|(part, fault)| field.part(part).error(fault))?;
                 let change = |value: &Option<f64>| value.map(|value| value - reference);
-                let values = found.values.iter().map(change).collect();
+                let values = found.at_nodes(body.positions().len());
+                let values = values.iter().map(change).collect();
                 Change::Each(values, "the field has no value")
             }
         })

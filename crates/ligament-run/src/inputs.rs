@@ -1,27 +1,40 @@
 //! What decides about the results of a run: its resolved case and the content of the files that it reads.
 
 use std::collections::HashMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ligament_case::case::CaseFile;
+use ligament_case::case::{CaseFile, Stop};
+use ligament_case::input_file;
 
 /// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Inputs(String);
 
+/// Keys that may be others when a run goes on: none of them changes what was computed before. Load steps that were done must
+/// stay, which the driver sees to.
+pub const MAY_CHANGE: [&str; 8] = [
+    "fracture.stop.load_fraction",
+    "fracture.stop.displacement",
+    "fracture.stop.bonds",
+    "fracture.stop.wall_time",
+    "fracture.steps",
+    "fracture.max_iterations",
+    "output.fields_every",
+    "output.checkpoint_every",
+];
+
 /// Contents of files by their path, each read once.
 #[derive(Debug, Default)]
-pub(crate) struct Contents(HashMap<PathBuf, String>);
+pub struct Contents(HashMap<PathBuf, String>);
 
 impl Contents {
     /// The identity of the content of a file: its size and a digest of its bytes.
-    pub(crate) fn identity(&mut self, path: &Path) -> io::Result<String> {
+    pub fn identity(&mut self, path: &Path) -> io::Result<String> {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
-        let bytes = fs::read(path)?;
+        let bytes = input_file::read(path)?;
         let digest = twox_hash::XxHash64::oneshot(0, &bytes);
         let content = format!("{} bytes, xxh64 {digest:016x}", bytes.len());
         self.0.insert(path.to_owned(), content.clone());
@@ -35,7 +48,7 @@ impl Inputs {
     /// # Errors
     ///
     /// If a file cannot be read, with its path.
-    pub(crate) fn from_case(
+    pub fn from_case(
         case: &CaseFile,
         mesh: Option<&str>,
         contents: &mut Contents,
@@ -61,6 +74,26 @@ impl Inputs {
         }
         // What cannot be written as TOML cannot be run either, and says so there.
         Ok(Self(plain.resolved_toml().unwrap_or_default()))
+    }
+
+    /// The inputs that decide about the course of a run as far as it came: all but those that [`MAY_CHANGE`].
+    ///
+    /// # Errors
+    ///
+    /// If a file cannot be read, with its path.
+    pub fn of_course(case: &CaseFile) -> Result<Self, (PathBuf, io::Error)> {
+        let mut plain = case.clone();
+        plain.case.output.fields_every = None;
+        plain.case.output.checkpoint_every = None;
+        if let Some(fracture) = &mut plain.case.fracture {
+            fracture.max_iterations = None;
+            fracture.steps = None;
+            fracture.stop = Stop {
+                negative_energy: fracture.stop.negative_energy,
+                ..Stop::default()
+            };
+        }
+        Self::from_case(&plain, None, &mut Contents::default())
     }
 
     /// The text of the inputs, as a record keeps it.

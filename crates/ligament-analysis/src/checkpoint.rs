@@ -1,0 +1,40 @@
+//! Why a run cannot go on from a checkpoint.
+
+use thiserror::Error;
+
+use crate::serial::Damaged;
+
+/// Why a run cannot go on from a checkpoint.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CheckpointError {
+    /// The bytes are not those of a checkpoint.
+    #[error(transparent)]
+    Damaged(#[from] Damaged),
+    /// Points, bonds or unknowns are not those of the problem.
+    #[error("it is of another model: points, bonds or what holds them differ")]
+    OtherModel,
+    /// It is of a run that another driver did.
+    #[error(
+        "it is of a run along the exact path where this one takes load steps, or the other way round"
+    )]
+    OtherDriver,
+    /// The loading up to the checkpoint was another one.
+    #[error(
+        "load step {step} was at load factor {was}: the load steps that were done must stay as they are, others may only follow"
+    )]
+    OtherLoading {
+        /// First step that differs.
+        step: usize,
+        /// Load factor of the step as it was done.
+        was: f64,
+    },
+    /// The same numbers come out with other bits.
+    #[error(
+        "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or run \
+         the case anew"
+    )]
+    OtherArithmetic,
+    /// The analysis breaks no bonds.
+    #[error("the analysis breaks no bonds: it has nothing to go on with")]
+    NoFracture,
+}

@@ -1,0 +1,142 @@
+//! How far a run is: what a checkpoint holds of it beside the state, and the run that is read back from one.
+
+use super::recorder::{Energies, StepCounters};
+use super::start::ElasticAnswer;
+use crate::balanced::Balanced;
+use crate::checkpoint::CheckpointError;
+use crate::equilibrium::Equilibrium;
+use crate::error::SetupError;
+use crate::history::StepRecord;
+use crate::problem::Problem;
+use crate::serial;
+use crate::serial::{Damaged, Serial};
+use crate::state::State;
+
+/// The course of a run up to now.
+pub(super) struct Course {
+    pub(super) elastic: ElasticAnswer,
+    pub(super) broken: usize,
+    pub(super) history: Vec<StepRecord>,
+    pub(super) peak: f64,
+    pub(super) energy_was_negative: bool,
+    /// Solves up to the last equilibrium, and up to the last record.
+    pub(super) solves: [usize; 2],
+    pub(super) negative_eigenvalues: usize,
+}
+
+serial!(Course {
+    elastic,
+    broken,
+    history,
+    peak,
+    energy_was_negative,
+    solves,
+    negative_eigenvalues,
+});
+
+/// How far a driver is.
+pub(super) enum Place {
+    /// On the way to the event of this number of the exact path.
+    Event(usize),
+    /// In a load step.
+    LoadStep(InLoadStep),
+}
+
+/// How far a load step is.
+pub(super) struct InLoadStep {
+    pub(super) counters: StepCounters,
+    /// Load factor of the step before.
+    pub(super) load_factor_before: f64,
+    /// Load factors of the steps so far, this one the last; the unloaded body is the first.
+    pub(super) load_factors: Vec<f64>,
+}
+
+serial!(InLoadStep {
+    counters,
+    load_factor_before,
+    load_factors,
+});
+
+impl Serial for Place {
+    fn write(&self, out: &mut Vec<u8>) {
+        match self {
+            Self::Event(step) => {
+                false.write(out);
+                step.write(out);
+            }
+            Self::LoadStep(place) => {
+                true.write(out);
+                place.write(out);
+            }
+        }
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        Ok(if bool::read(from)? {
+            Self::LoadStep(Serial::read(from)?)
+        } else {
+            Self::Event(Serial::read(from)?)
+        })
+    }
+}
+
+/// A run as it was at a moment, in equilibrium and ready to go on.
+pub struct Restored {
+    pub(super) place: Place,
+    pub(super) state: State,
+    pub(super) course: Course,
+    pub(super) equilibrium: Equilibrium,
+    pub(super) balanced: Balanced,
+    pub(super) energies: Energies,
+}
+
+impl Restored {
+    /// Load factor of the moment.
+    pub fn load_factor(&self) -> f64 {
+        self.state.load_factor
+    }
+
+    /// Bonds broken up to the moment.
+    pub fn broken_bonds(&self) -> usize {
+        self.course.broken
+    }
+
+    /// The run that a checkpoint holds.
+    pub(super) fn read(
+        problem: &Problem,
+        energy_tolerance: f64,
+        mut checkpoint: &[u8],
+    ) -> Result<Self, SetupError> {
+        let from = &mut checkpoint;
+        let damaged = CheckpointError::Damaged;
+        let place = Serial::read(from).map_err(damaged)?;
+        let state = State::read(from).map_err(damaged)?;
+        if !state.fits(&*problem.system, &problem.criteria) {
+            return Err(CheckpointError::OtherModel.into());
+        }
+        let course = Serial::read(from).map_err(damaged)?;
+        let (equilibrium, balanced) =
+            Equilibrium::restored(problem, energy_tolerance, &state, from)?;
+        let energies = Energies::read(problem, &state, &balanced, from)?;
+        let proof_then = <[u64; 2]>::read(from).map_err(damaged)?;
+        if !from.is_empty() {
+            return Err(damaged(Damaged).into());
+        }
+        if proof_then != proof(&balanced) {
+            return Err(CheckpointError::OtherArithmetic.into());
+        }
+        Ok(Self {
+            place,
+            state,
+            course,
+            equilibrium,
+            balanced,
+            energies,
+        })
+    }
+}
+
+/// Bits of an equilibrium that hardly any other one has.
+pub(super) fn proof(balanced: &Balanced) -> [u64; 2] {
+    [balanced.stored_energy, balanced.internal.force_scale].map(f64::to_bits)
+}

@@ -1,0 +1,71 @@
+//! Balance of the external forces: what supports, loads and holds exert on a part of a body has no resultant.
+
+use super::equations::Equations;
+use crate::balanced::Balanced;
+use crate::connectivity::Fragments;
+use crate::state::State;
+use crate::unbalanced::Unbalanced;
+
+/// Resultant, relative to the sizes of the external forces on a part and the largest force at a point of the body, above which
+/// they do not balance: loads count as in equilibrium with themselves to the same measure, and solutions are nearer by far.
+const BALANCED: f64 = 1e-6;
+
+/// Sums along one axis, N.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    resultant: f64,
+    size: f64,
+    /// What rounding may leave of the forces.
+    rounding: f64,
+}
+
+/// The first part of the body on which the external forces of a state do not balance along some axis.
+///
+/// Moments are left to the residual: bonds that resist shear between points that do not turn exert couples.
+pub(super) fn imbalance(
+    equations: &Equations,
+    state: &State,
+    balanced: &Balanced,
+    fragments: &Fragments,
+) -> Option<Unbalanced> {
+    let problem = &equations.problem;
+    let layout = problem.system.layout();
+    let n_components = layout.components.len();
+    // At points that are free external forces are the given ones, elsewhere what balances the bonds.
+    let mut external = balanced.internal.values.clone();
+    let dofs = equations.degrees_of_freedom();
+    let given = problem.loads.forces(state.load_factor, dofs);
+    for (&dof, given) in dofs.iter().zip(given) {
+        if !state.held[dof as usize] {
+            external[dof as usize] = given;
+        }
+    }
+    let rounding = equations.rounding(state);
+    let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
+    let of_points = external
+        .chunks(n_components)
+        .zip(rounding.chunks(n_components));
+    for ((forces, rounding), &fragment) in of_points.zip(&fragments.of_point) {
+        let of_part = &mut sums[n_components * fragment as usize..];
+        for ((sum, force), rounding) in of_part.iter_mut().zip(forces).zip(rounding) {
+            sum.resultant += force;
+            sum.size += force.abs();
+            sum.rounding += rounding;
+        }
+    }
+    let of_body = equations.largest_force(balanced.internal.force_scale);
+    let is_off = |(place, sum): &(usize, &Sum)| {
+        let is_force = !layout.components[place % n_components].is_rotation();
+        // What is not a number is off as well.
+        is_force && !(sum.resultant.abs() <= BALANCED * (sum.size + of_body) + sum.rounding)
+    };
+    let (place, sum) = sums.iter().enumerate().find(is_off)?;
+    let points = &fragments.points[place / n_components];
+    Some(Unbalanced::NoForceBalance {
+        component: layout.components[place % n_components],
+        resultant: sum.resultant,
+        size: sum.size,
+        points: points.len(),
+        first: points[0],
+    })
+}

@@ -1,0 +1,228 @@
+//! What of the forces of an iterate is not in balance.
+//!
+//! Each degree of freedom is judged by what can act there: by the largest force that meets at a point of the body, but no more than
+//! its own stiffness would give at the largest deformation. Judged by the stiffest point alone, two points that nearly coincide
+//! would hide what is missing everywhere else.
+
+use ligament_model::Bonds;
+use ligament_model::interface::PointStiffness;
+
+use crate::serial;
+use crate::serial::{Damaged, Serial};
+use crate::unknowns::Layout;
+
+/// Residual, relative to the forces that may act at a point, below which a state is in equilibrium.
+///
+/// With linear bonds one solve gets there; the paper's second iterate, which would only confirm it, is skipped.
+pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-10;
+
+/// What rounding makes of the internal forces of a body that moves freely, relative to the stiffness of a point times the
+/// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
+pub(crate) const ROUNDING: f64 = 1e-14;
+
+/// Forces below this share of the largest so far are rounding of those, to within [`RESIDUAL_TOLERANCE`].
+const UNLOADED: f64 = 1e-5;
+
+/// Force at a held degree of freedom, relative to the forces that may act at a point, above which the hold carries a load.
+///
+/// Loads count as in equilibrium with themselves to the same measure, and the rounding of a solution is far below it.
+const CARRIED: f64 = 1e-6;
+
+/// Stiffnesses that forces are judged by, shape (n_degrees_of_freedom), N/m, and N for moments; 0 where no bond ends.
+#[derive(Debug, Clone)]
+pub(super) struct LocalStiffness {
+    layout: Layout,
+    values: Vec<f64>,
+}
+
+/// The largest of some forces, and of what they are over the stiffness of their points: the size of what goes on in a body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Extent {
+    /// N, of moments N m.
+    force: f64,
+    /// m.
+    deformation: f64,
+}
+
+/// Extents of forces and of moments.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Extents([Extent; 2]);
+
+serial!(Extent { force, deformation });
+
+impl Serial for Extents {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.0.write(out);
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        Serial::read(from).map(Self)
+    }
+}
+
+/// Sizes that a residual is compared with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scales<'a> {
+    stiffness: &'a LocalStiffness,
+    extents: Extents,
+    /// Displacement whose forces are all rounding, m.
+    rounding: f64,
+}
+
+/// The largest relative residual of an iterate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Residual {
+    /// |external - internal force| over what may act there; infinite for what is not a number.
+    pub(super) relative: f64,
+    /// Place of the largest residual.
+    pub(super) degree_of_freedom: u32,
+    /// Degree of freedom with the largest force on a hold that carries one, and the force, N or N m.
+    pub(super) carried: Option<(u32, f64)>,
+}
+
+impl LocalStiffness {
+    /// The stiffnesses of the points of a bond system.
+    pub(super) fn new(system: &dyn Bonds) -> Self {
+        let layout = system.layout();
+        let of_point = |PointStiffness { force, moment }: PointStiffness| {
+            let components = layout.components.iter();
+            components.map(move |it| if it.is_rotation() { moment } else { force })
+        };
+        let points = system.point_stiffness().into_iter();
+        Self {
+            layout,
+            values: points.flat_map(of_point).collect(),
+        }
+    }
+
+    /// The largest stiffness against displacements.
+    pub(super) fn largest(&self) -> f64 {
+        let of_displacements = self.layout.displacements(&self.values);
+        of_displacements.fold(0.0, f64::max)
+    }
+
+    /// Forces that are rounding of a displacement, m, shape (n_degrees_of_freedom).
+    pub(super) fn rounding(&self, displacement: f64) -> Vec<f64> {
+        let stiffnesses = self.values.iter();
+        stiffnesses.map(|it| ROUNDING * displacement * it).collect()
+    }
+
+    /// Extents of forces (n_degrees_of_freedom), N and N m.
+    pub(super) fn extents(&self, forces: &[f64]) -> Extents {
+        let mut extents = Extents::default();
+        let of_points = forces.chunks(self.layout.components.len());
+        for (forces, stiffness) in of_points.zip(self.values.chunks(self.layout.components.len())) {
+            for ((component, force), stiffness) in
+                self.layout.components.iter().zip(forces).zip(stiffness)
+            {
+                extents.0[usize::from(component.is_rotation())].widen(force.abs(), *stiffness);
+            }
+        }
+        extents
+    }
+
+    /// The scales of a state with some extents and a largest displacement, m, for loads (by degree of freedom, N and N m) and
+    /// bonds whose extents were once `largest`.
+    pub(super) fn scales(
+        &self,
+        extents: Extents,
+        largest: Extents,
+        loads: impl Iterator<Item = (u32, f64)>,
+        displacement: f64,
+    ) -> Scales<'_> {
+        let mut extents = extents.or(largest.times(UNLOADED));
+        // A load that no bond carries yet would be measured against nothing.
+        for (dof, load) in loads {
+            let dof = dof as usize;
+            let kind = usize::from(self.layout.component(dof).is_rotation());
+            extents.0[kind].widen(load.abs(), self.values[dof]);
+        }
+        Scales {
+            stiffness: self,
+            extents,
+            rounding: ROUNDING / RESIDUAL_TOLERANCE * displacement,
+        }
+    }
+}
+
+impl Extent {
+    fn widen(&mut self, force: f64, stiffness: f64) {
+        self.force = self.force.max(force);
+        if stiffness > 0.0 {
+            self.deformation = self.deformation.max(force / stiffness);
+        }
+    }
+}
+
+impl Extents {
+    /// The larger of both.
+    pub(super) fn or(self, other: Self) -> Self {
+        Self([0, 1].map(|kind| {
+            let (one, other) = (self.0[kind], other.0[kind]);
+            Extent {
+                force: one.force.max(other.force),
+                deformation: one.deformation.max(other.deformation),
+            }
+        }))
+    }
+
+    /// Largest force that is rounding of these in a body that is unloaded, N.
+    pub(super) fn unloaded_force(self) -> f64 {
+        UNLOADED * self.0[0].force
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|it| Extent {
+            force: factor * it.force,
+            deformation: factor * it.deformation,
+        }))
+    }
+}
+
+impl Scales<'_> {
+    /// Size of what may act at a degree of freedom, N or N m.
+    fn at(self, dof: usize) -> f64 {
+        let stiffness = self.stiffness.values[dof];
+        let kind = usize::from(self.stiffness.layout.component(dof).is_rotation());
+        let Extent { force, deformation } = self.extents.0[kind];
+        if stiffness > 0.0 {
+            force
+                .min(stiffness * deformation)
+                .max(stiffness * self.rounding)
+        } else {
+            force
+        }
+    }
+
+    /// The residual of external less internal forces (by degree of freedom, N and N m), and what of them rests on holds.
+    pub(super) fn residual(
+        self,
+        out_of_balance: impl Iterator<Item = (u32, f64)>,
+        is_held: impl Fn(usize) -> bool,
+    ) -> Residual {
+        let mut residual = Residual {
+            relative: 0.0,
+            degree_of_freedom: 0,
+            carried: None,
+        };
+        let mut most_carried = CARRIED;
+        for (dof, force) in out_of_balance {
+            // `f64::max` would pass over a NaN, and with it over a failed solve.
+            let relative = match force.abs() {
+                0.0 => continue,
+                size if size.is_finite() => size / self.at(dof as usize),
+                _ => f64::INFINITY,
+            };
+            if is_held(dof as usize) {
+                if relative > most_carried {
+                    most_carried = relative;
+                    residual.carried = Some((dof, force));
+                }
+            } else if relative > residual.relative {
+                residual.relative = relative;
+                residual.degree_of_freedom = dof;
+            }
+        }
+        residual
+    }
+}

@@ -1,0 +1,94 @@
+//! How a factor came about: what it was made of, and how it was changed since.
+//!
+//! Changes in place carry rounding from one to the next, so that a factor made from the bonds as they are now has other bits. To go
+//! on with a run bit by bit its factor is made as it was made, and changed as it was changed. That takes a few kilobytes, where the
+//! values of the factor would take most of the memory of the run.
+
+use std::sync::Arc;
+
+use ligament_linalg::{Factorisation, RankOne};
+use ligament_model::BondsLeft;
+use ligament_model::element::Remaining;
+
+use crate::serial;
+use crate::serial::{Damaged, Serial};
+use crate::state::State;
+use crate::stiffness::Stiffness;
+
+/// Bonds and holds that a factor was made of, and all changes since.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Making {
+    /// Whether each bond was unbroken, shape (n_bonds).
+    pub(super) intact: Vec<bool>,
+    /// What was left of softening bonds, shape (n_bonds); empty where none softened.
+    remaining: Vec<Remaining>,
+    /// Degrees of freedom that were held, and so are cut off from the others, shape (n_degrees_of_freedom).
+    pub(super) held: Vec<bool>,
+    /// Changes in place, in their order.
+    pub(super) changes: Vec<Vec<RankOne>>,
+}
+
+serial!(Making {
+    intact,
+    remaining,
+    held,
+    changes
+});
+
+impl Making {
+    /// The beginning of a factor of a state.
+    pub(super) fn begun(state: &State) -> Self {
+        Self {
+            intact: state.intact.clone(),
+            remaining: state.softening.remaining.clone(),
+            held: state.held.clone(),
+            changes: Vec::new(),
+        }
+    }
+
+    /// The bonds that the factor was made of.
+    fn bonds(&self) -> BondsLeft<'_> {
+        BondsLeft {
+            intact: &self.intact,
+            remaining: &self.remaining,
+        }
+    }
+
+    /// Whether all is of a body with these unknowns.
+    pub(super) fn fits(&self, stiffness: &Stiffness) -> bool {
+        let n_bonds = stiffness.system().ends().len();
+        let n_unknowns = stiffness.unknowns().len();
+        let entries = self.changes.iter().flatten().flat_map(|it| &it.entries);
+        self.intact.len() == n_bonds
+            && (self.remaining.is_empty() || self.remaining.len() == n_bonds)
+            && self.held.len() == stiffness.unknowns().layout().n_degrees_of_freedom()
+            && entries
+                .into_iter()
+                .all(|(unknown, _)| *unknown < n_unknowns)
+    }
+
+    /// The factor that comes about so, with the same bits; none where there was none.
+    pub(super) fn factor(&self, stiffness: &Arc<Stiffness>) -> Option<Box<dyn Factorisation>> {
+        let matrix = stiffness.assemble(self.bonds(), &self.held);
+        let kind = stiffness.choice().factorisation;
+        let mut factor = kind.factorise(stiffness.symbolic(), &matrix).ok()?;
+        for terms in &self.changes {
+            factor.change(terms, &[]).ok()?;
+        }
+        Some(factor)
+    }
+}
+
+impl Serial for RankOne {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.weight.write(out);
+        self.entries.write(out);
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        Ok(Self {
+            weight: Serial::read(from)?,
+            entries: Serial::read(from)?,
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! Why no equilibrium was found.
+
+use std::fmt::{self, Display, Formatter};
+
+use ligament_linalg::FactorError;
+
+use crate::unknowns::Component;
+
+/// A component of the motion of a point, where something went wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Point index.
+    pub point: u32,
+    /// Component of its motion.
+    pub component: Component,
+}
+
+/// Why no equilibrium was found: an outcome of the run, not an error.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Unbalanced {
+    /// Newton-Raphson did not get there.
+    NotConverged {
+        /// Relative residual of the last iterate.
+        residual: f64,
+        /// Iterations done.
+        iterations: usize,
+        /// Place of the largest residual.
+        place: Place,
+    },
+    /// A degree of freedom that is held for want of stiffness would have to carry a load.
+    CarriedByHold {
+        /// The held degree of freedom.
+        place: Place,
+        /// Force that it would carry, N or N m.
+        force: f64,
+    },
+    /// Supports, loads and holds do not balance on a part of the body.
+    NoForceBalance {
+        /// Direction of the resultant.
+        component: Component,
+        /// The resultant, N.
+        resultant: f64,
+        /// Sum of the sizes of the forces, N.
+        size: f64,
+        /// Number of points of the part.
+        points: usize,
+        /// First point of the part.
+        first: u32,
+    },
+    /// A force is not a number, or too large for one.
+    ForceOutOfRange {
+        /// A degree of freedom with such a force.
+        place: Place,
+    },
+    /// The stored energy is not a number, or too large for one.
+    EnergyOutOfRange {
+        /// The energy, J.
+        energy: f64,
+    },
+    /// A pivot of the indefinite matrix vanished.
+    VanishingPivot {
+        /// Place of the pivot.
+        place: Place,
+    },
+    /// L L^T was asked for where bonds have negative stiffness, and met a pivot that is not positive.
+    NotPositiveDefinite {
+        /// Place of the pivot.
+        place: Place,
+    },
+    /// The energy of the motions is negative: the stored one, unless the temperature changes.
+    NegativeEnergy {
+        /// The energy of the motions, J.
+        energy: f64,
+    },
+    /// The matrix could not be factorised.
+    NoFactor(FactorError),
+}
+
+impl Place {
+    /// The place in words, with a name for its point.
+    pub fn words(self, name: &dyn Fn(u32) -> String) -> String {
+        format!("{}, component {}", name(self.point), self.component.name())
+    }
+
+    /// Unit of a force at the place.
+    pub fn unit(self) -> &'static str {
+        if self.component.is_rotation() {
+            "N m"
+        } else {
+            "N"
+        }
+    }
+}
+
+impl Unbalanced {
+    /// The reason in words, with names for points.
+    pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
+        match self {
+            Self::NotConverged {
+                residual,
+                iterations,
+                place,
+            } => format!(
+                "Newton-Raphson did not converge: residual {residual:.1e} after {iterations} iterations, largest at {}",
+                place.words(name)
+            ),
+            Self::CarriedByHold { place, force } => format!(
+                "no bond resists the motion of {}, on which {force:.3e} {} act; give it a support, or loads that are in \
+                 equilibrium with themselves",
+                place.words(name),
+                place.unit()
+            ),
+            Self::NoForceBalance {
+                component,
+                resultant,
+                size,
+                points,
+                first,
+            } => format!(
+                "what supports and loads exert on the part of {points} points from {} does not balance: {resultant:.3e} N are left \
+                 along {} of forces of {size:.3e} N in all",
+                name(*first),
+                component.name()
+            ),
+            Self::ForceOutOfRange { place } => format!(
+                "the forces at {} are not a number, or too large for one; look for a size, stiffness or load that is out of \
+                 all proportion",
+                place.words(name)
+            ),
+            Self::EnergyOutOfRange { energy } => format!(
+                "the stored energy is {energy}: look for a size, stiffness or load that is out of all proportion"
+            ),
+            Self::VanishingPivot { place } => format!(
+                "the stiffness lost stability: vanishing pivot at {}",
+                place.words(name)
+            ),
+            Self::NotPositiveDefinite { place } => format!(
+                "the stiffness is not positive definite, as L L^T needs (pivot at {}): bonds have a negative shear stiffness \
+                 (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\"",
+                place.words(name)
+            ),
+            Self::NegativeEnergy { energy } => {
+                format!("the stiffness lost stability: negative strain energy {energy:.3e} J")
+            }
+            Self::NoFactor(error) => format!("the stiffness has no factor: {error}"),
+        }
+    }
+}
+
+impl Display for Unbalanced {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words(&|point| format!("point {point}")))
+    }
+}
+
+impl std::error::Error for Unbalanced {}

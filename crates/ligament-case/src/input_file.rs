@@ -1,0 +1,33 @@
+//! Files that a user names.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// The bytes of a file.
+///
+/// # Errors
+///
+/// If it cannot be read, or is a pipe or a device, which may never end.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = fs::metadata(path)?.file_type();
+    if !kind.is_file() && !kind.is_dir() {
+        let reason = "it is a pipe or a device, which may never end: save what it gives to a file";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
+    }
+    fs::read(path)
+}
+
+/// The text of a file.
+///
+/// # Errors
+///
+/// As [`read`], and if it is not UTF-8.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read(path)?).map_err(|_| {
+        io::Error::new(
+            io::ErrorKind::InvalidData,
+            "stream did not contain valid UTF-8",
+        )
+    })
+}

@@ -1,0 +1,54 @@
+//! `ligament resume`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use ligament_case::case::MOST_THREADS;
+use ligament_run::progress::ProgressMode;
+use ligament_run::resume::Request;
+
+use super::run::tell;
+use crate::stop_signal::StopSignal;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament resume results/disk
+  ligament resume results/disk --set fracture.stop.bonds=400
+  ligament resume results/disk --set fracture.steps=[0.1,0.2,0.3,0.4]
+
+A --set takes what does not change the results so far: fracture.stop.load_fraction, .displacement, .bonds and .wall_time,
+fracture.steps (those that were done must stay, others may follow), fracture.max_iterations, output.fields_every and
+output.checkpoint_every.";
+
+/// `ligament resume`.
+#[derive(Debug, Args)]
+pub struct ResumeArgs {
+    /// The folder of the results of the run
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Change when the run stops, or what it writes from now on, e.g. fracture.stop.bonds=400 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+    /// Threads to compute with [default: as when the run began]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
+    pub threads: Option<u32>,
+    /// Show no progress, only the final result and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+impl ResumeArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
+        let stop = StopSignal::awaited()?;
+        let request = Request {
+            folder: &self.folder,
+            settings: &self.settings,
+            threads: self.threads,
+            is_stopped: &|| stop.came(),
+        };
+        let report = request.resume(ProgressMode::detect(self.quiet))?;
+        tell(&report, &self.folder)
+    }
+}

@@ -1,0 +1,182 @@
+//! Input that is made to hurt.
+
+use super::*;
+use std::fmt::Write as _;
+
+/// A square of two triangles, with `extra` sections behind it.
+fn square(extra: &str) -> String {
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n\
+         $Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n{extra}"
+    )
+}
+
+/// A million of load steps has a row each; more are a slip of a finger.
+#[test]
+fn more_load_steps_than_make_sense_are_refused() {
+    let place = Place::new();
+    for setting in [
+        "fracture.steps=4294967295",
+        "fracture.refine_first_break=4294967295",
+    ] {
+        let output = place.ligament(["check", "case.toml", "--set", setting]);
+        assert_refused(&output, &["1000000"]);
+    }
+}
+
+/// 25 million points are foreseen to take more than there is, before any of them is made; a case may say otherwise.
+#[test]
+fn memory_is_foreseen() {
+    let place = Place::new();
+    for command in ["check", "run"] {
+        let output = place.limited(
+            "ulimit -v 4000000",
+            &format!("{command} case.toml --set lattice.cells=[5000,5000]"),
+        );
+        assert_refused(&output, &["GB of memory", "solver.memory"]);
+    }
+    let output = place.ligament(["run", "case.toml", "--set", "solver.memory=1e-3"]);
+    assert_refused(&output, &["there are 0.0 GB for it"]);
+    assert!(!place.path("results").exists());
+    assert_success(&place.ligament(["run", "case.toml", "--set", "solver.memory=1"]));
+}
+
+/// `check` tells what fields and bonds will take on the disk.
+#[test]
+fn room_on_the_disk_is_foreseen() {
+    let place = Place::new();
+    let output = place.ligament([
+        "check",
+        "case.toml",
+        "--set",
+        "output.bonds=true",
+        "--set",
+        "output.fields_every=1",
+    ]);
+    assert_success(&output);
+    let told = stdout(&output);
+    let line = told
+        .lines()
+        .find(|line| line.contains("fields on disk"))
+        .unwrap();
+    assert!(
+        line.contains("states of") && line.contains("are free"),
+        "{line}"
+    );
+}
+
+/// Sections without values cost nothing, however many there are.
+#[test]
+fn empty_sections_of_a_mesh_take_no_memory() {
+    let place = Place::new();
+    let mut nodes = String::new();
+    for node in 1..=200_u32 {
+        for row in 1..=200_u32 {
+            let _ = writeln!(nodes, "{} {node} {row} 0", 200 * (node - 1) + row);
+        }
+    }
+    let mut cells = String::new();
+    for (cell, corner) in (0..199_u32)
+        .flat_map(|x| (1..200_u32).map(move |y| 200 * x + y))
+        .enumerate()
+    {
+        let [a, b, c, d] = [corner, corner + 200, corner + 201, corner + 1];
+        let _ = writeln!(cells, "{} 3 2 1 1 {a} {b} {c} {d}", cell + 1);
+    }
+    let empty = "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n1\n0\n$EndNodeData\n".repeat(10_000);
+    let mesh = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n40000\n{nodes}$EndNodes\n$Elements\n39601\n{cells}$EndElements\n{empty}"
+    );
+    fs::write(place.path("many.msh"), mesh).unwrap();
+    assert_success(&place.limited("ulimit -v 1500000", "inspect many.msh"));
+}
+
+/// A name has any length, a column has not.
+#[test]
+fn a_name_may_be_longer_than_a_column() {
+    let place = Place::new();
+    let name = "n".repeat(70_000);
+    let names = format!("$PhysicalNames\n1\n2 1 \"{name}\"\n$EndPhysicalNames\n");
+    fs::write(place.path("long.msh"), square(&names)).unwrap();
+    let output = place.ligament(["inspect", "long.msh"]);
+    assert_success(&output);
+    assert!(stdout(&output).contains(&name));
+}
+
+/// Constants whose products leave the range of double precision have no stiffness.
+#[test]
+fn constants_without_a_stiffness_are_refused() {
+    let place = Place::new();
+    let orthotropic = "young_1 = 1e10\nyoung_2 = 1e9\npoisson_12 = 0.2\nshear_modulus = 1e9\n";
+    let case = CASE
+        .replace("young = 1e9\npoisson = 0.2\n", orthotropic)
+        .replace("nhpd", "orthotropic");
+    fs::write(place.path("orthotropic.toml"), case).unwrap();
+    for key in ["young_1", "shear_modulus"] {
+        let setting = format!("material.{key}=1e308");
+        let output = place.ligament(["check", "orthotropic.toml", "--set", &setting]);
+        assert_refused(&output, &["double precision"]);
+    }
+}
+
+/// Pipes and devices are refused at once wherever a file is to be read.
+#[test]
+fn pipes_and_devices_are_refused() {
+    let place = Place::new();
+    assert!(
+        Command::new("mkfifo")
+            .arg(place.path("pipe"))
+            .status()
+            .unwrap()
+            .success()
+    );
+    for arguments in [
+        &["inspect", "pipe"][..],
+        &["inspect", "/dev/zero"],
+        &["run", "pipe"],
+        &["sweep", "pipe"],
+        &["new", "pipe", "--out", "new.toml"],
+    ] {
+        assert_refused(&place.ligament(arguments), &["pipe or a device"]);
+    }
+    place.run();
+    fs::remove_file(place.path("out/history.csv")).unwrap();
+    fs::rename(place.path("pipe"), place.path("out/history.csv")).unwrap();
+    let output = place.ligament(["explain", "out", "--at", "0.05,0.03"]);
+    assert_eq!(output.status.code(), Some(1));
+}
+
+/// Titles and names come from others: what they hold is shown, not sent to the terminal.
+#[test]
+fn escape_sequences_are_not_sent() {
+    let place = Place::new();
+    let case = CASE.replace("Small bar", "Small\\u001b]0;renamed\\u0007 bar\\u009b2J");
+    fs::write(place.path("case.toml"), case).unwrap();
+    fs::write(
+        place.path("names.msh"),
+        square("$PhysicalNames\n1\n2 1 \"a\u{1b}[31mred\"\n$EndPhysicalNames\n"),
+    )
+    .unwrap();
+    for arguments in [
+        ["run", "case.toml"],
+        ["check", "case.toml"],
+        ["inspect", "names.msh"],
+    ] {
+        let output = place.ligament(arguments);
+        let said = stdout(&output) + &stderr(&output);
+        assert_success(&output);
+        assert!(said.contains("\\u{1b}"), "{said}");
+        assert!(!said.contains(['\u{1b}', '\u{7}', '\u{9b}']), "{said:?}");
+    }
+}
+
+/// The case of a study may have a name that looks like an option.
+#[test]
+fn a_name_is_no_option() {
+    let place = Place::new();
+    fs::write(place.path("-case.toml"), CASE).unwrap();
+    let study =
+        "case = \"-case.toml\"\n[[axis]]\nkey = \"model.horizon_factor\"\nvalues = [2.2, 2.4]\n";
+    fs::write(place.path("study.toml"), study).unwrap();
+    assert_success(&place.ligament(["sweep", "study.toml", "--out", "./-out"]));
+}

@@ -1,0 +1,108 @@
+//! Kinds of result folders: the file that shows what a folder holds, and the files that are the program's own.
+
+/// The file that every run writes first; it shows that a folder holds the results of a run.
+pub const RESOLVED_CASE: &str = "case.resolved.toml";
+
+/// The file that is locked while something writes to a folder.
+pub(super) const LOCK: &str = ".lock";
+
+/// The file that shows that a folder was moved aside to be replaced, and may be removed.
+pub(super) const REPLACED: &str = ".replaced";
+
+/// Files of a run whose names do not vary.
+const OF_A_RUN: [&str; 12] = [
+    RESOLVED_CASE,
+    "breaks.csv",
+    "criteria.csv",
+    "history.csv",
+    "iterations.csv",
+    "model.vtu",
+    "modes.csv",
+    "summary.json",
+    "timings.csv",
+    "fields.pvd",
+    "bonds.pvd",
+    "modes.pvd",
+];
+
+/// Files of a run that have a number, by what stands before it.
+const NUMBERED: [&str; 3] = ["fields_", "bonds_", "mode_"];
+
+/// A kind of result folder.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// The file by which the folder is recognised; what writes a folder writes this file first.
+    pub marker: &'static str,
+    /// Whether a file of this name is the program's own, so that it goes when the folder is replaced. Files that the new
+    /// results have too need not be told.
+    pub owns: fn(&str) -> bool,
+    /// Whether a folder of this name in the folder holds a run of its own.
+    pub holds_run: fn(&str) -> bool,
+}
+
+impl Kind {
+    /// The kind of the results of a run.
+    pub const RUN: Self = Self {
+        marker: RESOLVED_CASE,
+        owns: is_of_a_run,
+        holds_run: |_| false,
+    };
+
+    /// A kind without files that vary from one time to the next.
+    pub const fn marked(marker: &'static str) -> Self {
+        Self {
+            marker,
+            owns: |_| false,
+            holds_run: |_| false,
+        }
+    }
+
+    /// Whether a file of this name may be removed with the results.
+    pub(super) fn may_remove(self, name: &str) -> bool {
+        name == self.marker || name == LOCK || name == REPLACED || {
+            let whole = unfinished(name).unwrap_or(name);
+            (self.owns)(whole)
+        }
+    }
+}
+
+/// The name of the file that a temporary file `.NAME.PROCESS.partial` was to become.
+fn unfinished(name: &str) -> Option<&str> {
+    let inner = name.strip_prefix('.')?.strip_suffix(".partial")?;
+    let (whole, process) = inner.rsplit_once('.')?;
+    is_number(process).then_some(whole)
+}
+
+fn is_of_a_run(name: &str) -> bool {
+    let number = |start: &&str| name.strip_prefix(*start)?.strip_suffix(".vtu");
+    let is_numbered = NUMBERED.iter().filter_map(number).any(is_number);
+    OF_A_RUN.contains(&name) || is_numbered || name.starts_with("checkpoint")
+}
+
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|letter| letter.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_a_run_are_told_from_others() {
+        let own = [
+            "fields_0000.vtu",
+            "bonds_12345.vtu",
+            ".summary.json.4711.partial",
+            ".lock",
+        ];
+        assert!(own.iter().all(|name| Kind::RUN.may_remove(name)));
+        let foreign = [
+            "thesis.tex",
+            "fields_0000.png",
+            "fields_a.vtu",
+            "my-history.csv",
+            ".thesis.tex.1.partial",
+        ];
+        assert!(!foreign.iter().any(|name| Kind::RUN.may_remove(name)));
+    }
+}

@@ -1,0 +1,159 @@
+//! Results that take the place of earlier ones once they are complete.
+//!
+//! New results of a folder `NAME` are made in `NAME.new` beside it. When they are complete `NAME` is renamed to `NAME.replaced`
+//! and `NAME.new` to `NAME`; then files that are not the program's own move over, and the rest of the old folder goes. A kill
+//! between these steps leaves both whole, and [`recover`] goes on from there.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::kind::{Kind, REPLACED};
+use crate::Error;
+use crate::atomic::rename;
+
+/// A folder with `suffix` behind its name.
+///
+/// # Errors
+///
+/// If the path has no name, as `..`.
+pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
+    let name = folder.file_name();
+    let name = name.ok_or_else(|| Error::UnnamedFolder(folder.to_path_buf()))?;
+    let mut longer = OsString::from(name);
+    longer.push(suffix);
+    Ok(folder.with_file_name(longer))
+}
+
+/// The place where new results of a folder are made.
+pub(super) fn beside(folder: &Path) -> Result<PathBuf, Error> {
+    sibling(folder, ".new")
+}
+
+/// The folder whose new results are made in this one.
+pub(super) fn behind(new: &Path) -> Option<PathBuf> {
+    let name = new.file_name()?.to_str()?.strip_suffix(".new")?;
+    Some(new.with_file_name(name))
+}
+
+/// The place that the old results are moved to, which must be free.
+pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
+    let aside = sibling(folder, ".replaced")?;
+    // `exists` would follow a dangling link.
+    match fs::symlink_metadata(&aside) {
+        Ok(_) => Err(Error::ReplacedExists(aside)),
+        Err(_) => Ok(aside),
+    }
+}
+
+/// Puts a folder in the place of another one; in between, where no results are at that place, does `meanwhile`.
+///
+/// # Errors
+///
+/// If something cannot be renamed; the old results are then where they were. What cannot be removed stays in
+/// `NAME.replaced`.
+pub fn put_in_place(
+    new: &Path,
+    folder: &Path,
+    kind: Kind,
+    meanwhile: impl FnOnce() -> Result<(), Error>,
+) -> Result<(), Error> {
+    let aside = free_place_aside(folder)?;
+    let mark = folder.join(REPLACED);
+    fs::write(&mark, "").map_err(Error::system("write", &mark))?;
+    fs::rename(folder, &aside).map_err(Error::system("move aside", folder))?;
+    let put = meanwhile().and_then(|()| rename(new, folder));
+    if let Err(error) = put {
+        // Back to where it was, if that still works; the failure to report is the first one.
+        let _ = fs::rename(&aside, folder);
+        return Err(error);
+    }
+    move_foreign(&aside, folder, kind)
+}
+
+/// Ends a replacement that a kill has cut short.
+///
+/// # Errors
+///
+/// If something cannot be renamed or removed.
+pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
+    let Ok(aside) = sibling(folder, ".replaced") else {
+        return Ok(());
+    };
+    if !aside.join(REPLACED).is_file() || fs::symlink_metadata(&aside).is_ok_and(|it| !it.is_dir())
+    {
+        return Ok(());
+    }
+    if fs::symlink_metadata(folder).is_err() {
+        let new = beside(folder)?;
+        // Without new results the old ones go back.
+        let whole = if new.join(kind.marker).is_file() {
+            &new
+        } else {
+            &aside
+        };
+        rename(whole, folder)?;
+    }
+    match aside.is_dir() {
+        true => move_foreign(&aside, folder, kind),
+        false => Ok(()),
+    }
+}
+
+/// Removes the program's own files from a folder and moves all others to another one; the old folder goes with its last file.
+fn move_foreign(old: &Path, new: &Path, kind: Kind) -> Result<(), Error> {
+    let mut own = Vec::new();
+    for name in names(old)? {
+        let (from, to) = (old.join(&name), new.join(&name));
+        let text = name.to_string_lossy();
+        let is_folder = fs::symlink_metadata(&from).is_ok_and(|it| it.is_dir());
+        let is_taken = fs::symlink_metadata(&to).is_ok();
+        if is_folder && (kind.holds_run)(&text) {
+            fs::create_dir_all(&to).map_err(Error::system("create", &to))?;
+            move_foreign(&from, &to, Kind::RUN)?;
+            if is_empty(&to) {
+                fs::remove_dir(&to).map_err(Error::system("remove", &to))?;
+            }
+        } else if !is_folder && (is_taken || kind.may_remove(&text)) {
+            own.push(from);
+        } else if !is_taken {
+            rename(&from, &to)?;
+        }
+    }
+    // The mark goes last, so that a kill on the way is noticed.
+    own.sort_by_key(|path| path.ends_with(REPLACED));
+    for path in own {
+        fs::remove_file(&path).map_err(Error::system("remove", &path))?;
+    }
+    fs::remove_dir(old).map_err(Error::system("remove", old))
+}
+
+/// Removes the program's own files from a folder; all others stay.
+pub(super) fn clear(folder: &Path, kind: Kind) -> Result<(), Error> {
+    let mut names = names(folder)?;
+    // Without its marker the folder would be nobody's: after a kill on the way it is cleared again.
+    names.sort_by_key(|name| name == kind.marker);
+    for name in names {
+        let (path, text) = (folder.join(&name), name.to_string_lossy());
+        let is_folder = fs::symlink_metadata(&path).is_ok_and(|it| it.is_dir());
+        if is_folder && (kind.holds_run)(&text) {
+            clear(&path, Kind::RUN)?;
+            // Where a file of somebody else is left the folder stays.
+            let _ = fs::remove_dir(&path);
+        } else if !is_folder && text != super::kind::LOCK && kind.may_remove(&text) {
+            fs::remove_file(&path).map_err(Error::system("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
+fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
+    let entries = fs::read_dir(folder).map_err(Error::system("list", folder))?;
+    let names: io::Result<Vec<OsString>> = entries.map(|it| it.map(|it| it.file_name())).collect();
+    names.map_err(Error::system("list", folder))
+}
+
+fn is_empty(folder: &Path) -> bool {
+    fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
+}

@@ -1,0 +1,57 @@
+//! What a run has written up to a moment, for it to go on there later.
+
+use std::fs;
+
+use ligament_analysis::driver::Problem;
+use ligament_analysis::serial;
+
+use super::largest::Largest;
+use super::tables::{FILES, Written};
+use crate::folder::ResultFolder;
+
+/// What a run has written up to a moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoFar {
+    pub(super) tables: Written,
+    /// Times and names of the field files.
+    pub(super) fields: Vec<(f64, String)>,
+    /// Times and names of the files of bonds.
+    pub(super) bonds: Vec<(f64, String)>,
+    /// Broken bonds with their steps.
+    pub(super) breaks: Vec<(u32, u32)>,
+    pub(super) largest: Option<Largest>,
+}
+
+serial!(SoFar {
+    tables,
+    fields,
+    bonds,
+    breaks,
+    largest
+});
+
+impl SoFar {
+    /// Whether it is of a run of this problem.
+    pub fn fits(&self, problem: &Problem) -> bool {
+        let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());
+        let mut bonds = self.breaks.iter().map(|(bond, _)| *bond as usize);
+        let mut largest = self.largest.iter();
+        bonds.all(|bond| bond < n_bonds) && largest.all(|it| it.fits(n_bonds, n_criteria))
+    }
+
+    /// Why a run cannot go on from there with what its folder holds; `None` if it can.
+    pub fn obstacle(&self, folder: &ResultFolder) -> Option<String> {
+        for (name, &length) in FILES.iter().zip(&self.tables.lengths) {
+            let found = fs::metadata(folder.file(name)).map_or(0, |it| it.len());
+            if found < length {
+                return Some(format!(
+                    "{name} has {found} bytes where it had {length} when its checkpoint was written"
+                ));
+            }
+        }
+        let mut named = self.fields.iter().chain(&self.bonds).map(|(_, name)| name);
+        named
+            .find(|name| !folder.file(name).is_file())
+            .map(|name| format!("{name} is missing"))
+    }
+}

@@ -1,0 +1,73 @@
+//! Room that the results of a case take on a disk, foreseen, and what there is.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use ligament::Model;
+use ligament::setup::Analysis;
+use ligament_case::case::CaseFile;
+
+/// Bytes of a point in a file of fields, compressed: 60 to 130 in runs of 846 to 10,700 points.
+const POINT: f64 = 130.0;
+
+/// Bytes of a bond in a file of bonds, compressed: 30 to 45.
+const BOND: f64 = 45.0;
+
+/// The room that fields take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldsOnDisk {
+    /// Bytes of the files of one state.
+    pub of_one: f64,
+    /// Number of states at most; None on the exact path, which has as many events as it takes.
+    pub most: Option<usize>,
+    /// Steps or events between two states; 0 for the first and the last one alone.
+    pub every: usize,
+}
+
+impl FieldsOnDisk {
+    /// The room that the fields of a case take.
+    pub fn new(case: &CaseFile, model: &Model) -> Self {
+        let output = &case.case.output;
+        let every = output.fields_every.unwrap_or_default() as usize;
+        let bonds = if output.bonds {
+            BOND * model.system.bonds.len() as f64
+        } else {
+            0.0
+        };
+        let most = match &model.setup.analysis {
+            _ if every == 0 => Some(2),
+            Analysis::Event(_) => None,
+            Analysis::Stepped(settings) => {
+                let refined = settings.load_factors.len() + settings.refine_first_break;
+                Some(refined / every + 2)
+            }
+            Analysis::Elastic { .. } | Analysis::Modal(_) => Some(2),
+        };
+        Self {
+            of_one: POINT * model.system.cloud.len() as f64 + bonds,
+            most,
+            every,
+        }
+    }
+
+    /// Bytes of all states, where their number is known.
+    pub fn all(&self) -> Option<f64> {
+        Some(self.of_one * self.most? as f64)
+    }
+}
+
+/// Free bytes of the file system of a folder, as the program `df` of POSIX tells; None where there is none.
+pub fn free(folder: &Path) -> Option<f64> {
+    let mut command = Command::new("df");
+    command.arg("-Pk").arg(folder).stdin(Stdio::null());
+    let output = command.output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let kibibytes: f64 = text
+        .lines()
+        .nth(1)?
+        .split_whitespace()
+        .nth(3)?
+        .parse()
+        .ok()?;
+    Some(1024.0 * kibibytes)
+}

@@ -1,0 +1,108 @@
+//! A body under loads, from its first state or from a checkpoint, to results in a folder.
+
+use anyhow::Context;
+use ligament::run::{follow, resume};
+use ligament::setup::Analysis;
+use ligament::{Loading, Model};
+use ligament_analysis::driver::Restored;
+use ligament_case::case::{CaseFile, StressField};
+use ligament_output::folder::ResultFolder;
+use ligament_output::results::{ResultWriter, SoFar, Time, WriteRule};
+
+use crate::checkpoints::Checkpoints;
+use crate::inputs::Inputs;
+use crate::progress::Progress;
+use crate::stages::Stages;
+use crate::summary::Summary;
+use crate::watch::Watch;
+
+/// Name of the file with all numbers of a run.
+pub(crate) const SUMMARY: &str = "summary.json";
+
+/// Tells whether the user wants a run to stop.
+pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// A body under loads, and the folder of its results.
+pub(crate) struct LoadedBody<'a> {
+    pub(crate) case: &'a CaseFile,
+    pub(crate) model: &'a Model,
+    pub(crate) loading: &'a Loading,
+    pub(crate) folder: &'a ResultFolder,
+    pub(crate) is_stopped: IsStopped<'a>,
+}
+
+/// Where a run begins if not with the unloaded body.
+pub(crate) struct Kept {
+    pub(crate) restored: Restored,
+    pub(crate) results: SoFar,
+    pub(crate) notices: Vec<String>,
+}
+
+impl LoadedBody<'_> {
+    /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder.
+    pub(crate) fn follow(
+        &self,
+        kept: Option<Kept>,
+        stages: &mut Stages,
+        progress: &mut Progress,
+    ) -> anyhow::Result<Summary> {
+        let Self {
+            case,
+            model,
+            loading,
+            folder,
+            is_stopped,
+        } = *self;
+        let problem = loading.problem(&model.system, &model.criteria);
+        let analysis = &model.setup.analysis;
+        let grid = model.body().grid();
+        let (fixed, rule) = (&model.fixed, self.rule());
+        let inputs = Inputs::of_course(case).map_err(|(path, error)| {
+            anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
+        })?;
+        let every = case.case.output.checkpoint_every;
+        let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
+        let (writer, notices, restored) = match kept {
+            None => {
+                let writer = ResultWriter::new(folder, &grid, fixed, rule, &problem)?;
+                (writer, Vec::new(), None)
+            }
+            Some(kept) => {
+                let results = kept.results;
+                let writer = ResultWriter::cut_back(folder, &grid, fixed, rule, &problem, results)?;
+                (writer, kept.notices, Some(kept.restored))
+            }
+        };
+        let watched = (writer, checkpoints);
+        let mut watch = Watch::new(watched, is_stopped, progress, &model.setup, notices);
+        let outcome = stages.time("solution", || match restored {
+            None => follow(&problem, analysis, &mut watch),
+            Some(restored) => resume(&problem, analysis, restored, &mut watch),
+        })?;
+
+        let (notices, checkpoints) = watch.into_parts();
+        let boundary = &loading.boundary;
+        let summary = Summary::new(case, model, boundary, &outcome, notices, stages.done());
+        let text = serde_json::to_string_pretty(&summary)
+            .context("the summary cannot be written as JSON")?;
+        folder.write_text(SUMMARY, &(text + "\n"))?;
+        checkpoints.end(&outcome.termination)?;
+        Ok(summary)
+    }
+
+    /// What is written, and when.
+    fn rule(&self) -> WriteRule {
+        let output = &self.case.case.output;
+        WriteRule {
+            fields_every: output.fields_every.unwrap_or_default() as usize,
+            bonds: output.bonds,
+            model: output.model,
+            virial: output.stress.contains(&StressField::Virial),
+            traction: output.stress.contains(&StressField::Traction),
+            time: match self.model.setup.analysis {
+                Analysis::Event(_) => Time::Step,
+                _ => Time::Load,
+            },
+        }
+    }
+}

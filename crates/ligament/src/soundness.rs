@@ -1,0 +1,186 @@
+//! Whether points and bonds are fit for a computation: what no equation would tell.
+
+use ligament_model::bonds::outline::first_crossing;
+use ligament_model::element::Rigidities;
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
+
+use crate::body::Body;
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Horizon, Setup};
+
+/// Part of the size of a point below which its nearest point is one with it.
+///
+/// Double nodes of exports in single precision lie up to 1e-7 of the body's size apart, 1e-5 of cells of a hundredth of it. Of two
+/// points nearer than this one bond would be 1e5 times as stiff as all others.
+const DISTINCT: f64 = 1e-5;
+
+/// Refuses cells that lie on others.
+pub(crate) fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
+    let Some([from, to]) = first_crossing(body.cells(), cloud) else {
+        return Ok(());
+    };
+    Err(Field::whole("body").error(Fault::Overlap {
+        from: body.place(from),
+        to: body.place(to),
+    }))
+}
+
+/// Refuses points that nearly coincide, measured by the side of the square of their area.
+pub(crate) fn require_distinct(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
+    let size = |point: usize| (cloud.volumes[point] / cloud.thickness).sqrt();
+    let is_near = |&point: &usize| cloud.spacing[point] < DISTINCT * size(point);
+    let Some(point) = (0..cloud.len()).find(is_near) else {
+        return Ok(());
+    };
+    let from = cloud.positions[point];
+    let distance = |other: &usize| {
+        let to = cloud.positions[*other];
+        (to[0] - from[0]).hypot(to[1] - from[1])
+    };
+    let others = (0..cloud.len()).filter(|other| *other != point);
+    let other = others.min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    let other = other.unwrap_or(point);
+    Err(Field::whole("body").error(Fault::NearPoints {
+        places: [point, other].map(|it| body.place(it as u32)),
+        distance: distance(&other),
+        size: size(point),
+    }))
+}
+
+/// Refuses points that have no neighbour at all: no correction gives them a stiffness.
+fn require_neighbours(body: &dyn Body, bonds: &BondSet) -> Result<(), SetupError> {
+    let lone = bonds.lone_points();
+    let Some(&first) = lone.first() else {
+        return Ok(());
+    };
+    let fault = Fault::LonePoints {
+        count: lone.len(),
+        n_points: bonds.incidence.n_points(),
+        first: body.place(first),
+    };
+    Err(Field::whole("horizon").error(fault))
+}
+
+/// Refuses bonds that leave points alone, or a body of cells in more parts than it has.
+pub(crate) fn require_connected(
+    setup: &Setup,
+    cloud: &PointCloud,
+    horizons: &Horizons,
+    bonds: &BondSet,
+) -> Result<(), SetupError> {
+    require_neighbours(&*setup.body, bonds)?;
+    require_whole(setup, cloud, horizons, bonds)
+}
+
+/// Refuses bonds that leave a body of cells in more parts than it has: sides of its cells are longer than the horizons.
+fn require_whole(
+    setup: &Setup,
+    cloud: &PointCloud,
+    horizons: &Horizons,
+    bonds: &BondSet,
+) -> Result<(), SetupError> {
+    let body = &*setup.body;
+    let corners = body.cells().iter().map(|cell| cell.corners());
+    let sides = corners.flat_map(|it| (0..it.len()).map(|k| [it[k], it[(k + 1) % it.len()]]));
+    let parts = Parts::new(cloud.len(), bonds.ends.iter().copied());
+    // A side whose ends hang together in the body, but not by its bonds.
+    let length = |&[from, to]: &[u32; 2]| {
+        let [from, to] = [from, to].map(|it| cloud.positions[it as usize]);
+        (to[0] - from[0]).hypot(to[1] - from[1])
+    };
+    let radius = |&[from, to]: &[u32; 2]| {
+        let [from, to] = [from, to].map(|it| horizons.radius[it as usize]);
+        from.max(to)
+    };
+    let torn =
+        sides.filter(|ends| parts.of(ends[0]) != parts.of(ends[1]) && length(ends) > radius(ends));
+    let Some(worst) = torn.max_by(|one, other| {
+        (length(one) / radius(one)).total_cmp(&(length(other) / radius(other)))
+    }) else {
+        return Ok(());
+    };
+    let of_mesh = Parts::new(
+        cloud.len(),
+        body.cells().iter().flat_map(|cell| {
+            let corners = cell.corners();
+            corners.iter().map(|&it| [corners[0], it])
+        }),
+    );
+    let [from, to] = worst.map(|it| cloud.positions[it as usize]);
+    let excess = length(&worst) / radius(&worst);
+    Err(Field::whole("horizon").error(Fault::Torn {
+        parts: parts.count(),
+        of_body: of_mesh.count(),
+        places: worst.map(|it| body.place(it)),
+        along: [0, 1].map(|axis| (to[axis] - from[axis]).abs() / length(&worst)),
+        length: length(&worst),
+        horizon: radius(&worst),
+        remedy: match setup.horizon {
+            Horizon::Factor(factor) => format!("a horizon factor above {:.2}", factor * excess),
+            Horizon::Length(length) => format!("a horizon above {:.4e} m", length * excess),
+        },
+    }))
+}
+
+/// Refuses bonds whose stiffness is no number that equations can be made of.
+pub(crate) fn require_numbers(body: &dyn Body, system: &BondSystem) -> Result<(), SetupError> {
+    let Rigidities {
+        axial,
+        shear,
+        rotational,
+    } = &system.rigidities;
+    let is_wrong = |bond: &usize| {
+        let mut all = [axial, shear, rotational].into_iter().map(|it| it[*bond]);
+        all.any(|it| !it.is_finite())
+    };
+    if let Some(bond) = (0..axial.len()).find(is_wrong) {
+        return Err(Field::whole("materials").error(Fault::NoNumber {
+            places: system.bonds.ends[bond].map(|end| body.place(end)),
+        }));
+    }
+    // The square of a strain of one in 10^14 counts as well.
+    let sizes = axial.iter().map(|it| it.abs());
+    let largest = sizes.fold(0.0, f64::max);
+    if axial.is_empty() || (1e-270..1e270).contains(&largest) {
+        return Ok(());
+    }
+    Err(Field::whole("materials").error(Fault::OutOfNumbers { rigidity: largest }))
+}
+
+/// Points that hang together by pairs.
+struct Parts {
+    /// The first point of the part of each point.
+    first: Vec<u32>,
+}
+
+impl Parts {
+    fn new(n_points: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
+        let mut first: Vec<u32> = (0..n_points as u32).collect();
+        let root = |first: &mut [u32], mut point: u32| {
+            while first[point as usize] != point {
+                first[point as usize] = first[first[point as usize] as usize];
+                point = first[point as usize];
+            }
+            point
+        };
+        for [one, other] in pairs {
+            let roots = [one, other].map(|it| root(&mut first, it));
+            first[roots[0].max(roots[1]) as usize] = roots[0].min(roots[1]);
+        }
+        for point in 0..n_points as u32 {
+            first[point as usize] = root(&mut first, point);
+        }
+        Self { first }
+    }
+
+    fn of(&self, point: u32) -> u32 {
+        self.first[point as usize]
+    }
+
+    fn count(&self) -> usize {
+        let firsts = self.first.iter().enumerate();
+        firsts
+            .filter(|(point, first)| *point == **first as usize)
+            .count()
+    }
+}

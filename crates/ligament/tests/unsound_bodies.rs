@@ -1,0 +1,128 @@
+//! Bodies that no equation would refuse are refused with the place, the reason and what to do.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use ligament::prelude::*;
+use ligament::warning::Warning;
+use ligament_mesh::{Cell, Mesh};
+
+/// The number of cells a side of a square plate.
+const SIDE: u32 = 6;
+
+/// A plate of cells with these sides, m, with `moved` places of its nodes.
+fn plate(sides: [f64; 2], moved: impl Fn(&mut Vec<[f64; 2]>)) -> Setup {
+    let n = SIDE + 1;
+    let place = |k: u32| [f64::from(k % n) * sides[0], f64::from(k / n) * sides[1]];
+    let mut positions: Vec<[f64; 2]> = (0..n * n).map(place).collect();
+    moved(&mut positions);
+    let cell = |k: u32| {
+        let first = k / SIDE * n + k % SIDE;
+        Cell::Quadrangle([first, first + 1, first + n + 1, first + n])
+    };
+    let mesh = Mesh {
+        node_tags: (1..=u64::from(n * n)).collect(),
+        positions,
+        cells: (0..SIDE * SIDE).map(cell).collect(),
+        ..Mesh::default()
+    };
+    let left = Place::Box([[-1.0, -1.0], [1e-3 * sides[0], 1e3]]);
+    let mut setup = Setup::new(
+        MeshBody::from(mesh),
+        Material::isotropic(15e9, 1.0 / 3.0),
+        Law::Nhpd,
+    );
+    setup.supports = vec![Support::new(left, &[Component::X, Component::Y])];
+    setup.loads = vec![Load::new(
+        Place::At([6.0 * sides[0], 3.0 * sides[1]]),
+        Action::Force([1.0, 0.0]),
+    )];
+    setup
+}
+
+fn error(setup: Setup) -> String {
+    setup.solve(&mut Unobserved).unwrap_err().to_string()
+}
+
+#[test]
+fn the_plate_itself_is_right() {
+    let solution = plate([0.01; 2], |_| ()).solve(&mut Unobserved).unwrap();
+    assert!(solution.outcome.history.last().unwrap().displacement > 0.0);
+}
+
+/// Corners of cells that are all but one point: their bond would be a hundred million times as stiff as the others.
+#[test]
+fn points_that_nearly_coincide_are_named() {
+    let found = error(plate([0.01; 2], |places| places[24] = [0.04 - 1e-10, 0.03]));
+    assert!(
+        found.starts_with("body: node 25 at (0.040000, 0.030000) and node 26 at (0.040000, 0.030000) are only 1.0e-10 m apart"),
+        "{found}"
+    );
+    assert!(found.contains("merge them"), "{found}");
+}
+
+/// Cells three and a half times as long as high, with horizons of three heights: the body falls into its columns.
+#[test]
+fn cells_longer_than_the_horizon_are_refused() {
+    let found = error(plate([0.035, 0.01], |_| ()));
+    assert!(
+        found.starts_with("horizon: the body falls into 7 parts that no bond connects, where its cells make 1: from node "),
+        "{found}"
+    );
+    assert!(
+        found.contains("(direction 1.00, 0.00)")
+            && found.contains("need a horizon factor above 3.50;"),
+        "{found}"
+    );
+    let mut wider = plate([0.035, 0.01], |_| ());
+    wider.horizon = Horizon::Factor(3.6);
+    wider.solve(&mut Unobserved).unwrap();
+}
+
+#[test]
+fn a_position_off_the_body_is_refused() {
+    let mut setup = plate([0.01; 2], |_| ());
+    setup.loads[0].place = Place::At([5.0, 5.0]);
+    assert_eq!(
+        error(setup),
+        "loads[0].place: (5.000000, 5.000000) is not on the body: the nearest point, node 49 at (0.060000, 0.060000), is 6.986e0 m away"
+    );
+    // Half a cell outside is still meant for the corner.
+    let mut setup = plate([0.01; 2], |_| ());
+    setup.loads[0].place = Place::At([0.065, 0.065]);
+    setup.solve(&mut Unobserved).unwrap();
+}
+
+#[test]
+fn a_horizon_as_large_as_the_body_is_told() {
+    let warned = |factor: f64| {
+        let mut setup = plate([0.01; 2], |_| ());
+        setup.horizon = Horizon::Factor(factor);
+        let warnings = setup.solve(&mut Unobserved).unwrap().model.warnings;
+        warnings
+            .iter()
+            .any(|it| matches!(it, Warning::LargeHorizon { .. }))
+    };
+    assert!(!warned(2.5));
+    assert!(warned(4.0));
+}
+
+/// Sizes and stiffnesses whose products are no numbers any more.
+#[test]
+fn what_numbers_cannot_hold_is_refused() {
+    let with_young = |young: f64| {
+        let mut setup = plate([0.01; 2], |_| ());
+        setup.materials[0].material = Material::isotropic(young, 1.0 / 3.0);
+        error(setup)
+    };
+    for found in [
+        with_young(1e300),
+        with_young(1e-300),
+        error(plate([1e-90; 2], |_| ())),
+    ] {
+        assert!(
+            found.starts_with("materials: the stif") && found.contains("out of all proportion"),
+            "{found}"
+        );
+    }
+    let solution = plate([1e-40; 2], |_| ()).solve(&mut Unobserved).unwrap();
+    assert!(solution.outcome.elastic_stiffness.is_finite());
+}
