@@ -174,7 +174,7 @@ impl Serial for bool {
 
 impl Serial for String {
     fn write(&self, out: &mut Vec<u8>) {
-        self.as_bytes().len().write(out);
+        self.len().write(out);
         out.extend(self.as_bytes());
     }
 
