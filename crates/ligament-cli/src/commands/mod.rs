@@ -63,7 +63,10 @@ Examples:
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
-Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 4 stopped by a signal (`ligament resume` goes on).";
+Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal (`ligament resume` goes on).";
+
+/// Exit code of a run without a state under load that is in equilibrium.
+const WITHOUT_EQUILIBRIUM: u8 = 3;
 
 /// Exit code of a run that a signal stopped.
 const STOPPED: u8 = 4;

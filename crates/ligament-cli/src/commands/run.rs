@@ -6,8 +6,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::STOPPED;
 use super::case_args::CaseArgs;
+use super::{STOPPED, WITHOUT_EQUILIBRIUM};
 use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
@@ -81,5 +81,10 @@ pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::from(STOPPED));
     }
     writeln!(stdout, "  results in         {out}")?;
+    if let Some(reason) = report.without_equilibrium() {
+        stdout.flush()?;
+        writeln!(terminal::stderr(), "error: no result under load: {reason}")?;
+        return Ok(ExitCode::from(WITHOUT_EQUILIBRIUM));
+    }
     Ok(ExitCode::SUCCESS)
 }
