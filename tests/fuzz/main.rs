@@ -16,6 +16,7 @@ mod factors;
 mod mutation;
 mod resources;
 mod results;
+mod solutions;
 mod texts;
 
 use std::fs;
@@ -127,6 +128,7 @@ fn targets() -> Vec<Box<dyn Target>> {
         Box::new(texts::Studies::new()),
         Box::new(results::Results::new()),
         Box::new(results::Checkpoints::new()),
+        Box::new(solutions::Solutions::new()),
         Box::new(factors::Factors),
     ]
 }
@@ -165,6 +167,11 @@ fn results_that_were_changed() {
 #[test]
 fn checkpoints_of_any_bytes() {
     for_short("checkpoint", 2000);
+}
+
+#[test]
+fn solutions_of_any_bytes() {
+    for_short("solution", 1500);
 }
 
 #[test]

@@ -65,9 +65,6 @@ Examples:
 All values are in SI units: m, N, Pa, s, rad.
 Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 4 stopped by a signal (`ligament resume` goes on).";
 
-/// Exit code of a run that a signal stopped.
-const STOPPED: u8 = 4;
-
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {

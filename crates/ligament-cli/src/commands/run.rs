@@ -6,7 +6,6 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::STOPPED;
 use super::case_args::CaseArgs;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
@@ -24,6 +23,9 @@ Examples:
 A --set takes any key of the case file; the entries of a list such as [[load]] count from 0.
 The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
 Paths, also in --set mesh.file=..., are relative to the folder of the case file.";
+
+/// Exit code of a run that a signal stopped.
+const STOPPED: u8 = 4;
 
 /// `ligament run`.
 #[derive(Debug, Args)]
