@@ -51,7 +51,7 @@ fn the_patch_correction_passes_the_patch_test() {
         let with = tested(patched(setup));
         let [x, y, nu] = errors(&with);
         assert!(
-            x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
+            x.abs() < 3e-4 && y.abs() < 3e-4 && nu.abs() < 3e-4,
             "{with:?}"
         );
         assert!(with.scatter.iter().all(|it| *it < 3e-3), "{with:?}");
@@ -60,6 +60,25 @@ fn the_patch_correction_passes_the_patch_test() {
         assert!(without.scatter.iter().all(|it| *it > 0.05), "{without:?}");
         assert!(without.largest > without.scatter[0], "{without:?}");
     }
+}
+
+/// Of ten bonds a point, some of a larger body have no factors that meet their equations: what is left there does not add up over the
+/// body, and the iteration finds its way all the same.
+#[test]
+fn few_bonds_make_no_soft_body() {
+    let mut setup = patched(Setup::new(
+        MeshBody::from(meshes::read("meshes/disk-1.5mm.msh")),
+        Material::isotropic(YOUNG, POISSON),
+        Law::Nhpd,
+    ));
+    setup.horizon = Horizon::Factor(2.0);
+    let test = tested(setup);
+    let [x, y, nu] = errors(&test);
+    assert!(
+        x.abs() < 5e-4 && y.abs() < 5e-4 && nu.abs() < 5e-4,
+        "{test:?}"
+    );
+    assert!(test.scatter.iter().all(|it| *it < 5e-3), "{test:?}");
 }
 
 /// Young's modulus from pulling the bar is that of the patch test: a force is spread over its sides along x, and their mean
@@ -122,17 +141,22 @@ fn an_orthotropic_body_is_read_along_its_axes() {
     }
 }
 
-/// Square cells are as stiff as their material with the patch correction, also where tractions act half a cell inside the outline of a
-/// body that is longer than high.
+/// Square cells are as stiff as their material with the patch correction, also where the body is longer than high: along its length it has
+/// E and nu, and in shear its bonds strain uniformly.
 #[test]
 fn a_lattice_has_a_patch_test() {
-    let lattice = LatticeBody::new([40, 20], [0.005; 2], [0.0; 2], &[], &[].into()).unwrap();
-    let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
-    let [x, y, nu] = errors(&tested(patched(setup)));
-    assert!(
-        x.abs() < 2e-3 && y.abs() < 2e-3 && nu.abs() < 3e-3,
-        "{x}, {y}, {nu}"
-    );
+    for cells in [[40, 20], [30, 30], [160, 10]] {
+        let lattice = LatticeBody::new(cells, [0.005; 2], [0.0; 2], &[], &[].into()).unwrap();
+        let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
+        let test = tested(patched(setup));
+        let [x, y, nu] = errors(&test);
+        assert!(
+            x.abs() < 1e-3 && y.abs() < 1e-3 && nu.abs() < 1e-3,
+            "{cells:?}: {x}, {y}, {nu}"
+        );
+        // Corners have half the bonds of an edge, and their equations are not all met.
+        assert!(test.scatter.iter().all(|it| *it < 9e-3), "{test:?}");
+    }
 }
 
 /// A pre-crack is left out: the body is the same without it.
@@ -198,8 +222,7 @@ fn several_materials_have_no_modulus_but_strains() {
         first.parse::<f64>().unwrap()
     };
     let (with, without) = (strains("patch"), strains("domain"));
-    // Bonds across the interface follow their own rule, and miss uniform strains by more than those inside.
-    assert!(with < 5.0 && without > 10.0, "{with}, {without}");
+    assert!(with < 0.5 && without > 5.0, "{with}, {without}");
 }
 
 #[test]

@@ -114,6 +114,7 @@ impl Truss {
                     rotational: of_bonds(&rigidity),
                 },
                 kinematics: Kinematics::Beam(Pairs::default()),
+                series: Vec::new(),
                 cloud,
                 bonds,
             },

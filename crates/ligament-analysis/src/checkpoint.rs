@@ -13,7 +13,7 @@ pub enum CheckpointError {
     /// Points, bonds or unknowns are not those of the problem.
     #[error("it is of another model: points, bonds or what holds them differ")]
     OtherModel,
-    /// It is of a run that another driver did.
+    /// The run is one of another driver.
     #[error(
         "it is of a run along the exact path where this one takes load steps, or the other way round"
     )]
@@ -28,7 +28,7 @@ pub enum CheckpointError {
         /// Load factor of the step as it was done.
         was: f64,
     },
-    /// The same numbers come out with other bits.
+    /// Numbers come out with other bits.
     #[error(
         "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or run \
          the case anew"

@@ -12,7 +12,6 @@ use std::time::Instant;
 
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::breakage::Breakage;
-use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
 use crate::costs::Costs;
@@ -20,7 +19,6 @@ use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
-use crate::serial::Serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
@@ -62,18 +60,7 @@ impl Equilibrium {
 
     /// Appends what it takes to make the equilibrium again, to the bit.
     pub(crate) fn write(&self, out: &mut Vec<u8>) {
-        let Equations {
-            solver,
-            largest_extents,
-            costs,
-            problem: _,
-            stiffness: _,
-            energy_tolerance: _,
-            ..
-        } = &self.equations;
-        largest_extents.write(out);
-        costs.write(out);
-        solver.write(out);
+        self.equations.write(out);
     }
 
     /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be.
@@ -89,12 +76,7 @@ impl Equilibrium {
     ) -> Result<(Self, Balanced), SetupError> {
         let mut equilibrium = Self::new(problem, energy_tolerance)?;
         equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
-        let equations = &mut equilibrium.equations;
-        equations.largest_extents = Serial::read(from).map_err(CheckpointError::from)?;
-        let costs = Costs::read(from).map_err(CheckpointError::from)?;
-        equations.solver.restore(from)?;
-        let balanced = equations.measure(state).balanced(0, Vec::new());
-        equations.costs = costs;
+        let balanced = equilibrium.equations.restore(state, from)?;
         if !state.softening.remaining.is_empty() {
             equilibrium.soften();
         }

@@ -227,9 +227,9 @@ pub struct Moment<'a> {
 /// What becomes of a run after a moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Onward {
-    /// It goes on.
+    /// The run goes on.
     Go,
-    /// It stops here.
+    /// The run stops here.
     Stop,
 }
 

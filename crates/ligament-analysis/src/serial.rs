@@ -174,7 +174,7 @@ impl Serial for bool {
 
 impl Serial for String {
     fn write(&self, out: &mut Vec<u8>) {
-        self.as_bytes().len().write(out);
+        self.len().write(out);
         out.extend(self.as_bytes());
     }
 
@@ -190,8 +190,9 @@ impl Serial for Duration {
     }
 
     fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
-        let (seconds, nanoseconds) = Serial::read(from)?;
-        if nanoseconds < 1_000_000_000 {
+        let (seconds, nanoseconds): (u64, u32) = Serial::read(from)?;
+        // A time that a program can have taken: sums of several must not overflow.
+        if nanoseconds < 1_000_000_000 && seconds <= u64::from(u32::MAX) {
             Ok(Self::new(seconds, nanoseconds))
         } else {
             Err(Damaged)

@@ -21,7 +21,7 @@ const ENDED_BY_SIGNAL: i32 = 128;
 pub(crate) struct StopSignal(Arc<AtomicBool>);
 
 impl StopSignal {
-    /// Waits for a signal: the first is told, the second ends the program.
+    /// The signal that is awaited from here on: the first is told, the second ends the program.
     ///
     /// # Errors
     ///

@@ -28,6 +28,8 @@ pub struct BondSystem {
     pub rigidities: Rigidities,
     /// Kinematics of the bonds.
     pub kinematics: Kinematics,
+    /// Factors of the rigidities of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
+    pub series: Vec<f64>,
 }
 
 /// The kinematics of the bonds of a body.
@@ -121,7 +123,7 @@ impl BondSystem {
             mut shear,
             mut rotational,
             strain,
-            series: _,
+            series,
         } = stiffness.in_series();
         (
             (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
@@ -146,6 +148,7 @@ impl BondSystem {
             rigidities,
             weight,
             kinematics,
+            series,
             bonds,
             cloud,
         }

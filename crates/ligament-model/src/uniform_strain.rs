@@ -2,12 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::cloud::PointCloud;
 use crate::correction::patch::CellForces;
+use crate::element::Remaining;
 use crate::interface::Bonds;
 use crate::layout::Component;
 use crate::moduli::EngineeringConstants;
-use crate::system::BondSystem;
+use crate::system::{BondSystem, BondsLeft};
+use crate::thermal::ThermalStrain;
 
 /// The strains of a free body under the forces of the three uniform strains of [`CellForces`], which have the size one.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,30 +68,60 @@ impl UniformStrains {
     }
 }
 
-/// Takes from forces that have a moment about the middle of the body the least that leaves them none: on the points of a lattice,
-/// half a cell inside the outline, shear tractions are not quite in balance.
-pub fn balance(forces: &mut CellForces, cloud: &PointCloud) {
-    let weighted = || cloud.volumes.iter().zip(&cloud.positions);
-    let volume: f64 = cloud.volumes.iter().sum();
-    let middle = [0, 1].map(|axis| weighted().map(|(v, p)| v * p[axis]).sum::<f64>() / volume);
-    let arm = |p: &[f64; 2]| [p[0] - middle[0], p[1] - middle[1]];
-    let inertia: f64 = weighted()
-        .map(|(v, p)| v * arm(p).iter().map(|it| it * it).sum::<f64>())
-        .sum();
-    for strain in 0..3 {
-        let points = forces.iter().zip(&cloud.positions);
-        let moment: f64 = points
-            .map(|(force, p)| {
-                let ([x, y], [along, across]) = (arm(p), force[strain]);
-                x * across - y * along
-            })
-            .sum();
-        for (force, (volume, p)) in forces.iter_mut().zip(weighted()) {
-            let ([x, y], share) = (arm(p), volume * moment / inertia);
-            force[strain][0] += share * y;
-            force[strain][1] -= share * x;
+/// Forces and moments on all degrees of freedom in the three uniform strains, shape (3, n_degrees_of_freedom), N and N m: those of the
+/// cells, and what bonds across an interface have more than in the softer material.
+///
+/// In a uniform strain the tractions jump at an interface. The cells give the jump to the points on it, as far as bonds across are bonds of
+/// the softer material, which is how they are corrected. As two halves in series they pull their ends by more, and that part of the jump
+/// belongs to their ends.
+pub fn loads(system: &BondSystem, forces: &CellForces) -> [Vec<f64>; 3] {
+    let layout = system.layout();
+    let basis = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, std::f64::consts::SQRT_2],
+    ];
+    std::array::from_fn(|k| {
+        let mut loads = excess_across(system, basis[k]);
+        for (point, forces) in (0..).zip(forces) {
+            for (component, force) in [Component::X, Component::Y].into_iter().zip(forces[k]) {
+                let dof = layout.degree_of_freedom(point, component);
+                dof.into_iter().for_each(|dof| loads[dof] += force);
+            }
         }
+        loads
+    })
+}
+
+/// What bonds across an interface exert on their ends in a uniform strain (eps_xx, eps_yy, gamma_xy) more than in the softer material,
+/// shape (n_degrees_of_freedom).
+fn excess_across(system: &BondSystem, strain: [f64; 3]) -> Vec<f64> {
+    let n = system.layout().n_degrees_of_freedom();
+    if system.series.is_empty() {
+        return vec![0.0; n];
     }
+    let excess = |factor: &f64| {
+        let part = 1.0 - 1.0 / factor;
+        Remaining {
+            axial: part,
+            shear: part,
+            rotational: part,
+        }
+    };
+    let remaining: Vec<_> = system.series.iter().map(excess).collect();
+    let intact = vec![true; system.bonds.len()];
+    let left = BondsLeft {
+        intact: &intact,
+        remaining: &remaining,
+    };
+    // An expansion without a motion is the strain with the opposite sign.
+    let strains = vec![strain.map(|it| -it); system.cloud.len()];
+    let expansion = ThermalStrain::proportional(&strains, 1.0);
+    let deformations = system.deformations(&intact, &vec![0.0; n], expansion);
+    system
+        .forces(left, deformations, ThermalStrain::NONE)
+        .internal
+        .values
 }
 
 /// The strains a_l of affine motions on which all three forces do the work that they do on displacements u_l: sum over m of

@@ -11,7 +11,6 @@
 //! Numbers are little-endian. A file is written beside the last one and takes its name when it is whole and on the disk; the last
 //! one is kept as well, so that one that was damaged later is no loss.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -20,7 +19,7 @@ use ligament_analysis::serial::Serial;
 use twox_hash::XxHash64;
 
 use crate::Error;
-use crate::atomic::{remove_file, rotate_file};
+use crate::atomic::{read_bytes, remove_file, rotate_file};
 
 /// The newest checkpoint in a result folder, and the one before.
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
@@ -82,7 +81,7 @@ impl Checkpoint {
     /// The checkpoints of a folder that are there, the newest first.
     pub fn list(folder: &Path) -> Vec<Result<Self, Error>> {
         let paths = NAMES.iter().map(|name| folder.join(name));
-        let read = paths.map(|path| match fs::read(&path) {
+        let read = paths.map(|path| match read_bytes(&path) {
             Ok(bytes) => {
                 Some(Self::from_bytes(&bytes).map_err(|reason| Error::Unreadable { path, reason }))
             }
@@ -137,6 +136,8 @@ impl Checkpoint {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn checkpoint(number: u8) -> Checkpoint {

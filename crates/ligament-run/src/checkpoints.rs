@@ -8,6 +8,9 @@ use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::SoFar;
 
+/// The wish that a run stop, which is asked for after each equilibrium.
+pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
+
 /// Version of the program, which a checkpoint names.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 

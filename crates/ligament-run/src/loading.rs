@@ -9,7 +9,7 @@ use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::{ResultWriter, SoFar, Time, WriteRule};
 
-use crate::checkpoints::Checkpoints;
+use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::inputs::Inputs;
 use crate::progress::Progress;
 use crate::stages::Stages;
@@ -18,9 +18,6 @@ use crate::watch::Watch;
 
 /// Name of the file with all numbers of a run.
 pub(crate) const SUMMARY: &str = "summary.json";
-
-/// Tells whether the user wants a run to stop.
-pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// A body under loads, and the folder of its results.
 pub(crate) struct LoadedBody<'a> {

@@ -15,10 +15,10 @@ use ligament_output::results::SoFar;
 use ligament_output::results::outputs::{clear, require_results};
 use serde_json::Value;
 
-use crate::checkpoints::VERSION;
+use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
 use crate::inputs::{Inputs, MAY_CHANGE};
-use crate::loading::{IsStopped, Kept, LoadedBody, SUMMARY};
+use crate::loading::{Kept, LoadedBody, SUMMARY};
 use crate::model::build_model;
 use crate::progress::{Progress, ProgressMode};
 use crate::run::Report;
@@ -46,7 +46,9 @@ impl Request<'_> {
     /// used.
     pub fn resume(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         self.settings.iter().try_for_each(|it| check_setting(it))?;
-        let folder = ResultFolder::resumed(self.folder)?;
+        let folder = ResultFolder::resumed(self.folder);
+        // That there are no results says more than that a folder cannot be locked.
+        let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
         require_results(folder.path())?;
         let mut case = CaseFile::load(&folder.file(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;

@@ -18,7 +18,7 @@ use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use ligament_case::case::CaseFile;
 
-pub use crate::loading::IsStopped;
+pub use crate::checkpoints::IsStopped;
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]

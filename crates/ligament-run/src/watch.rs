@@ -8,9 +8,8 @@ use ligament_analysis::history::{
 };
 use ligament_output::results::ResultWriter;
 
-use crate::checkpoints::Checkpoints;
+use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::gauges;
-use crate::loading::IsStopped;
 use crate::progress::{Progress, StepLine};
 
 /// Notices that are shown while the run goes on, and points that a notice lists; all are in `summary.json`.

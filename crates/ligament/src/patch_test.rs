@@ -8,10 +8,9 @@ use std::sync::Arc;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::{
-    Attempt, Bonds, Component, Control, ControlKind, Equilibrium, ProportionalLoading, State,
-    Unbalanced,
+    Attempt, Bonds, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
 };
-use ligament_model::correction::patch::CellForces;
+use ligament_model::correction::patch::{self, CellForces};
 use ligament_model::moduli::EngineeringConstants;
 use ligament_model::uniform_strain::{self, UniformStrains};
 use ligament_model::{BondSystem, Elasticity, Plane};
@@ -96,15 +95,14 @@ fn of_whole_body(model: &Model) -> Result<PatchTest, Untested> {
     if matches!(setup.body.origin(), Origin::Points) {
         return Err(Untested::NoCells);
     }
-    let mut forces = cell_forces(setup, &system.cloud, &material_of_cell(setup)?);
-    uniform_strain::balance(&mut forces, &system.cloud);
+    let forces = cell_forces(setup, &system.cloud, &material_of_cell(setup)?);
     let displacements = displacements(setup, system, &forces)?;
     let strains = UniformStrains::measure(system, &forces, &displacements);
     let strains = strains.ok_or(Untested::Degenerate)?;
     let [a, b] = system.bonds.ends[strains.bond].map(|end| system.cloud.positions[end as usize]);
     let origin = system.cloud.origin;
     Ok(PatchTest {
-        constants: constants(setup, &strains),
+        constants: constants(setup, system, &strains),
         scatter: strains.scatter,
         largest: strains.largest,
         place: [0, 1].map(|axis| origin[axis] + 0.5 * (a[axis] + b[axis])),
@@ -117,10 +115,12 @@ fn displacements(
     system: &Arc<BondSystem>,
     forces: &CellForces,
 ) -> Result<[Vec<f64>; 3], Untested> {
+    let [along_x, along_y, in_shear] =
+        uniform_strain::loads(system, forces).map(|force| loading(system, force));
     let problem = Problem {
         system: system.clone(),
         criteria: Arc::default(),
-        loads: loads(system, forces, 0),
+        loads: along_x.clone(),
         solver: setup.solver,
         probes: Arc::default(),
     };
@@ -129,8 +129,8 @@ fn displacements(
     state.load_factor = SIZE;
     let nothing = equilibrium.break_bonds(&mut state, &[]);
     let mut found = [const { Vec::new() }; 3];
-    for (strain, found) in found.iter_mut().enumerate() {
-        equilibrium.load_with(loads(system, forces, strain));
+    for (loading, found) in [along_x, along_y, in_shear].into_iter().zip(&mut found) {
+        equilibrium.load_with(loading);
         state.displacement.fill(0.0);
         let attempt = equilibrium.balance(&mut state, &nothing, &mut Unobserved);
         if let Attempt::Unbalanced(reason) = attempt.map_err(ligament_analysis::SetupError::from)? {
@@ -141,25 +141,22 @@ fn displacements(
     Ok(found)
 }
 
-/// The forces of a strain of size one as the loads of a body that nothing holds.
-fn loads(system: &BondSystem, forces: &CellForces, strain: usize) -> Arc<ProportionalLoading> {
+/// Forces (n_degrees_of_freedom) on a body that nothing holds.
+fn loading(system: &BondSystem, force: Vec<f64>) -> Arc<ProportionalLoading> {
     let control = Control {
         kind: ControlKind::Force,
         points: Vec::new(),
         shape: Vec::new(),
         magnitude: 1.0,
     };
-    let mut loads = ProportionalLoading::new(system.layout(), control);
-    for (point, forces) in (0..).zip(forces) {
-        for (component, force) in [Component::X, Component::Y].into_iter().zip(forces[strain]) {
-            loads.add_force(point, component, force);
-        }
-    }
-    Arc::new(loads)
+    Arc::new(ProportionalLoading {
+        force,
+        ..ProportionalLoading::new(system.layout(), control)
+    })
 }
 
 /// The constants of a body of one material, along the axes of that.
-fn constants(setup: &Setup, strains: &UniformStrains) -> Option<Constants> {
+fn constants(setup: &Setup, system: &BondSystem, strains: &UniformStrains) -> Option<Constants> {
     let [region] = setup.materials.as_slice() else {
         return None;
     };
@@ -171,13 +168,17 @@ fn constants(setup: &Setup, strains: &UniformStrains) -> Option<Constants> {
     };
     let along = angle.unwrap_or_default();
     let stiffness = elasticity.plane_stiffness(plane);
+    let of_tractions = match setup.body.origin() {
+        Origin::Lattice(lattice) => patch::stiffness_of_lattice(lattice, &system.cloud, &stiffness),
+        Origin::Mesh(_) | Origin::Points => stiffness,
+    };
     let read = |constants: EngineeringConstants| match (elasticity, plane) {
         (Elasticity::Isotropic(_), Plane::Strain) => out_of_plane_strain(constants),
         _ => constants,
     };
     Some(Constants {
         angle,
-        body: read(strains.constants(&stiffness, along)?),
+        body: read(strains.constants(&of_tractions, along)?),
         material: read(EngineeringConstants::along(stiffness, along)?),
     })
 }

@@ -119,20 +119,43 @@ impl Restored {
             Equilibrium::restored(problem, energy_tolerance, &state, from)?;
         let energies = Energies::read(problem, &state, &balanced, from)?;
         let proof_then = <[u64; 2]>::read(from).map_err(damaged)?;
-        if !from.is_empty() {
-            return Err(damaged(Damaged).into());
-        }
-        if proof_then != proof(&balanced) {
-            return Err(CheckpointError::OtherArithmetic.into());
-        }
-        Ok(Self {
+        let restored = Self {
             place,
             state,
             course,
             equilibrium,
             balanced,
             energies,
-        })
+        };
+        if !from.is_empty() || !restored.agrees() {
+            return Err(damaged(Damaged).into());
+        }
+        if proof_then != proof(&restored.balanced) {
+            return Err(CheckpointError::OtherArithmetic.into());
+        }
+        Ok(restored)
+    }
+
+    /// Whether what stands twice is the same: a record a step, the broken bonds, the solves.
+    fn agrees(&self) -> bool {
+        let step = match &self.place {
+            Place::Event(step) => *step,
+            Place::LoadStep(it) => it.counters.step,
+        };
+        let is_in_steps = match &self.place {
+            Place::Event(step) => *step > 0,
+            Place::LoadStep(it) => it.load_factors.len().checked_sub(1) == Some(step),
+        };
+        let Course {
+            solves: [last, recorded],
+            broken,
+            ..
+        } = self.course;
+        is_in_steps
+            && self.course.history.len() == step
+            && broken == self.state.broken_bonds()
+            && recorded <= last
+            && last <= self.equilibrium.costs().solves
     }
 }
 

@@ -9,11 +9,13 @@ use ligament_model::element::BondDeformation;
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
+use crate::serial::Serial;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::tangent::TangentSolver;
@@ -110,6 +112,38 @@ impl Equations {
     pub(super) fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
         self.loaded = loaded(&*loads);
         self.problem.loads = loads;
+    }
+
+    /// Appends what is not made of the problem.
+    pub(super) fn write(&self, out: &mut Vec<u8>) {
+        let Self {
+            largest_extents,
+            costs,
+            solver,
+            problem: _,
+            stiffness: _,
+            energy_tolerance: _,
+            local_stiffness: _,
+            loaded: _,
+            stiffest: _,
+        } = self;
+        largest_extents.write(out);
+        costs.write(out);
+        solver.write(out);
+    }
+
+    /// Makes fresh equations as they were when the bytes were written, and measures the state, which was in equilibrium.
+    pub(super) fn restore(
+        &mut self,
+        state: &State,
+        from: &mut &[u8],
+    ) -> Result<Balanced, CheckpointError> {
+        self.largest_extents = Serial::read(from)?;
+        let costs = Serial::read(from)?;
+        self.solver.restore(from)?;
+        let measured = self.measure(state).balanced(0, Vec::new());
+        self.costs = costs;
+        Ok(measured)
     }
 
     /// Degree of freedom of each unknown, ascending.

@@ -68,9 +68,6 @@ Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilib
 /// Exit code of a run without a state under load that is in equilibrium.
 const WITHOUT_EQUILIBRIUM: u8 = 3;
 
-/// Exit code of a run that a signal stopped.
-const STOPPED: u8 = 4;
-
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {

@@ -25,6 +25,9 @@ A --set takes any key of the case file; the entries of a list such as [[load]] c
 The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
 Paths, also in --set mesh.file=..., are relative to the folder of the case file.";
 
+/// Exit code of a run that a signal stopped.
+const STOPPED: u8 = 4;
+
 /// `ligament run`.
 #[derive(Debug, Args)]
 pub struct RunArgs {

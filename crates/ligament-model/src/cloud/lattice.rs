@@ -106,6 +106,16 @@ impl Lattice {
         (0..).zip(&self.cells).flat_map(of_cell).collect()
     }
 
+    /// The squares between the centres of four cells around a corner, anticlockwise.
+    pub fn squares(&self) -> Vec<[u32; 4]> {
+        let around = |cell: &[u32; 2]| {
+            let [column, row] = cell.map(i64::from);
+            let at = |right: i64, above: i64| self.point_in([column + right, row + above]);
+            Some([at(0, 0)?, at(1, 0)?, at(1, 1)?, at(0, 1)?])
+        };
+        self.cells.iter().filter_map(around).collect()
+    }
+
     /// The faces of cells behind which there is no cell, by the numbers of the points, then left, right, below, above.
     pub fn outline(&self) -> Vec<Face> {
         let (slack, size) = (self.slack(), self.size.map(i64::from));

@@ -105,6 +105,9 @@ fn write_criteria(
     Ok(())
 }
 
+/// How a table is opened, by its place in [`FILES`] and its columns.
+type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
+
 /// How far the tables of a run are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Written {
@@ -184,12 +187,12 @@ impl Tables {
         })
     }
 
-    /// The tables as they are made of the place of each in [`FILES`] and its columns.
+    /// The tables, each opened so.
     fn with(
         problem: &Problem,
         tagged: &str,
         costs_before: Costs,
-        table: &dyn Fn(usize, &[&str]) -> Result<Table, Error>,
+        table: Opening<'_>,
     ) -> Result<Self, Error> {
         let groups = problem.loads.groups().iter();
         let group_columns = groups.flat_map(|group| {

@@ -20,7 +20,7 @@ use crate::{Error, FieldLocation};
 const MOST_CORNERS: usize = 4;
 
 /// Numbers that a field has for a point or cell at most.
-const MOST_COMPONENTS: usize = 64;
+const MOST_COMPONENTS: usize = 16;
 
 /// Bytes of a number in the header of an array.
 const HEADER_ENTRY: usize = 8;

@@ -9,7 +9,7 @@
 //! z = z_0 + G^T mu, G q(z) - f + r (mu - mu_k)/d^2 = 0,
 //!
 //! d the scales of the equations; r lets go of equations that cannot be met, and outer steps k, each from the multipliers mu_k of the
-//! one before, take its bias away. A Newton step solves, with D = dq/dz and what is left of the first condition,
+//! one before, take its bias away. Long waves of mu are left out of that term ([`Regularisation`]). A Newton step solves, with D = dq/dz and what is left of the first condition,
 //! rho = z_0 + G^T mu - z,
 //!
 //! (G D G^T + r/d^2) delta mu = -(G (q + D rho) - f + r (mu - mu_k)/d^2).
@@ -19,6 +19,7 @@
 
 use rayon::prelude::*;
 
+use super::aggregates::{Aggregates, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::newton::Hessian;
 use super::pairs::BLOCK;
@@ -34,8 +35,13 @@ const NEXT_REGULARISATION: f64 = 0.03;
 /// Reduction of the gradient in an outer step.
 const REDUCTION: f64 = 0.1;
 
-/// Newton steps of an outer step at most; where the equations can be met it takes two to four.
-const MOST_STEPS: usize = 40;
+/// Newton steps of an outer step at most: it takes two to four, and about ten where the equations cannot be met. With more of them, or
+/// where the gradient grows by a factor, the change of the regularisation was too large.
+const MOST_STEPS: usize = 20;
+const GROWTH: f64 = 1e3;
+
+/// Change of the regularisation that is no longer divided.
+const SMALLEST_CHANGE: f64 = 0.7;
 
 /// Accuracies of the direction of a Newton step, from the one where much is to be won to the one near the end.
 const ACCURACIES: [f64; 2] = [0.1, 0.5];
@@ -68,6 +74,7 @@ struct Dual<'a, E> {
     span: f64,
     /// z_0.
     offset: f64,
+    aggregates: Aggregates,
 }
 
 /// A place on the way.
@@ -91,51 +98,105 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(
         lowest: settings.lowest,
         span: settings.highest - settings.lowest,
         offset: ((1.0 - settings.lowest) / (settings.highest - 1.0)).ln(),
+        aggregates: Aggregates::new(equations.pairs().cloud, E::FORCES),
     };
     let mut place = dual.start();
     let (mut steps, mut products) = (0, 0);
     let mut r = FIRST_REGULARISATION.max(settings.regularisation);
+    let mut reached = 1.0;
     loop {
-        let regularisation = dual.regularisation(r);
-        let centre = place.mu.clone();
-        let first = dual.root_mean_square(&place.unbalanced);
-        for _ in 0..MOST_STEPS {
-            let gradient = place.gradient(&regularisation, &centre);
-            let size = dual.root_mean_square(&gradient);
-            if size <= REDUCTION * first {
-                break;
+        let (centre, z) = (place.mu.clone(), place.z.clone());
+        let outer = dual.outer_step(&mut place, r, &centre);
+        (steps, products) = (steps + outer.steps, products + outer.products);
+        if outer.has_converged {
+            reached = r;
+            if r <= settings.regularisation {
+                return dual.factors(place, steps, products);
             }
-            // The direction need be no better than what is still to be won.
-            let [finest, coarsest] = ACCURACIES;
-            let accuracy = (0.5 * REDUCTION * first / size).clamp(finest, coarsest);
-            let hessian = Hessian::new(equations, &regularisation, &place.slopes);
-            let (direction, done) = hessian.solve(gradient, accuracy);
-            (steps, products) = (steps + 1, products + done);
-            dual.advance(&mut place, &direction);
+            r = (NEXT_REGULARISATION * r).max(settings.regularisation);
+        } else {
+            // Back to where the steps went wrong, and on with less of a change.
+            let nowhere = vec![[0.0; N]; centre.len()];
+            (place.mu, place.z) = (centre, z);
+            dual.advance(&mut place, &nowhere);
+            if r > SMALLEST_CHANGE * reached {
+                return dual.factors(place, steps, products);
+            }
+            r = (r * reached).sqrt();
         }
-        if r <= settings.regularisation {
-            return dual.factors(place, steps, products);
-        }
-        r = (NEXT_REGULARISATION * r).max(settings.regularisation);
     }
+}
+
+/// What an outer step took.
+struct OuterStep {
+    steps: usize,
+    products: usize,
+    has_converged: bool,
 }
 
 impl<const N: usize> Place<N> {
     /// The right-hand side of a Newton step, with the opposite sign.
-    fn gradient(&self, regularisation: &Multipliers<N>, centre: &Multipliers<N>) -> Multipliers<N> {
+    fn gradient(
+        &self,
+        regularisation: &Regularisation<'_, N>,
+        centre: &Multipliers<N>,
+    ) -> Multipliers<N> {
+        let away = |rank: usize| {
+            let (mu, centre) = (&self.mu[rank], &centre[rank]);
+            std::array::from_fn(|k| mu[k] - centre[k])
+        };
+        let common = regularisation.common(away);
         let mut gradient = self.unbalanced.clone();
-        let away = (self.mu.as_flattened().iter()).zip(centre.as_flattened());
-        let terms = away.zip(regularisation.as_flattened());
-        for (gradient, ((mu, centre), r)) in gradient.as_flattened_mut().iter_mut().zip(terms) {
-            *gradient += r * (mu - centre);
+        for (rank, gradient) in gradient.iter_mut().enumerate() {
+            let force = regularisation.force(rank, away(rank), &common);
+            (0..N).for_each(|k| gradient[k] += force[k]);
         }
         gradient
     }
 }
 
 impl<E> Dual<'_, E> {
-    /// r/d^2.
-    fn regularisation<const N: usize>(&self, r: f64) -> Multipliers<N>
+    /// Goes to where the equations with a regularisation about a centre are solved.
+    fn outer_step<const N: usize>(
+        &self,
+        place: &mut Place<N>,
+        r: f64,
+        centre: &Multipliers<N>,
+    ) -> OuterStep
+    where
+        E: Equations<N>,
+    {
+        let regularisation = self.regularisation(r);
+        let first = self.root_mean_square(&place.unbalanced);
+        let mut products = 0;
+        for steps in 0..MOST_STEPS {
+            let gradient = place.gradient(&regularisation, centre);
+            let size = self.root_mean_square(&gradient);
+            let has_converged = size <= REDUCTION * first;
+            if has_converged || size.is_nan() || size > GROWTH * first {
+                return OuterStep {
+                    steps,
+                    products,
+                    has_converged,
+                };
+            }
+            // The direction need be no better than what is still to be won.
+            let [finest, coarsest] = ACCURACIES;
+            let accuracy = (0.5 * REDUCTION * first / size).clamp(finest, coarsest);
+            let hessian = Hessian::new(self.equations, &regularisation, &place.slopes);
+            let (direction, done) = hessian.solve(gradient, accuracy);
+            products += done;
+            self.advance(place, &direction);
+        }
+        OuterStep {
+            steps: MOST_STEPS,
+            products,
+            has_converged: false,
+        }
+    }
+
+    /// The regularisation r/d^2.
+    fn regularisation<const N: usize>(&self, r: f64) -> Regularisation<'_, N>
     where
         E: Equations<N>,
     {
@@ -149,8 +210,9 @@ impl<E> Dual<'_, E> {
                 }
             })
         };
-        let n_points = self.equations.pairs().n_points();
-        (0..n_points).map(of_rank).collect()
+        let pairs = self.equations.pairs();
+        let of_points = (0..pairs.n_points()).map(of_rank).collect();
+        Regularisation::new(of_points, &self.aggregates)
     }
 
     /// Root mean square of scaled numbers.
@@ -229,22 +291,39 @@ impl<E> Dual<'_, E> {
         right.map(|right| right.map(|it| -it)).collect()
     }
 
+    /// Factors q of a bond that starts from q_0, at its z.
+    #[inline(always)]
+    fn at(&self, start: f64, z: [f64; 2]) -> [f64; 2] {
+        z.map(|z| start * (self.lowest + self.span * logistic(z)))
+    }
+
+    /// What the factors at a place leave of the equations, G q - f.
+    fn left<const N: usize>(&self, place: &Place<N>) -> Multipliers<N>
+    where
+        E: Equations<N>,
+    {
+        let (start, stiffness) = (self.equations.start(), self.equations.stiffness());
+        let mut left = self.minus_right();
+        let blocks = left.par_chunks_mut(BLOCK).enumerate();
+        blocks.for_each(|(block, left)| {
+            (self.equations).add(block, &place.mu, left, |pair, _| {
+                let factors = self.at(start[pair], place.z[pair]);
+                std::array::from_fn(|k| stiffness[pair][k] * factors[k])
+            });
+        });
+        left
+    }
+
     /// The factors at a place, and what they leave.
     fn factors<const N: usize>(&self, place: Place<N>, steps: usize, products: usize) -> Factors
     where
         E: Equations<N>,
     {
-        let (pairs, stiffness) = (self.equations.pairs(), self.equations.stiffness());
+        let pairs = self.equations.pairs();
         let factors: Vec<[f64; 2]> = (place.z.par_iter().zip(self.equations.start()))
-            .map(|(z, start)| z.map(|z| start * (self.lowest + self.span * logistic(z))))
+            .map(|(&z, &start)| self.at(start, z))
             .collect();
-        let mut left = self.minus_right();
-        let blocks = left.par_chunks_mut(BLOCK).enumerate();
-        blocks.for_each(|(block, left)| {
-            (self.equations).add(block, &place.mu, left, |pair, _| {
-                std::array::from_fn(|k| stiffness[pair][k] * factors[pair][k])
-            });
-        });
+        let left = self.left(&place);
         let residual: Vec<f64> = (left.iter().enumerate())
             .map(|(rank, left)| {
                 let scaled = left.iter().zip(self.equations.scale(rank));

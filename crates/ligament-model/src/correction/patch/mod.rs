@@ -16,25 +16,29 @@
 //!
 //! | file | of the correction |
 //! |---|---|
-//! | `forces.rs` | f of meshes and lattices |
+//! | `forces.rs`, `lattice_forces.rs` | f of meshes and of lattices |
 //! | `equations.rs`, `plane.rs` | G, as sums over the bonds; its rows in the plane |
 //! | `pairs.rs` | the order in which sums go over the bonds |
 //! | `dual.rs` | the way to the factors by Newton steps |
 //! | `newton.rs` | the direction of such a step |
+//! | `aggregates.rs` | its long waves |
 //!
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
 //! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
 
+mod aggregates;
 mod dual;
 mod equations;
 mod forces;
+mod lattice_forces;
 mod newton;
 mod pairs;
 mod plane;
 mod settings;
 
 pub use dual::Report;
-pub use forces::{CellForces, Points, of_lattice, of_mesh};
+pub use forces::{CellForces, Points, of_mesh};
+pub use lattice_forces::{of_lattice, stiffness_of_lattice};
 pub use settings::Settings;
 
 use super::{Correction, CorrectionReport};

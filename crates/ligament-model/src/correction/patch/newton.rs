@@ -1,29 +1,39 @@
-//! The direction of a Newton step: conjugate gradients, with the blocks of the points as preconditioner.
+//! The direction of a Newton step: conjugate gradients, with the blocks of the points and the matrix of aggregates of them as
+//! preconditioner.
 
 use rayon::prelude::*;
 
+use super::aggregates::{Coarse, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 
 /// Products for the direction of a Newton step at most.
 const MOST_PRODUCTS: usize = 400;
 
-/// The matrix G D G^T + r/d^2.
+/// The matrix G D G^T with the regularisation.
 pub(super) struct Hessian<'a, E, const N: usize> {
     equations: &'a E,
-    /// r/d^2.
-    regularisation: &'a Multipliers<N>,
+    regularisation: &'a Regularisation<'a, N>,
     /// D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
-    /// Inverses of the blocks of the points, by rank.
-    inverses: Vec<[[f64; N]; N]>,
+    /// Inverses of the blocks of the points, by rank: as a preconditioner they need be no more accurate, and are most of what a step reads.
+    inverses: Vec<[[f32; N]; N]>,
+    coarse: Coarse,
+}
+
+/// What the preconditioner makes of what is left.
+struct Solved<const N: usize> {
+    /// From the blocks of the points.
+    points: Multipliers<N>,
+    /// From the aggregates, some numbers for each.
+    aggregates: Vec<f64>,
 }
 
 impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     /// The matrix with the inverses of its blocks.
     pub(super) fn new(
         equations: &'a E,
-        regularisation: &'a Multipliers<N>,
+        regularisation: &'a Regularisation<'a, N>,
         slopes: &'a [[f64; 2]],
     ) -> Self {
         let mut hessian = Self {
@@ -31,12 +41,17 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             regularisation,
             slopes,
             inverses: Vec::new(),
+            coarse: Coarse::new(equations, regularisation, slopes),
         };
-        let mut inverses = vec![[[0.0; N]; N]; regularisation.len()];
+        let mut inverses = vec![[[0.0; N]; N]; regularisation.of_points.len()];
         let blocks = inverses.par_chunks_mut(BLOCK).enumerate();
         blocks.for_each(|(block, inverses)| {
-            hessian.add_blocks(block, inverses);
-            inverses.iter_mut().for_each(invert);
+            let mut sums = vec![[[0.0; N]; N]; inverses.len()];
+            hessian.add_blocks(block, &mut sums);
+            sums.iter_mut().for_each(invert);
+            for (inverse, sum) in inverses.iter_mut().zip(sums) {
+                *inverse = sum.map(|row| row.map(|entry| entry as f32));
+            }
         });
         hessian.inverses = inverses;
         hessian
@@ -49,7 +64,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let first = ranks.start;
         for rank in ranks {
             let own = &mut sums[rank - first];
-            for (k, r) in self.regularisation[rank].iter().enumerate() {
+            for (k, r) in self.regularisation.of_points[rank].iter().enumerate() {
                 own[k][k] += r;
             }
             for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
@@ -73,28 +88,24 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let zeros = vec![[0.0; N]; gradient.len()];
         let mut left = gradient;
         left.as_flattened_mut().iter_mut().for_each(|it| *it = -*it);
-        let (mut step, mut solved) = (zeros.clone(), zeros.clone());
-        let (mut direction, mut product) = (zeros.clone(), zeros);
+        let mut solved = Solved {
+            points: zeros.clone(),
+            aggregates: Vec::new(),
+        };
+        let (mut step, mut direction, mut product) = (zeros.clone(), zeros.clone(), zeros);
         let mut size = self.go(
             0.0,
             [&direction, &product],
-            [&mut step, &mut left, &mut solved],
+            [&mut step, &mut left],
+            &mut solved,
         );
         let target = accuracy * accuracy * size;
         let mut share = 0.0;
         for done in 1..=MOST_PRODUCTS {
-            let directions = direction.par_chunks_mut(BLOCK);
-            directions
-                .zip(solved.par_chunks(BLOCK))
-                .for_each(|(direction, solved)| {
-                    let entries = direction.as_flattened_mut().iter_mut();
-                    for (direction, solved) in entries.zip(solved.as_flattened()) {
-                        *direction = solved + share * *direction;
-                    }
-                });
+            self.turn(&mut direction, share, &solved);
             let length = size / self.multiply(&direction, &mut product);
-            let vectors = [&mut step, &mut left, &mut solved];
-            let next = self.go(length, [&direction, &product], vectors);
+            let vectors = [&mut step, &mut left];
+            let next = self.go(length, [&direction, &product], vectors, &mut solved);
             if next <= target {
                 return (step, done);
             }
@@ -104,12 +115,30 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         (step, MOST_PRODUCTS)
     }
 
+    /// The next direction: what was solved and a share of the direction before.
+    fn turn(&self, direction: &mut Multipliers<N>, share: f64, solved: &Solved<N>) {
+        let points = direction.par_iter_mut().zip(&solved.points).enumerate();
+        points
+            .with_min_len(BLOCK)
+            .for_each(|(rank, (direction, solved_here))| {
+                for (direction, solved) in direction.iter_mut().zip(solved_here) {
+                    *direction = solved + share * *direction;
+                }
+                let aggregates = self.regularisation.aggregates;
+                let common = aggregates.at(&solved.aggregates, rank);
+                for (direction, common) in direction.iter_mut().zip(common) {
+                    *direction += common;
+                }
+            });
+    }
+
     /// Makes the product with values, and gives the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
+        let common = self.regularisation.common(|rank| values[rank]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
             let ranks = self.equations.pairs().ranks(block);
             for (rank, product) in ranks.clone().zip(product.iter_mut()) {
-                *product = std::array::from_fn(|k| self.regularisation[rank][k] * values[rank][k]);
+                *product = self.regularisation.force(rank, values[rank], &common);
             }
             (self.equations).add(block, values, product, |pair, [axial, shear]| {
                 let slopes = self.slopes[pair];
@@ -121,13 +150,14 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         blocks.map(of_block).collect::<Vec<f64>>().iter().sum()
     }
 
-    /// Goes a length in a direction with a known product: changes the step and what is left, solves with the blocks, and gives the
-    /// inner product of what is left and what was solved.
+    /// Goes a length in a direction with a known product: changes the step and what is left, solves with the preconditioner, and gives
+    /// the inner product of what is left and what was solved.
     fn go(
         &self,
         length: f64,
         [direction, product]: [&Multipliers<N>; 2],
-        [step, left, solved]: [&mut Multipliers<N>; 3],
+        [step, left]: [&mut Multipliers<N>; 2],
+        solved: &mut Solved<N>,
     ) -> f64 {
         let of_point = |rank: usize, step: &mut [f64; N], left: &mut [f64; N]| {
             let mut solved = [0.0; N];
@@ -135,7 +165,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
                 step[k] += length * direction[rank][k];
                 left[k] -= length * product[rank][k];
                 for (solved, entry) in solved.iter_mut().zip(self.inverses[rank][k]) {
-                    *solved += entry * left[k];
+                    *solved += f64::from(entry) * left[k];
                 }
             }
             solved
@@ -143,7 +173,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let blocks = (
             step.par_chunks_mut(BLOCK),
             left.par_chunks_mut(BLOCK),
-            solved.par_chunks_mut(BLOCK),
+            solved.points.par_chunks_mut(BLOCK),
         );
         let sums = (blocks.into_par_iter().enumerate()).map(|(block, (step, left, solved))| {
             for (k, rank) in self.equations.pairs().ranks(block).enumerate() {
@@ -151,7 +181,10 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             }
             dot(left.as_flattened(), solved.as_flattened())
         });
-        sums.collect::<Vec<f64>>().iter().sum()
+        let of_points: f64 = sums.collect::<Vec<f64>>().iter().sum();
+        let of_aggregates = self.regularisation.aggregates.sums(|rank| left[rank]);
+        solved.aggregates = self.coarse.solve(&of_aggregates);
+        of_points + dot(&of_aggregates, &solved.aggregates)
     }
 }
 

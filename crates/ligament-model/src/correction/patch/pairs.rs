@@ -12,7 +12,7 @@ pub(super) use crate::correction::members::BLOCK;
 /// either end, where they are not. `rank` is the place of a point on the curve.
 pub(super) struct Pairs<'a> {
     bonds: &'a BondSet,
-    cloud: &'a PointCloud,
+    pub(super) cloud: &'a PointCloud,
     /// First pair of each rank with its other end in the block and with its other end outside, and behind the last rank the number
     /// of all pairs.
     starts: Vec<[usize; 2]>,

@@ -18,7 +18,7 @@ impl Settings {
     pub const DEFAULT: Self = Self {
         lowest: 0.02,
         highest: 20.0,
-        moment_weight: 0.03,
+        moment_weight: 0.04,
         regularisation: 1e-5,
     };
 }

@@ -1,0 +1,200 @@
+//! Long waves of the multipliers: numbers that are the same over all points of an aggregate.
+//!
+//! The ends of a bond have opposite terms in the equations of forces, so multipliers that are the same at both cost nothing, and waves of
+//! them that are much longer than a horizon little: less, in a large body, than the regularisation. What it lets go of equations that
+//! cannot be met is local, at corners and points of few bonds; what it lets go in long waves adds up to forces, and the body is too soft.
+//! So the points are divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions
+//! of Newton steps are solved exactly for such ones (a coarse space, Nicolaides 1987).
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rayon::prelude::*;
+
+use super::equations::{Equations, Multipliers};
+use super::pairs::BLOCK;
+use crate::cloud::PointCloud;
+
+/// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
+const MOST: usize = 64;
+
+/// Points of an aggregate at least: less is hardly more than what the block of a point sees.
+const FEWEST_POINTS: usize = 32;
+
+/// Below this share of a square of a distance another one is the shorter of both, whatever rounding did.
+const TIE: f64 = 1.0 - 1e-9;
+
+/// Regularisation of multipliers that are constant over aggregates over that of others: it holds those that are the same everywhere, which
+/// have no equation.
+const SHARE: f64 = 1e-3;
+
+/// Points that are nearer to one of some points far from each other than to the others.
+///
+/// Distances and the numbers of the points decide, not the axes: a turned body has the same aggregates.
+pub(super) struct Aggregates {
+    /// Place of the first number of the aggregate of each rank.
+    first: Vec<u32>,
+    count: usize,
+    /// Numbers of an aggregate: one for each equation of forces.
+    width: usize,
+}
+
+impl Aggregates {
+    /// Aggregates of the points of a cloud, with some numbers each.
+    pub(super) fn new(cloud: &PointCloud, width: usize) -> Self {
+        let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
+        let mut distance = vec![f64::INFINITY; cloud.len()];
+        let mut aggregate = vec![0; cloud.len()];
+        let mut seed = 0;
+        for number in 0..count {
+            let centre = cloud.positions[seed];
+            seed = 0;
+            for (point, position) in cloud.positions.iter().enumerate() {
+                let square: f64 = position
+                    .iter()
+                    .zip(centre)
+                    .map(|(a, b)| (a - b).powi(2))
+                    .sum();
+                if square < TIE * distance[point] {
+                    (distance[point], aggregate[point]) = (square, number);
+                }
+                if TIE * distance[point] > distance[seed] {
+                    seed = point;
+                }
+            }
+        }
+        let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
+        Self {
+            first: cloud.curve.iter().map(first).collect(),
+            count,
+            width,
+        }
+    }
+
+    /// The numbers of the aggregate of a point.
+    #[inline(always)]
+    pub(super) fn at<'a>(&self, of_aggregates: &'a [f64], rank: usize) -> &'a [f64] {
+        &of_aggregates[self.first[rank] as usize..][..self.width]
+    }
+
+    /// Sums over the points of each aggregate.
+    pub(super) fn sums<const N: usize>(
+        &self,
+        value: impl Fn(usize) -> [f64; N] + Sync,
+    ) -> Vec<f64> {
+        let zeros = || vec![0.0; self.width * self.count];
+        let of_block = |(block, firsts): (usize, &[u32])| {
+            let mut sums = zeros();
+            for (rank, &first) in (block * BLOCK..).zip(firsts) {
+                let values = value(rank);
+                let of_aggregate = &mut sums[first as usize..][..self.width];
+                for (sum, value) in of_aggregate.iter_mut().zip(values) {
+                    *sum += value;
+                }
+            }
+            sums
+        };
+        let blocks = self.first.par_chunks(BLOCK).enumerate().map(of_block);
+        let mut all = zeros();
+        for sums in blocks.collect::<Vec<_>>() {
+            for (all, sum) in all.iter_mut().zip(sums) {
+                *all += sum;
+            }
+        }
+        all
+    }
+}
+
+/// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.
+pub(super) struct Regularisation<'a, const N: usize> {
+    /// r/d^2, by rank.
+    pub(super) of_points: Multipliers<N>,
+    pub(super) aggregates: &'a Aggregates,
+    /// Sums of r/d^2 over the aggregates.
+    totals: Vec<f64>,
+}
+
+impl<'a, const N: usize> Regularisation<'a, N> {
+    pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates) -> Self {
+        let totals = aggregates.sums(|rank| of_points[rank]);
+        Self {
+            of_points,
+            aggregates,
+            totals,
+        }
+    }
+
+    /// What the aggregates have in common of distances (n_points) from a centre, but for the share that is held.
+    pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
+        let weighted = |rank: usize| {
+            let (distance, weight) = (distance(rank), &self.of_points[rank]);
+            std::array::from_fn(|k| weight[k] * distance[k])
+        };
+        let sums = self.aggregates.sums::<N>(weighted);
+        let means = sums.iter().zip(&self.totals);
+        means
+            .map(|(sum, total)| (1.0 - SHARE) * sum / total)
+            .collect()
+    }
+
+    /// The force of a point at a distance from its centre.
+    #[inline(always)]
+    pub(super) fn force(&self, rank: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
+        let of_aggregate = self.aggregates.at(common, rank);
+        for (distance, common) in distance.iter_mut().zip(of_aggregate) {
+            *distance -= common;
+        }
+        std::array::from_fn(|k| self.of_points[rank][k] * distance[k])
+    }
+}
+
+/// The Hessian over multipliers of forces that are constant over each aggregate.
+pub(super) struct Coarse {
+    /// None if the matrix is not definite to rounding.
+    factor: Option<Cholesky<f64, Dyn>>,
+}
+
+impl Coarse {
+    /// The matrix of the aggregates from the slopes of the pairs.
+    pub(super) fn new<const N: usize, E: Equations<N>>(
+        equations: &E,
+        regularisation: &Regularisation<'_, N>,
+        slopes: &[[f64; 2]],
+    ) -> Self {
+        let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
+        let held = DVector::from_vec(regularisation.totals.clone());
+        let mut matrix = SHARE * DMatrix::from_diagonal(&held);
+        for rank in 0..pairs.n_points() {
+            let own = aggregates.first[rank] as usize;
+            for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
+                let other = aggregates.first[pairs.other[pair] as usize] as usize;
+                if other == own {
+                    continue;
+                }
+                let is_inner = pairs.inner(rank).contains(&pair);
+                let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| equations.forces(pair, it));
+                for i in 0..aggregates.width {
+                    let weighted = [0, 1].map(|factor| slopes[pair][factor] * rows[factor][i]);
+                    for k in 0..aggregates.width {
+                        let square = weighted[0] * rows[0][k] + weighted[1] * rows[1][k];
+                        matrix[(own + i, own + k)] += square;
+                        matrix[(own + i, other + k)] -= square;
+                        if is_inner {
+                            matrix[(other + i, other + k)] += square;
+                            matrix[(other + i, own + k)] -= square;
+                        }
+                    }
+                }
+            }
+        }
+        Self {
+            factor: Cholesky::new(matrix),
+        }
+    }
+
+    /// The multipliers of the aggregates for sums over their points; zero without a factor.
+    pub(super) fn solve(&self, sums: &[f64]) -> Vec<f64> {
+        let Some(factor) = &self.factor else {
+            return vec![0.0; sums.len()];
+        };
+        factor.solve(&DVector::from_column_slice(sums)).data.into()
+    }
+}

@@ -1,0 +1,230 @@
+//! Results of runs as other commands read them back.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ligament_case::case::CaseFile;
+use ligament_cli::explain::{self, Subject};
+use ligament_output::checkpoint::Checkpoint;
+use ligament_plot::picture::Target as Picture;
+use ligament_plot::picture::curve::{CurveRequest, draw_curves};
+use ligament_plot::picture::select::Choice;
+use ligament_plot::picture::{FieldRequest, Magnification, draw_fields};
+use ligament_run::progress::ProgressMode;
+use ligament_run::run::run;
+use ligament_study::calibrate::line;
+
+use crate::Target;
+
+const CASE: &str = r#"title = "Small bar"
+[lattice]
+cells = [8, 4]
+spacing = 0.01
+[lattice.set]
+left = { left = 1 }
+right = { right = 1 }
+[material]
+young = 1e9
+poisson = 0.2
+tensile_strength = 1e6
+[model]
+law = "nhpd"
+horizon_factor = 2.2
+[[support]]
+group = "left"
+displacement = { x = 0.0, y = 0.0 }
+[[load]]
+group = "right"
+displacement = { x = 2e-4 }
+[fracture]
+steps = 4
+stop = { load_fraction = 0.5 }
+[output]
+fields_every = 1
+bonds = true
+"#;
+
+const TABLE: &str = "run,model.horizon_factor,mesh.file,status,first_peak.reaction,case.material.tensile_strength\n\
+                     1,2.5,a.msh,done,600000,1e6\n2,3,a.msh,done,720000,1e6\n3,3.5,b.msh,failed,,1e6\n4,4,a.msh,done,9e5,1e6\n";
+
+/// The results of a run, one file of which is another; the input is the name of the file, a line feed and its content.
+pub(crate) struct Results {
+    folder: tempfile::TempDir,
+    files: Vec<(String, Vec<u8>)>,
+}
+
+impl Results {
+    pub(crate) fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let case = CaseFile::parse(&folder.path().join("case.toml"), CASE.to_owned(), &[]).unwrap();
+        let out = folder.path().join("out");
+        run(&case, &out, false, ProgressMode::Quiet).unwrap();
+        fs::write(out.join("table.csv"), TABLE).unwrap();
+        let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(&out)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .map(|path| {
+                (
+                    path.file_name().unwrap().to_str().unwrap().to_owned(),
+                    fs::read(path).unwrap(),
+                )
+            })
+            .collect();
+        files.sort();
+        let results = Self { folder, files };
+        assert_eq!(
+            results.complaints(),
+            [""; 0],
+            "the results themselves are read"
+        );
+        results
+    }
+
+    fn out(&self) -> PathBuf {
+        self.folder.path().join("out")
+    }
+
+    /// What the readers complain of.
+    fn complaints(&self) -> Vec<String> {
+        [self.explain(), self.draw(), self.calibrate()].concat()
+    }
+
+    fn explain(&self) -> Vec<String> {
+        let subjects = [
+            Subject::Point(5),
+            Subject::At([0.02, 0.01]),
+            Subject::Bond([5, 6]),
+        ];
+        let explained = subjects.map(|subject| {
+            let request = explain::Request {
+                folder: self.out(),
+                subject,
+                csv: None,
+                json: None,
+            };
+            explain::explain(&request, &mut Vec::new()).map_err(|it| it.to_string())
+        });
+        explained.into_iter().filter_map(Result::err).collect()
+    }
+
+    fn draw(&self) -> Vec<String> {
+        let target = || Picture {
+            out: Some(self.folder.path().join("picture.svg")),
+            width: None,
+            dpi: 100.0,
+        };
+        let fields = draw_fields(&FieldRequest {
+            folders: vec![self.out()],
+            labels: Vec::new(),
+            field: None,
+            choice: Choice::Default,
+            magnification: Magnification::Auto,
+            crack: true,
+            window: None,
+            bands: None,
+            range: None,
+            map: None,
+            columns: None,
+            target: target(),
+        });
+        let curves = draw_curves(&CurveRequest {
+            folders: vec![self.out()],
+            labels: Vec::new(),
+            columns: ["displacement", "reaction"].map(str::to_owned),
+            target: target(),
+        });
+        let drawn = [fields, curves].map(|it| it.map_err(|it| it.to_string()));
+        drawn.into_iter().filter_map(Result::err).collect()
+    }
+
+    fn calibrate(&self) -> Vec<String> {
+        let lines = line::lines(&line::Request {
+            table: self.out().join("table.csv"),
+            x: "model.horizon_factor".to_owned(),
+            of: "first_peak.reaction".to_owned(),
+            by: vec!["mesh.file".to_owned()],
+            over: [f64::NEG_INFINITY, f64::INFINITY],
+            at: vec![2.5],
+            key: "material.tensile_strength".to_owned(),
+            target: 6e5,
+        });
+        let case = CaseFile::load(&self.out().join("case.resolved.toml"), &[]);
+        let complaints = [
+            lines.err().map(|it| it.to_string()),
+            case.err().map(|it| it.to_string()),
+        ];
+        complaints.into_iter().flatten().collect()
+    }
+}
+
+impl Target for Results {
+    fn name(&self) -> &'static str {
+        "results"
+    }
+
+    fn seeds(&self) -> Vec<Vec<u8>> {
+        let whole =
+            |(name, content): &(String, Vec<u8>)| [name.as_bytes(), b"\n", content].concat();
+        self.files.iter().map(whole).collect()
+    }
+
+    fn words(&self) -> &'static [&'static str] {
+        &[
+            ",",
+            "\"",
+            "nan",
+            "<DataArray ",
+            "NumberOfComponents=\"3\" ",
+            "</VTKFile>",
+            "AAAA",
+        ]
+    }
+
+    fn read(&mut self, input: &[u8]) -> bool {
+        let mut parts = input.splitn(2, |byte| *byte == b'\n');
+        let name = String::from_utf8_lossy(parts.next().unwrap_or_default()).into_owned();
+        let Some((_, whole)) = self.files.iter().find(|it| it.0 == name) else {
+            return false;
+        };
+        let path = self.out().join(&name);
+        fs::write(&path, parts.next().unwrap_or_default()).unwrap();
+        let complaints = self.complaints();
+        fs::write(&path, whole).unwrap();
+        complaints.is_empty()
+    }
+}
+
+/// Checkpoints.
+pub(crate) struct Checkpoints {
+    seed: Vec<u8>,
+}
+
+impl Checkpoints {
+    pub(crate) fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let checkpoint = Checkpoint {
+            version: "0.1.0".to_owned(),
+            inputs: "lattice.cells = [8, 4]".to_owned(),
+            solution: (0..=255).collect(),
+            results: vec![7; 90],
+            notices: vec!["3 points came loose".to_owned()],
+        };
+        checkpoint.write(folder.path()).unwrap();
+        let seed = fs::read(Path::new(folder.path()).join("checkpoint.bin")).unwrap();
+        Self { seed }
+    }
+}
+
+impl Target for Checkpoints {
+    fn name(&self) -> &'static str {
+        "checkpoint"
+    }
+
+    fn seeds(&self) -> Vec<Vec<u8>> {
+        vec![self.seed.clone()]
+    }
+
+    fn read(&mut self, input: &[u8]) -> bool {
+        Checkpoint::from_bytes(input).is_ok()
+    }
+}
