@@ -65,9 +65,6 @@ Examples:
 All values are in SI units: m, N, Pa, s, rad.
 Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal (`ligament resume` goes on).";
 
-/// Exit code of a run without a state under load that is in equilibrium.
-const WITHOUT_EQUILIBRIUM: u8 = 3;
-
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {

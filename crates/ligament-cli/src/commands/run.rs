@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::case_args::CaseArgs;
-use super::{STOPPED, WITHOUT_EQUILIBRIUM};
 use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
@@ -27,6 +26,9 @@ Paths, also in --set mesh.file=..., are relative to the folder of the case file.
 
 /// Exit code of a run that a signal stopped.
 const STOPPED: u8 = 4;
+
+/// Exit code of a run without a state under load that is in equilibrium.
+const WITHOUT_EQUILIBRIUM: u8 = 3;
 
 /// `ligament run`.
 #[derive(Debug, Args)]
