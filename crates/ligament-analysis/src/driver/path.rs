@@ -58,7 +58,7 @@ pub(super) const NO_LOAD: f64 = 1e-9;
 /// for to 1e-10.
 const ENERGY_ERROR: f64 = 1e-6;
 
-/// Error of the energies that is told where bonds soften, and equilibria are known to 1e-6 of the forces.
+/// Limit of the same error where bonds soften: equilibria are known to 1e-6 of the forces.
 const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
 /// A run on its way.
