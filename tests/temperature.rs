@@ -118,15 +118,20 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
 /// irregular mesh, in plane stress and plane strain, with a rise and a fall of the temperature.
 #[test]
 fn free_bodies_expand_without_stress() {
-    let held = "support = [{ at = [0, 0], displacement = { x = 0, y = 0 } }, { at = [1, 0], displacement = { y = 0 } }]\n";
-    let unheld = "";
+    // In a lower corner, and along y in the other one, in a body of this width.
+    let held = |width: f64| {
+        format!(
+            "support = [{{ at = [0, 0], displacement = {{ x = 0, y = 0 }} }}, \
+             {{ at = [{width}, 0], displacement = {{ y = 0 }} }}]\n"
+        )
+    };
     for (name, settings) in LAWS {
         for plane in ["stress", "strain"] {
             let mut settings = settings.to_vec();
             let plane_setting = format!("lattice.plane={plane}");
             settings.push(&plane_setting);
             // A rotation held would hold the shear of a lamina against pds, which counts turns as shear; nothing else has both.
-            for (support, change) in [(held, CHANGE), (unheld, -CHANGE)] {
+            for (support, change) in [(held(0.06), CHANGE), (String::new(), -CHANGE)] {
                 let text = format!("{LATTICE}{support}temperature = [{{ change = {change:?} }}]\n");
                 let (bench, run) = solved(&text, &settings);
                 assert_eq!(bench.boundary.control.kind, ControlKind::Temperature);
@@ -141,7 +146,10 @@ fn free_bodies_expand_without_stress() {
                 format!("mesh.plane={plane}"),
             ];
             let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-            let text = format!("{SQUARE}{held}temperature = [{{ change = {CHANGE:?} }}]\n");
+            let text = format!(
+                "{SQUARE}{}temperature = [{{ change = {CHANGE:?} }}]\n",
+                held(0.1)
+            );
             let (bench, run) = solved(&text, &settings);
             assert_free(
                 &format!("nhpd on a mesh, nu {poisson}, {plane}"),

@@ -60,7 +60,7 @@ impl Target for Factors {
         let n = 1 + usize::from(numbers.byte()) % MOST;
         let (mut starts, mut rows) = (vec![0], Vec::new());
         for column in 0..n {
-            rows.extend((0..column).filter(|_| numbers.byte() % 3 == 0));
+            rows.extend((0..column).filter(|_| numbers.byte().is_multiple_of(3)));
             rows.push(column);
             starts.push(rows.len());
         }
@@ -100,7 +100,7 @@ fn use_factor(factor: &mut dyn Factorisation, n: usize, numbers: &mut Numbers<'_
     assert_eq!(inertia.positive + inertia.negative, n);
     factor.solve_in_place(&mut vec![1.0; n]);
     let mut entries: Vec<(usize, f64)> = (0..n)
-        .filter(|_| numbers.byte() % 8 == 0)
+        .filter(|_| numbers.byte().is_multiple_of(8))
         .map(|unknown| (unknown, 1.0))
         .collect();
     entries.truncate(6);

@@ -35,6 +35,8 @@ pub struct Balanced {
     pub internal: InternalForces,
     /// Energy stored in the intact bonds, J.
     pub stored_energy: f64,
+    /// Energy that rounding makes of the displacements, or expansions of the bonds would store, J: less is no energy to speak of.
+    pub energy_floor: f64,
     /// Residual relative to the forces that meet at a point.
     pub residual: f64,
     /// Newton-Raphson iterations.
@@ -59,6 +61,7 @@ impl Balanced {
                 thermal: factor * self.internal.thermal,
             },
             stored_energy: factor * factor * self.stored_energy,
+            energy_floor: factor * factor * self.energy_floor,
             iterations: 0,
             mechanisms: Vec::new(),
             ..*self

@@ -35,6 +35,8 @@ pub struct StepRecord {
     pub dissipated_energy: f64,
     /// Work done by supports and loads so far, J.
     pub external_work: f64,
+    /// Energy below which work is no measure of what the energies miss, J: rounding, and that of expansions which the body gives way to.
+    pub energy_floor: f64,
     /// Broken bonds so far.
     pub broken_bonds: usize,
     /// Bonds broken in this step; on the exact path those that break at this load, and are not yet among `broken_bonds`.
@@ -67,6 +69,7 @@ serial!(StepRecord {
     released_energy,
     dissipated_energy,
     external_work,
+    energy_floor,
     broken_bonds,
     broken_in_step,
     largest_ratio,
@@ -80,14 +83,24 @@ serial!(StepRecord {
 });
 
 impl StepRecord {
-    /// (external work - stored - released energy) / external work: what the energy balance misses; 0 without work.
+    /// External work - stored - released energy over the external work, or the energy floor where that is larger: what the energy
+    /// balance misses; 0 without work.
     pub fn energy_error(&self) -> f64 {
-        let missing = self.external_work - self.stored_energy - self.released_energy;
-        if self.external_work == 0.0 {
+        let scale = if self.external_work.abs() < self.energy_floor {
+            self.energy_floor
+        } else {
+            self.external_work
+        };
+        if scale == 0.0 {
             0.0
         } else {
-            missing / self.external_work
+            self.missing_energy() / scale
         }
+    }
+
+    /// External work - stored - released energy, J.
+    pub fn missing_energy(&self) -> f64 {
+        self.external_work - self.stored_energy - self.released_energy
     }
 }
 
@@ -151,6 +164,17 @@ pub enum Notice {
     NegativeEnergy {
         /// Load step.
         step: usize,
+    },
+    /// Work and energies do not balance.
+    #[error(
+        "step {step}: work, stored and released energy miss each other by {error:.1e} of the work: results from here on are not to be \
+         trusted"
+    )]
+    EnergyUnbalanced {
+        /// Load step.
+        step: usize,
+        /// What is missing, relative to the work.
+        error: f64,
     },
     /// The intact model has more negative eigenvalues than its rotations explain.
     #[error(

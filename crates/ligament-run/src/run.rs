@@ -38,6 +38,16 @@ impl Report {
         }
     }
 
+    /// Why no state under load is in equilibrium, where none is.
+    pub fn without_equilibrium(&self) -> Option<&str> {
+        match self {
+            Self::Loading(summary) if summary.without_equilibrium => {
+                Some(&summary.termination_message)
+            }
+            Self::Loading(_) | Self::Modes(_) => None,
+        }
+    }
+
     /// Whether the run was stopped by its user, and can go on.
     pub fn is_stopped(&self) -> bool {
         match self {

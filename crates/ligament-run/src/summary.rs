@@ -8,6 +8,7 @@ use std::io::{self, Write};
 
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
+use ligament_analysis::history::StepRecord;
 use ligament_analysis::{ProportionalLoading, Termination};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -54,6 +55,12 @@ pub struct Summary {
     pub termination: &'static str,
     /// Why the run ended, in words.
     pub termination_message: String,
+    /// Set where no state under load is at rest: there is nothing but the unloaded body but those of the unloaded body.
+    #[serde(skip_serializing_if = "is_false")]
+    pub without_equilibrium: bool,
+    /// Set where the last state is not at rest: its bonds would go on breaking, or no equilibrium follows.
+    #[serde(skip_serializing_if = "is_false")]
+    pub last_state_not_at_rest: bool,
     /// Largest |external work - stored - released energy| over the largest external work.
     pub energy_balance_error: f64,
     /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
@@ -122,6 +129,10 @@ impl From<Stability> for StabilitySummary {
     }
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 /// Why a run ended, in words, with points by their tags and places.
 pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
     let body = model.body();
@@ -145,13 +156,15 @@ impl Summary {
         stages: &[Stage],
     ) -> Self {
         let history = &outcome.history;
+        let without_equilibrium = outcome.is_without_equilibrium();
+        let loaded = |point: Option<LoadPoint>| {
+            let point = point.filter(|_| !without_equilibrium);
+            point.map(PathPoint::from)
+        };
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let work = largest(&mut history.iter().map(|step| step.external_work.abs()));
-        let missing = largest(
-            &mut history
-                .iter()
-                .map(|s| (s.external_work - s.stored_energy - s.released_energy).abs()),
-        );
+        let scale = |step: &StepRecord| step.external_work.abs().max(step.energy_floor);
+        let work = largest(&mut history.iter().map(scale));
+        let missing = largest(&mut history.iter().map(|step| step.missing_energy().abs()));
         let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(notices);
         Self {
@@ -161,13 +174,15 @@ impl Summary {
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),
-            peak: outcome.peak().map(PathPoint::from),
-            first_peak: outcome.first_peak(DROP).map(PathPoint::from),
+            peak: loaded(outcome.peak()),
+            first_peak: loaded(outcome.first_peak(DROP)),
             broken_bonds: outcome.state.broken_bonds(),
             steps: history.len().saturating_sub(1),
             exact_path: outcome.rows == Rows::Events,
             termination: outcome.termination.name(),
             termination_message: ending(outcome, model),
+            without_equilibrium,
+            last_state_not_at_rest: history.last().is_some_and(|last| !last.at_rest),
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
@@ -207,6 +222,14 @@ impl Summary {
             self.energy_balance_error
         )?;
         writeln!(out, "  ended because      {}", self.termination_message)?;
+        if self.without_equilibrium {
+            let none = "no state under load is in equilibrium: there are no results";
+            writeln!(out, "  NO EQUILIBRIUM     {none}")?;
+        } else if self.last_state_not_at_rest {
+            let last =
+                "the last state is no answer: its bonds were still breaking when the run ended";
+            writeln!(out, "  NOT AT REST        {last}")?;
+        }
         for warning in self.warnings.iter().take(WARNINGS_SHOWN) {
             writeln!(out, "  warning: {warning}")?;
         }

@@ -93,7 +93,9 @@ impl<'a> Watch<'a> {
                     tags.join(", ")
                 )
             }
-            Notice::Unstable { .. } | Notice::NegativeEnergy { .. } => notice.to_string(),
+            Notice::Unstable { .. }
+            | Notice::NegativeEnergy { .. }
+            | Notice::EnergyUnbalanced { .. } => notice.to_string(),
         }
     }
 }

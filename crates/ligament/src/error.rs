@@ -117,7 +117,7 @@ pub enum Fault {
     NearPoints {
         /// The two points, in words.
         places: [String; 2],
-        /// Their distance, m.
+        /// Distance between the two points, m.
         distance: f64,
         /// Side of the square of the area of the first, m.
         size: f64,
@@ -171,7 +171,7 @@ pub enum Fault {
         position: [f64; 2],
         /// The nearest point, in words.
         nearest: String,
-        /// Its distance, m.
+        /// Distance from the nearest point, m.
         distance: f64,
     },
     /// Cells of a mesh on top of others.

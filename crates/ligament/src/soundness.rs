@@ -92,8 +92,8 @@ fn require_whole(
         let [from, to] = [from, to].map(|it| horizons.radius[it as usize]);
         from.max(to)
     };
-    let torn =
-        sides.filter(|ends| parts.of(ends[0]) != parts.of(ends[1]) && length(ends) > radius(ends));
+    let torn = sides
+        .filter(|ends| parts.part(ends[0]) != parts.part(ends[1]) && length(ends) > radius(ends));
     let Some(worst) = torn.max_by(|one, other| {
         (length(one) / radius(one)).total_cmp(&(length(other) / radius(other)))
     }) else {
@@ -173,7 +173,7 @@ impl Parts {
         Self { first }
     }
 
-    fn of(&self, point: u32) -> u32 {
+    fn part(&self, point: u32) -> u32 {
         self.first[point as usize]
     }
 

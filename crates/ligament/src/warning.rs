@@ -49,7 +49,7 @@ pub enum Warning {
     LargeHorizon {
         /// A point with the smallest horizon, in words.
         place: String,
-        /// Its horizon, m.
+        /// Horizon of the point, m.
         horizon: f64,
         /// Longer side of the box around the body, m.
         length: f64,

@@ -57,6 +57,19 @@ serial!(LoadPoint {
 });
 
 impl Outcome {
+    /// Whether no state under load is at rest: there is nothing but the unloaded body. A run that was stopped may still find one.
+    pub fn is_without_equilibrium(&self) -> bool {
+        let is_answer = |step: &StepRecord| step.at_rest && step.step > 0;
+        let ended_so = matches!(
+            self.termination,
+            Termination::NoEquilibrium { .. }
+                | Termination::NotAtRest { .. }
+                | Termination::Collapsed
+                | Termination::LostStiffness { .. }
+        );
+        ended_so && !self.history.iter().any(is_answer)
+    }
+
     /// The record at rest with the largest reaction.
     pub fn peak(&self) -> Option<LoadPoint> {
         let at_rest = self.history.iter().filter(|step| step.at_rest);

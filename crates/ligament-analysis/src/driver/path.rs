@@ -16,7 +16,7 @@ use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, Termination, View,
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
 };
 use crate::load_program::ControlKind;
 use crate::problem::Problem;
@@ -53,6 +53,13 @@ impl StopRules {
 
 /// Below this fraction of the peak a body carries no load any more: what is left is rounding.
 pub(super) const NO_LOAD: f64 = 1e-9;
+
+/// What work and energies may miss each other by, relative to the work: both are exact between two equilibria, and these are solved
+/// for to 1e-10.
+const ENERGY_ERROR: f64 = 1e-6;
+
+/// Limit of the same error where bonds soften: equilibria are known to 1e-6 of the forces.
+const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
 /// A run on its way.
 pub(super) struct Path<'a> {
@@ -371,8 +378,31 @@ impl<'a> Path<'a> {
             is_last,
         };
         self.observer.step(&record, &view)?;
+        self.report_energies(&record)?;
         self.course.history.push(record);
         Ok(())
+    }
+
+    /// Tells of the first record whose energies do not balance; forces without an energy have none that would.
+    fn report_energies(&mut self, record: &StepRecord) -> Result<(), ObserverError> {
+        let system = &self.problem.system;
+        if !system.is_linear() || !system.has_energy() {
+            return Ok(());
+        }
+        let limit = if self.problem.criteria.soften() {
+            SOFTENING_ENERGY_ERROR
+        } else {
+            ENERGY_ERROR
+        };
+        // What is not a number is off as well.
+        let is_off = |it: &StepRecord| !(it.energy_error().abs() <= limit);
+        if !is_off(record) || self.course.history.last().is_some_and(is_off) {
+            return Ok(());
+        }
+        self.observer.notice(&Notice::EnergyUnbalanced {
+            step: record.step,
+            error: record.energy_error().abs(),
+        })
     }
 
     /// What the run was.

@@ -191,6 +191,7 @@ pub(super) fn step_record(
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
+        energy_floor: balanced.energy_floor,
         dissipated_energy: state.dissipated.iter().sum(),
         broken_bonds: counters.broken,
         broken_in_step: counters.broken_in_step,

@@ -36,6 +36,7 @@ pub(super) struct Iterate {
     deformations: Vec<BondDeformation>,
     internal: InternalForces,
     pub(super) stored_energy: f64,
+    energy_floor: f64,
     pub(super) residual: Residual,
     pub(super) extents: Extents,
     negative_energy: Option<f64>,
@@ -48,6 +49,7 @@ impl Iterate {
             deformations: self.deformations,
             internal: self.internal,
             stored_energy: self.stored_energy,
+            energy_floor: self.energy_floor,
             residual: self.residual.relative,
             iterations,
             negative_energy: self.negative_energy,
@@ -283,13 +285,15 @@ impl Equations {
         let displacement = self.largest_displacement(state);
         let residual = self.residual(state, &internal, extents, displacement);
         self.costs.bonds += start.elapsed();
-        let cancelled = CANCELLED * state.load_factor.powi(2) * expansion_energy.abs();
+        let of_expansions = state.load_factor.powi(2) * expansion_energy.abs();
+        let cancelled = CANCELLED * of_expansions;
         let rounding = ROUNDING * self.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + cancelled);
         Iterate {
             deformations,
             internal,
             stored_energy,
+            energy_floor: of_expansions.max(rounding * state.displacement.len() as f64),
             residual,
             extents,
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),

@@ -27,6 +27,9 @@ Paths, also in --set mesh.file=..., are relative to the folder of the case file.
 /// Exit code of a run that a signal stopped.
 const STOPPED: u8 = 4;
 
+/// Exit code of a run without a state under load that is in equilibrium.
+const WITHOUT_EQUILIBRIUM: u8 = 3;
+
 /// `ligament run`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
@@ -83,5 +86,10 @@ pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::from(STOPPED));
     }
     writeln!(stdout, "  results in         {out}")?;
+    if let Some(reason) = report.without_equilibrium() {
+        stdout.flush()?;
+        writeln!(terminal::stderr(), "error: no result under load: {reason}")?;
+        return Ok(ExitCode::from(WITHOUT_EQUILIBRIUM));
+    }
     Ok(ExitCode::SUCCESS)
 }

@@ -337,6 +337,7 @@ mod tests {
             load_factor: 0.0,
             displacement: 0.0,
             reaction: 0.0,
+            at_rest: true,
         });
         let state = |life: &Life, moment| {
             let softened = life.softened(0, &moments, moment);

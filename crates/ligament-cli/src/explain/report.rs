@@ -170,7 +170,11 @@ fn load_header(units: Units) -> Vec<String> {
 
 fn load(moment: &StoredStep) -> Vec<String> {
     vec![
-        moment.step.to_string(),
+        if moment.at_rest {
+            moment.step.to_string()
+        } else {
+            format!("{} (not at rest)", moment.step)
+        },
         format!("{:.6}", moment.load_factor),
         number(moment.displacement),
         number(moment.reaction),

@@ -34,7 +34,9 @@ fn run(folder: &Path, case: &str, settings: &[&str]) -> PathBuf {
         arguments.extend([OsStr::new("--set"), OsStr::new(setting)]);
     }
     let output = ligament(arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    // 3: no state under load is in equilibrium, and there is little to explain.
+    let code = output.status.code();
+    assert!(matches!(code, Some(0 | 3)), "{}", text(&output.stderr));
     out
 }
 

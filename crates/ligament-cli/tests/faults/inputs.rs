@@ -180,3 +180,24 @@ fn a_name_is_no_option() {
     fs::write(place.path("study.toml"), study).unwrap();
     assert_success(&place.ligament(["sweep", "study.toml", "--out", "./-out"]));
 }
+
+/// Python takes its packages from where it has them, not from files that happen to lie in the current folder.
+#[test]
+fn files_of_the_current_folder_are_no_packages() {
+    let place = Place::new();
+    let write = "open('executed', 'w').close()\n";
+    for name in ["numpy.py", "meshio.py", "contextlib.py", "pathlib.py"] {
+        fs::write(place.path(name), write).unwrap();
+    }
+    fs::write(place.path("a.inp"), "*NODE\n").unwrap();
+    let python = std::env::var("LIGAMENT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let arguments = ["mesh", "--via-meshio", "a.inp", "--python", &python];
+    let output = place.ligament(arguments);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(
+        !stderr(&output).contains("cannot start"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(!place.path("executed").exists(), "{}", stderr(&output));
+}

@@ -30,6 +30,7 @@ impl Lock {
                 .read(true)
                 .write(true)
                 .create(true)
+                .truncate(false)
                 .open(&path);
             let mut file = options.map_err(Error::system("write", &path))?;
             match file.try_lock() {

@@ -108,6 +108,8 @@ pub struct StoredStep {
     pub displacement: f64,
     /// Force of the first load, N.
     pub reaction: f64,
+    /// Whether no bond was left to break there.
+    pub at_rest: bool,
 }
 
 /// A broken bond.
@@ -157,7 +159,7 @@ impl StoredRun {
         let deformation_names = if has_strains { strains } else { pairs };
         Ok(Self {
             deformation_names,
-            history: Sheet::read(folder.join("history.csv"))?.rows(StoredStep::read)?,
+            history: Sheet::read(folder.join("history.csv"))?.rows(StoredStep::of_history)?,
             breaks: broken.rows(|row| StoredBreak::read(row, model.tagged, deformation_names))?,
             fields: numbered_files(folder, "fields")?,
             folder: folder.to_path_buf(),
@@ -300,8 +302,14 @@ impl StoredLargest {
 }
 
 impl StoredStep {
-    fn read(row: Row<'_>) -> Result<Self, Error> {
+    fn of_history(row: Row<'_>) -> Result<Self, Error> {
+        let at_rest = row.value::<u8>("at_rest")? != 0;
+        Self::read(row, at_rest)
+    }
+
+    fn read(row: Row<'_>, at_rest: bool) -> Result<Self, Error> {
         Ok(Self {
+            at_rest,
             step: row.value("step")?,
             load_factor: row.value("load_factor")?,
             displacement: row.value("displacement")?,
@@ -316,7 +324,7 @@ impl StoredBreak {
         Ok(Self {
             order: row.value("order")?,
             round: row.value("round")?,
-            at: StoredStep::read(row)?,
+            at: StoredStep::read(row, false)?,
             tags: [
                 row.value(&format!("{tagged}_a"))?,
                 row.value(&format!("{tagged}_b"))?,

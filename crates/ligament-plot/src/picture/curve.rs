@@ -35,6 +35,8 @@ pub struct CurveRequest {
 struct Curve {
     points: Vec<[f64; 2]>,
     units: [String; 2],
+    /// Whether the last point is no answer to its load: bonds were still breaking there.
+    ends_unsettled: bool,
     /// The load before its first fall, on curves of force over displacement.
     first_peak: Option<[f64; 2]>,
 }
@@ -57,6 +59,7 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     let shown = [shown(&curves, 0, request)?, shown(&curves, 1, request)?];
     let place = |point: [f64; 2]| [0, 1].map(|axis| point[axis] * shown[axis].factor);
     let mut series = Vec::new();
+    let mut unsettled = Vec::new();
     let is_single = curves.len() == 1;
     let colours: Vec<Colour> = Colour::CYCLE.into_iter().chain([Colour::Black]).collect();
     for (number, (curve, label)) in curves.iter().zip(&labels).enumerate() {
@@ -67,8 +70,14 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
             _ => Mark::Dashes,
         };
         let label = if is_single { "" } else { label };
-        let points = curve.points.iter().map(|&point| place(point));
-        series.push(Series::new(label, mark, colour, points.collect()));
+        let settled = curve.points.len() - usize::from(curve.ends_unsettled);
+        let points: Vec<[f64; 2]> = curve.points.iter().map(|&point| place(point)).collect();
+        series.push(Series::new(label, mark, colour, points[..settled].to_vec()));
+        unsettled.extend_from_slice(&points[settled..]);
+    }
+    if !unsettled.is_empty() {
+        let mark = Mark::Circles;
+        series.push(Series::new("not at rest", mark, Colour::Black, unsettled));
     }
     let mut title = String::new();
     let mut is_named = is_single;
@@ -128,10 +137,20 @@ impl Curve {
         let is_of_load = columns[0] == "displacement" && columns[1] == "reaction";
         Ok(Self {
             points: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(),
+            ends_unsettled: ends_unsettled(&sheet)?,
             units: [unit(&columns[0]), unit(&columns[1])],
             first_peak: is_of_load.then(|| first_peak(folder)).flatten(),
         })
     }
+}
+
+/// Whether the run ended with a state that is no answer to its load: bonds were still breaking.
+fn ends_unsettled(sheet: &Sheet) -> Result<bool, PictureError> {
+    if !sheet.columns().iter().any(|name| name == "at_rest") {
+        return Ok(false);
+    }
+    let at_rest = sheet.values::<u8>("at_rest")?;
+    Ok(at_rest.last() == Some(&0))
 }
 
 /// The load before its first fall, from the summary; a run that was cut short has none.

@@ -226,6 +226,9 @@ impl Source {
                 "displacement"
             };
             words.push([format!("{moves} {moved}"), moved]);
+            if !moment.at_rest {
+                words.push(same("not at rest".to_owned()));
+            }
             if !is_heated {
                 let held = force.value(moment.reaction);
                 words.push([format!("reaction {held}"), held]);

@@ -31,6 +31,8 @@ pub(super) struct Moment {
     pub(super) displacement: f64,
     /// Force of the first load.
     pub(super) reaction: f64,
+    /// Whether no bond was left to break there.
+    pub(super) at_rest: bool,
 }
 
 /// The rows of a history by their steps; none where there is no history.
@@ -45,6 +47,7 @@ pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureE
         let moment = Moment {
             displacement,
             reaction,
+            at_rest: row.value::<u8>("at_rest").map_or(true, |it| it != 0),
         };
         Ok((row.value("step")?, moment))
     })?;
@@ -121,6 +124,7 @@ mod tests {
                     Moment {
                         displacement,
                         reaction: 0.0,
+                        at_rest: true,
                     },
                 )
             });

@@ -72,6 +72,9 @@ impl Setup {
         ] {
             positive(field.part(part), value)?;
         }
+        let density = material.density.unwrap_or(1.0);
+        let expected = "less than 1e100 kg/m^3, beyond which frequencies are no numbers";
+        require(density < 1e100, field.part("density"), expected, density)?;
         if matches!(self.analysis, Analysis::Modal(_)) && material.density.is_none() {
             let reason = "(in kg/m^3) because a modal analysis needs masses";
             return missing(field, "density", reason);

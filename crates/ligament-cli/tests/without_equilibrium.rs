@@ -1,0 +1,103 @@
+//! A run without a result, or with a last state that is none, says so wherever it is shown.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A strip under a force; its loaded points lose their bonds one by one.
+const STRIP: &str = r#"
+lattice = { cells = [10, 5], spacing = 0.01, thickness = 0.01, set = { left = { left = 1 }, right = { right = 1 } } }
+material = { young = 15e9, poisson = 0.3333, fracture_energy = 10.0 }
+model = { law = "bbpd", horizon_factor = 2.0 }
+support = [{ group = "left", displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "right", force = { x = 1e6 } }]
+"#;
+
+fn ligament(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
+    let command = command.current_dir(folder).args(arguments);
+    command.output().unwrap()
+}
+
+fn run(folder: &Path, case: &str) -> (Option<i32>, String, String) {
+    fs::write(folder.join("case.toml"), case).unwrap();
+    let output = ligament(
+        folder,
+        &["run", "case.toml", "--out", "out", "--force", "-q"],
+    );
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+/// Elastic, in load steps that are too large, and on the exact path without a support: the exit code is 3, no load is shown, and
+/// the summary is marked.
+#[test]
+fn a_run_without_a_result_has_its_own_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let criterion = "[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
+    let unheld = STRIP.replace("support = ", "# ");
+    for case in [
+        unheld.clone(),
+        format!("{STRIP}[fracture]\nsteps = 50\n{criterion}"),
+        format!("{unheld}[fracture]\ncontrol = \"event\"\n{criterion}"),
+    ] {
+        let (code, shown, error) = run(folder.path(), &case);
+        assert_eq!(code, Some(3), "{shown}{error}");
+        assert!(
+            shown.contains("NO EQUILIBRIUM") && !shown.contains("largest load"),
+            "{shown}"
+        );
+        assert!(
+            error.starts_with("error: no result under load: "),
+            "{error}"
+        );
+        assert!(
+            error.contains("no bond") && error.contains(" cell "),
+            "{error}"
+        );
+        let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        assert_eq!(summary["without_equilibrium"], true);
+        assert!(summary["peak"].is_null() && summary["first_peak"].is_null());
+    }
+}
+
+/// The strip collapses on the exact path: its peak stands, and its last state is marked in the summary, the lines at the end,
+/// the explanation of a point and the pictures.
+#[test]
+fn a_last_state_that_is_not_at_rest_is_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let event =
+        "[fracture]\ncontrol = \"event\"\n[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
+    let (code, shown, _) = run(folder, &format!("{STRIP}{event}"));
+    assert_eq!(code, Some(0), "{shown}");
+    assert!(
+        shown.contains("NOT AT REST") && shown.contains("largest load"),
+        "{shown}"
+    );
+    let summary = fs::read_to_string(folder.join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(summary["last_state_not_at_rest"], true);
+    assert_eq!(summary["termination"], "collapsed");
+    let told = ligament(folder, &["explain", "out", "--point", "30"]);
+    let told = String::from_utf8(told.stdout).unwrap();
+    assert!(told.contains("4 (not at rest)"), "{told}");
+    for (file, more) in [("fields.svg", None), ("curve.svg", Some("--curve"))] {
+        let arguments = ["plot", "out", "--out", file].into_iter().chain(more);
+        let drawn = ligament(folder, &arguments.collect::<Vec<_>>());
+        assert_eq!(
+            drawn.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&drawn.stderr)
+        );
+        let picture = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(picture.contains("not at rest"), "{file}");
+    }
+}
