@@ -16,12 +16,12 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 /// What a shell reports of a program that a signal ended, less the number of the signal.
 const ENDED_BY_SIGNAL: i32 = 128;
 
-/// Tells whether a signal came that asks the program to stop; by default none is awaited, and any ends the program.
+/// Whether a signal came that asks the program to stop; by default none is awaited, and any ends the program.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StopSignal(Arc<AtomicBool>);
 
 impl StopSignal {
-    /// The signal that is awaited from here on: the first is told, the second ends the program.
+    /// The signals, awaited from here on: the first is kept to be asked for, the second ends the program.
     ///
     /// # Errors
     ///

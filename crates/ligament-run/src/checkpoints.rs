@@ -53,14 +53,14 @@ impl<'a> Checkpoints<'a> {
         }
     }
 
-    /// Writes one.
+    /// Writes one, the work on which began at an instant.
     pub(crate) fn write(
         &mut self,
+        begun: Instant,
         solution: Vec<u8>,
         results: &SoFar,
         notices: &[String],
     ) -> Result<(), ligament_output::Error> {
-        let start = Instant::now();
         let mut of_results = Vec::new();
         results.write(&mut of_results);
         let checkpoint = Checkpoint {
@@ -72,7 +72,7 @@ impl<'a> Checkpoints<'a> {
         };
         checkpoint.write(self.folder.path())?;
         self.last = Instant::now();
-        self.cost = self.last - start;
+        self.cost = self.last - begun;
         Ok(())
     }
 

@@ -1,5 +1,7 @@
 //! Watches a run: writes its results, shows its progress and keeps its notices.
 
+use std::time::Instant;
+
 use ligament::setup::Analysis;
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
@@ -148,9 +150,10 @@ impl Observer for Watch<'_> {
             moment.end
         };
         if self.checkpoints.is_due(end) {
+            let begun = Instant::now();
             let solution = (moment.checkpoint)();
             let results = self.writer.so_far().map_err(failed)?;
-            let written = (self.checkpoints).write(solution, &results, &self.notices);
+            let written = (self.checkpoints).write(begun, solution, &results, &self.notices);
             written.map_err(failed)?;
         }
         Ok(if is_stopped { Onward::Stop } else { Onward::Go })

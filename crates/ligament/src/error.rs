@@ -123,27 +123,8 @@ pub enum Fault {
         size: f64,
     },
     /// Bonds that do not hold a body together which its cells do.
-    #[error(
-        "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
-         (direction {:.2}, {:.2}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
-         a horizon factor of 3", places[0], places[1], along[0], along[1]
-    )]
-    Torn {
-        /// Number of parts by the bonds.
-        parts: usize,
-        /// Number of parts of the mesh.
-        of_body: usize,
-        /// Ends of a side of a cell that lie in two parts, in words.
-        places: [String; 2],
-        /// Direction of the side, without sign.
-        along: [f64; 2],
-        /// Length of the side, m.
-        length: f64,
-        /// Horizon of its ends, m.
-        horizon: f64,
-        /// The horizon that the side needs, in words.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Torn(Box<Torn>),
     /// A bond whose stiffness is not a number.
     #[error(
         "the stiffness of the bond from {} to {} is not a number: look for a size, thickness or stiffness that is out of all \
@@ -290,6 +271,30 @@ pub enum Fault {
     /// Choices that do not go together.
     #[error("{0}")]
     Contradiction(Cow<'static, str>),
+}
+
+/// A body that its cells hold together and its bonds do not: sides of cells are longer than the horizon.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
+     (direction {:.2}, {:.2}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
+     a horizon factor of 3", places[0], places[1], along[0], along[1]
+)]
+pub struct Torn {
+    /// Number of parts by the bonds.
+    pub parts: usize,
+    /// Number of parts of the mesh.
+    pub of_body: usize,
+    /// Ends of a side of a cell that lie in two parts, in words.
+    pub places: [String; 2],
+    /// Direction of the side, without sign.
+    pub along: [f64; 2],
+    /// Length of the side, m.
+    pub length: f64,
+    /// Horizon of its ends, m.
+    pub horizon: f64,
+    /// The horizon that the side needs, in words.
+    pub remedy: String,
 }
 
 impl Field {

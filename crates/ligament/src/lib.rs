@@ -58,7 +58,7 @@ pub mod units;
 pub mod warning;
 
 pub use body::Body;
-pub use error::{Error, Fault, Field, SetupError};
+pub use error::{Error, Fault, Field, SetupError, Torn};
 pub use loading::{Loading, Vibration};
 pub use model::Model;
 pub use setup::Setup;

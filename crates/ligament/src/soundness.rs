@@ -5,7 +5,7 @@ use ligament_model::element::Rigidities;
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::body::Body;
-use crate::error::{Fault, Field, SetupError};
+use crate::error::{Fault, Field, SetupError, Torn};
 use crate::setup::{Horizon, Setup};
 
 /// Part of the size of a point below which its nearest point is one with it.
@@ -108,7 +108,7 @@ fn require_whole(
     );
     let [from, to] = worst.map(|it| cloud.positions[it as usize]);
     let excess = length(&worst) / radius(&worst);
-    Err(Field::whole("horizon").error(Fault::Torn {
+    let torn = Torn {
         parts: parts.count(),
         of_body: of_mesh.count(),
         places: worst.map(|it| body.place(it)),
@@ -119,7 +119,8 @@ fn require_whole(
             Horizon::Factor(factor) => format!("a horizon factor above {:.2}", factor * excess),
             Horizon::Length(length) => format!("a horizon above {:.4e} m", length * excess),
         },
-    }))
+    };
+    Err(Field::whole("horizon").error(Fault::Torn(Box::new(torn))))
 }
 
 /// Refuses bonds whose stiffness is no number that equations can be made of.

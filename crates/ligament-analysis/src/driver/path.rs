@@ -400,9 +400,10 @@ impl<'a> Path<'a> {
         } else {
             ENERGY_ERROR
         };
-        // What is not a number is off as well.
-        let is_off = |it: &StepRecord| !(it.energy_error().abs() <= limit);
-        if !is_off(record) || self.course.history.last().is_some_and(is_off) {
+        // An error that is not a number is no balance either.
+        let is_balanced = |it: &StepRecord| it.energy_error().abs() <= limit;
+        let last = self.course.history.last();
+        if is_balanced(record) || last.is_some_and(|it| !is_balanced(it)) {
             return Ok(());
         }
         self.observer.notice(&Notice::EnergyUnbalanced {

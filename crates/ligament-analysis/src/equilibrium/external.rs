@@ -56,8 +56,9 @@ pub(super) fn imbalance(
     let of_body = equations.largest_force(balanced.internal.force_scale);
     let is_off = |(place, sum): &(usize, &Sum)| {
         let is_force = !layout.components[place % n_components].is_rotation();
-        // What is not a number is off as well.
-        is_force && !(sum.resultant.abs() <= BALANCED * (sum.size + of_body) + sum.rounding)
+        // A resultant that is not a number is no balance either.
+        let is_balanced = sum.resultant.abs() <= BALANCED * (sum.size + of_body) + sum.rounding;
+        is_force && !is_balanced
     };
     let (place, sum) = sums.iter().enumerate().find(is_off)?;
     let points = &fragments.points[place / n_components];

@@ -22,3 +22,8 @@ pub(super) fn spread(
     let values = format!("{min:.4e} to {max:.4e}{unit}, mean {mean:.4e}");
     entry(out, name, values)
 }
+
+/// Bytes in words, to a tenth of a megabyte.
+pub(super) fn megabytes(bytes: f64) -> String {
+    format!("{:.1} MB", bytes / 1e6)
+}

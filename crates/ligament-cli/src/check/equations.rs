@@ -8,7 +8,7 @@ use ligament_analysis::solver::{
 };
 use ligament_analysis::stiffness::Stiffness;
 
-use super::entry::entry;
+use super::entry::{entry, megabytes};
 use ligament::Setup;
 use ligament_case::case::CaseFile;
 use ligament_run::memory;
@@ -29,17 +29,9 @@ pub(super) fn write(
     entry(out, "unknowns", stiffness.unknowns().len())?;
     let entries = format!("{matrix} in the matrix, {factor} in the factor");
     entry(out, "entries", entries)?;
-    entry(
-        out,
-        "estimated memory",
-        format!("{:.1} MB", bytes as f64 / 1e6),
-    )?;
+    entry(out, "estimated memory", megabytes(bytes as f64))?;
     if let Some(there) = memory::allowed(case) {
-        entry(
-            out,
-            "memory there is",
-            format!("{:.1} MB", there as f64 / 1e6),
-        )?;
+        entry(out, "memory there is", megabytes(there as f64))?;
     }
     if let Err(too_large) = memory::foresee(case, &model.system, stiffness) {
         writeln!(out, "warning: {too_large}")?;

@@ -16,7 +16,7 @@ use ligament_run::stages::Stages;
 use ligament_run::summary::{Spread, temperature_change};
 
 use super::body::write_group;
-use super::entry::entry;
+use super::entry::{entry, megabytes};
 use super::{Extent, equations, model};
 
 /// Checks supports, loads and equations.
@@ -42,36 +42,35 @@ pub(super) fn check(
         writeln!(out, "  not held: {}", words(&free, model.body()))?;
     }
     write_loading(out, &model.setup.analysis)?;
+    write_room(out, case, model)?;
     if let Some(equilibrium) = &equilibrium {
         equations::write(out, case, model, equilibrium.stiffness())?;
     }
-    Ok(write_room(out, case, model)?)
+    Ok(())
 }
 
-/// Writes the room that fields take on a disk.
+/// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
 fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
-    let free = disk::free(Path::new("."));
-    let megabytes = |bytes: f64| format!("{:.1} MB", bytes / 1e6);
     let of_one = megabytes(fields.of_one);
-    let words = match (fields.most, fields.all()) {
-        (Some(most), Some(all)) => format!("{} at most, {most} states of {of_one}", megabytes(all)),
-        _ => format!("{of_one} every {} events", fields.every),
+    let Some((most, all)) = fields.most.zip(fields.all()) else {
+        let words = format!("about {of_one} every {} events", fields.every);
+        return entry(out, "fields on disk", words);
     };
-    let words = match free {
-        Some(free) => format!("{words}; {} are free", megabytes(free)),
-        None => words,
-    };
+    let words = format!(
+        "about {}, at most {most} states of {of_one}",
+        megabytes(all)
+    );
     entry(out, "fields on disk", words)?;
-    if let (Some(all), Some(free)) = (fields.all(), free)
-        && all > free
-    {
-        writeln!(
+    match disk::free(Path::new(".")) {
+        Some(free) if all > free => writeln!(
             out,
-            "warning: the fields may take more room than the disk has: set a larger output.fields_every, or output.bonds = false"
-        )?;
+            "warning: the fields may take {} on a disk that has {} left: set a larger output.fields_every, or output.bonds = false",
+            megabytes(all),
+            megabytes(free)
+        ),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::Result<()> {

@@ -19,11 +19,12 @@ use ligament_output::results::point_grid;
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
+use ligament_run::disk;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::{Stage, Stages};
 
-use entry::entry;
+use entry::{entry, megabytes};
 pub use extent::Extent;
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
@@ -74,8 +75,9 @@ fn check_here(
     Ok(())
 }
 
+/// Writes what the check took, and what this machine has for the results: the part of a check that is another each time.
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
-    writeln!(out, "time and memory")?;
+    writeln!(out, "time, memory and disk")?;
     for stage in stages {
         let name = format!("time, {}", stage.name);
         entry(out, &name, format!("{:.3} s", stage.seconds))?;
@@ -83,7 +85,10 @@ fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
     let total: f64 = stages.iter().map(|stage| stage.seconds).sum();
     entry(out, "time, all", format!("{total:.3} s"))?;
     if let Some(bytes) = stages.last().and_then(|stage| stage.peak_bytes) {
-        entry(out, "peak memory", format!("{:.1} MB", bytes as f64 / 1e6))?;
+        entry(out, "peak memory", megabytes(bytes as f64))?;
     }
-    Ok(())
+    match disk::free(Path::new(".")) {
+        Some(bytes) => entry(out, "free on the disk", megabytes(bytes)),
+        None => Ok(()),
+    }
 }

@@ -271,9 +271,13 @@ fn check_can_leave_the_matrix_out() {
     if cfg!(target_os = "linux") {
         assert!(model.contains("\n  peak memory "), "{model}");
     }
-    // Beside equations and times both say the same.
-    let head = |text: &str| text.split("time and memory\n").next().unwrap().to_owned();
-    assert!(whole.starts_with(&head(&model)), "{model}");
+    // Beside equations and what the machine spent and has left, both say the same.
+    let (head, machine) = model.split_once("time, memory and disk\n").unwrap();
+    assert!(whole.starts_with(head), "{model}");
+    assert!(head.contains("\n  fields on disk ") && !head.contains("free on"));
+    if cfg!(unix) {
+        assert!(machine.contains("\n  free on the disk "), "{model}");
+    }
 }
 
 #[test]
