@@ -10,6 +10,9 @@ use verification::numbers::{by_point, deviation, largest};
 
 use crate::image::Image;
 
+/// Step and round of a breakage, with the ends of the bonds that broke then.
+type Round = ((usize, usize), Vec<[u32; 2]>);
+
 /// What a case comes to.
 pub(crate) struct Answer {
     /// Positions of the points.
@@ -22,8 +25,8 @@ pub(crate) struct Answer {
     energies: Vec<f64>,
     /// Load factors of all steps.
     load_factors: Vec<f64>,
-    /// Step and round of each breakage, with the ends of the bonds that broke then.
-    pub(crate) rounds: Vec<((usize, usize), Vec<[u32; 2]>)>,
+    /// Breakages in their order.
+    pub(crate) rounds: Vec<Round>,
     /// What the patch correction leaves of its equations, as a root mean square; 0 without one.
     pub(crate) left: f64,
     /// Why the run ended.

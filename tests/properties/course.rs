@@ -189,6 +189,8 @@ fn followed(name: &str, setup: Setup) -> Check {
         check.energy
     );
     assert!(!check.broken.is_empty(), "{name}");
+    // Also an unloaded body is in equilibrium.
+    assert_ne!(end.name(), "no-equilibrium", "{name}");
     check
 }
 
