@@ -334,6 +334,12 @@ impl<'a> Path<'a> {
         {
             return None;
         }
+        // A load the other way is carried the other way.
+        let reaction = if self.state.load_factor < 0.0 {
+            -reaction
+        } else {
+            reaction
+        };
         if reaction <= NO_LOAD * self.course.peak {
             return Some(Termination::FellApart);
         }

@@ -68,7 +68,7 @@ pub(super) struct Equations {
     local_stiffness: LocalStiffness,
     /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
     loaded: Vec<u32>,
-    /// Largest forces and moments that met at a point while bonds softened: a body that is unloaded keeps their rounding.
+    /// Largest forces and moments that met at a point so far: a body that is unloaded keeps their rounding.
     pub(super) largest_extents: Extents,
     /// Largest stiffness of a point against displacements, N/m.
     stiffest: f64,

@@ -42,6 +42,7 @@ pub(super) fn balance(
         };
         let energy_settled = !is_changed && equations.energy_settled(previous_energy, &iterate);
         if equations.is_small(&residual, tolerance) || energy_settled {
+            equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
         }
         if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {

@@ -1,6 +1,7 @@
 //! Input that is made to hurt.
 
 use super::*;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// A square of two triangles, with `extra` sections behind it.
@@ -41,27 +42,44 @@ fn memory_is_foreseen() {
     assert_success(&place.ligament(["run", "case.toml", "--set", "solver.memory=1"]));
 }
 
-/// `check` tells what fields and bonds will take on the disk.
+/// `check` tells what fields and bonds will take on the disk: not less than they take, and not twice as much.
 #[test]
 fn room_on_the_disk_is_foreseen() {
     let place = Place::new();
-    let output = place.ligament([
-        "check",
-        "case.toml",
-        "--set",
-        "output.bonds=true",
-        "--set",
-        "output.fields_every=1",
-    ]);
-    assert_success(&output);
-    let told = stdout(&output);
-    for (what, word) in [
-        ("  fields on disk ", "states of"),
-        ("  free on the disk ", "MB"),
-    ] {
-        let line = told.lines().find(|line| line.starts_with(what)).unwrap();
-        assert!(line.contains(word), "{line}");
+    let settings =
+        "--set output.bonds=true --set output.fields_every=1 --set lattice.cells=[60,30]";
+    let with_settings = |command: &str| {
+        let words = format!("{command} {settings}");
+        let output = place.ligament(words.split_whitespace().collect::<Vec<_>>());
+        assert_success(&output);
+        stdout(&output)
+    };
+    let told = with_settings("check case.toml");
+    let line = |what: &str| told.lines().find(|line| line.starts_with(what)).unwrap();
+    assert!(line("  free on the disk ").ends_with(" MB"), "{told}");
+    // "about 10.9 MB, at most 12 states of 0.9 MB"
+    let words: Vec<&str> = line("  fields on disk ").split_whitespace().collect();
+    let place_of = |word: &str| words.iter().position(|&it| it == word).unwrap();
+    let most: usize = words[place_of("states") - 1].parse().unwrap();
+    let foreseen: f64 = words[words.len() - 2].parse().unwrap();
+
+    with_settings("run case.toml --out out --quiet");
+    let mut states = BTreeMap::new();
+    for file in fs::read_dir(place.path("out")).unwrap() {
+        let file = file.unwrap();
+        let name = file.file_name().into_string().unwrap();
+        if let Some((_, state)) = name.split_once('_')
+            && name.ends_with(".vtu")
+        {
+            *states.entry(state.to_owned()).or_default() +=
+                file.metadata().unwrap().len() as f64 / 1e6;
+        }
     }
+    assert!((2..=most).contains(&states.len()), "{states:?}");
+    let largest = states.into_values().fold(0.0, f64::max);
+    // The line is rounded to 0.1 MB.
+    let is_near = largest <= foreseen + 0.05 && foreseen <= 2.0 * largest;
+    assert!(is_near, "{largest} MB, {words:?}");
 }
 
 /// Sections without values cost nothing, however many there are.
