@@ -64,9 +64,9 @@ fn quarter_turns_mirror_images_and_shifts() {
 
 /// The corrections that know no axes: none, by the volumes of the families, and the patch correction.
 ///
-/// The factors of the last end an iteration, preconditioned in single precision, that stops where the gradient fell to a tenth: another
-/// rounding ends elsewhere within what is left of the equations (some 1e-3; 1e-1 where central forces cannot meet them). Between
-/// 1e-10 and 2e-3 were seen, at most a third of what was left.
+/// The factors of the last are those of the body turned, to some 1e-14 where the equations can be met. Where they can hardly be, with central
+/// forces or next to no shear stiffness, the iteration makes more of rounding, and ends elsewhere within what is left of the equations
+/// (some 1e-3; 1e-1 at worst): between 1e-6 and 2e-3 were seen, at most a third of what was left.
 #[test]
 fn turns_by_any_angle() {
     let surfaces = [

@@ -16,8 +16,9 @@ pub(super) struct Hessian<'a, E, const N: usize> {
     regularisation: &'a Regularisation<'a, N>,
     /// D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
-    /// Inverses of the blocks of the points, by rank: as a preconditioner they need be no more accurate, and are most of what a step reads.
-    inverses: Vec<[[f32; N]; N]>,
+    /// Inverses of the blocks of the points, by rank; in single precision they would be rounded along the axes, and factors of a turned
+    /// body would differ.
+    inverses: Vec<[[f64; N]; N]>,
     coarse: Coarse,
 }
 
@@ -46,12 +47,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let mut inverses = vec![[[0.0; N]; N]; regularisation.of_points.len()];
         let blocks = inverses.par_chunks_mut(BLOCK).enumerate();
         blocks.for_each(|(block, inverses)| {
-            let mut sums = vec![[[0.0; N]; N]; inverses.len()];
-            hessian.add_blocks(block, &mut sums);
-            sums.iter_mut().for_each(invert);
-            for (inverse, sum) in inverses.iter_mut().zip(sums) {
-                *inverse = sum.map(|row| row.map(|entry| entry as f32));
-            }
+            hessian.add_blocks(block, inverses);
+            inverses.iter_mut().for_each(invert);
         });
         hessian.inverses = inverses;
         hessian
@@ -165,7 +162,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
                 step[k] += length * direction[rank][k];
                 left[k] -= length * product[rank][k];
                 for (solved, entry) in solved.iter_mut().zip(self.inverses[rank][k]) {
-                    *solved += f64::from(entry) * left[k];
+                    *solved += entry * left[k];
                 }
             }
             solved
