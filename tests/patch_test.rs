@@ -172,7 +172,8 @@ fn precracks_are_left_out() {
 
 #[test]
 fn points_without_cells_have_none() {
-    let points = Points::new(vec![[0.0; 2], [1.0, 0.0]], vec![1.0; 2]).unwrap();
+    let places = vec![[0.0; 2], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    let points = Points::new(places, vec![1.0; 4]).unwrap();
     let setup = Setup::new(points, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
     let error = patch_test(&Model::build(setup, &mut ()).unwrap()).unwrap_err();
     assert!(matches!(error, Untested::NoCells), "{error}");

@@ -25,8 +25,8 @@ const BOND: usize = 250;
 const POINT: usize = 200;
 
 /// Equations over their bonds, at most, a bound to the safe side: below this share of the memory nothing need be analysed to know
-/// that it suffices. Plates of 6016 and 99,276 points with horizon factors of 1.1 to 5 take 4.2 to 5.2 and 6.0 to 8.9 times what
-/// their bonds take, and the factor grows with the logarithm of the points.
+/// that it suffices. Plates of 6016 points with horizon factors of 1.1 to 5 take 4.2 to 5.2 times what their bonds take, and of 99,276
+/// points with 1.1 to 3 6.0 to 8.9 times: the factor grows with the logarithm of the points.
 const MOST_OVER_BONDS: usize = 40;
 
 /// What the program itself takes, bytes.
