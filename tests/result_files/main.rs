@@ -265,7 +265,7 @@ const ELASTIC: &str = r#"
 mesh = { file = "plate.msh" }
 model = { law = "orthotropic", horizon_factor = 2.5 }
 temperature = [{ group = "soft", change = 5.0 }]
-support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0 } }]
+support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0, rotation = 0.0 } }]
 load = [{ group = "right", force = { x = 1e4, y = 2e3 } }]
 output = { bonds = true, stress = ["traction"] }
 [material]

@@ -428,10 +428,13 @@ impl Observer for Recorder<'_> {
         }
         self.see_largest(record.step, view);
         let missing = record.external_work - record.stored_energy - record.released_energy;
-        let energy_error = match record.external_work {
-            0.0 => 0.0,
-            work => missing / work,
+        let work = record.external_work;
+        let scale = if work.abs() < record.energy_floor {
+            record.energy_floor
+        } else {
+            work
         };
+        let energy_error = if scale == 0.0 { 0.0 } else { missing / scale };
         let row: [Entry; 17] = [
             record.step.into(),
             record.load_factor.into(),
