@@ -156,7 +156,7 @@ pub(crate) fn analysis(number: usize, bonds: Option<usize>) -> Analysis {
     Analysis::Stepped(settings)
 }
 
-/// The same bonds break in the same rounds in the images of a case as in it.
+/// Bonds break in the images of a case as in the case itself: the same ones in the same rounds.
 fn assert_breaks_alike(seed: u64, law: Law, images: impl Fn(&Specimen, &mut Random) -> Vec<Image>) {
     let mut random = Random(seed);
     let specimen = Specimen::new(law, &mut random);

@@ -9,8 +9,8 @@
 //! z = z_0 + G^T mu, G q(z) - f + r (mu - mu_k)/d^2 = 0,
 //!
 //! d the scales of the equations; r lets go of equations that cannot be met, and outer steps k, each from the multipliers mu_k of the
-//! one before, take its bias away. Long waves of mu are left out of that term ([`Regularisation`]). A Newton step solves, with D = dq/dz and what is left of the first condition,
-//! rho = z_0 + G^T mu - z,
+//! one before, take its bias away. Long waves of mu are left out of that term ([`Regularisation`]). A Newton step solves, with
+//! D = dq/dz and what is left of the first condition, rho = z_0 + G^T mu - z,
 //!
 //! (G D G^T + r/d^2) delta mu = -(G (q + D rho) - f + r (mu - mu_k)/d^2).
 //!
@@ -35,9 +35,11 @@ const NEXT_REGULARISATION: f64 = 0.03;
 /// Reduction of the gradient in an outer step.
 const REDUCTION: f64 = 0.1;
 
-/// Newton steps of an outer step at most: it takes two to four, and about ten where the equations cannot be met. With more of them, or
-/// where the gradient grows by a factor, the change of the regularisation was too large.
+/// Newton steps of an outer step at most: it takes two to four, and about ten where the equations cannot be met. With more of them
+/// the change of the regularisation was too large.
 const MOST_STEPS: usize = 20;
+
+/// Growth of the gradient in an outer step with which the change of the regularisation was too large.
 const GROWTH: f64 = 1e3;
 
 /// Change of the regularisation that is no longer divided.
@@ -291,39 +293,22 @@ impl<E> Dual<'_, E> {
         right.map(|right| right.map(|it| -it)).collect()
     }
 
-    /// Factors q of a bond that starts from q_0, at its z.
-    #[inline(always)]
-    fn at(&self, start: f64, z: [f64; 2]) -> [f64; 2] {
-        z.map(|z| start * (self.lowest + self.span * logistic(z)))
-    }
-
-    /// What the factors at a place leave of the equations, G q - f.
-    fn left<const N: usize>(&self, place: &Place<N>) -> Multipliers<N>
-    where
-        E: Equations<N>,
-    {
-        let (start, stiffness) = (self.equations.start(), self.equations.stiffness());
-        let mut left = self.minus_right();
-        let blocks = left.par_chunks_mut(BLOCK).enumerate();
-        blocks.for_each(|(block, left)| {
-            (self.equations).add(block, &place.mu, left, |pair, _| {
-                let factors = self.at(start[pair], place.z[pair]);
-                std::array::from_fn(|k| stiffness[pair][k] * factors[k])
-            });
-        });
-        left
-    }
-
-    /// The factors at a place, and what they leave.
+    /// The factors at a place, and what they leave of the equations, G q - f.
     fn factors<const N: usize>(&self, place: Place<N>, steps: usize, products: usize) -> Factors
     where
         E: Equations<N>,
     {
-        let pairs = self.equations.pairs();
+        let (pairs, stiffness) = (self.equations.pairs(), self.equations.stiffness());
         let factors: Vec<[f64; 2]> = (place.z.par_iter().zip(self.equations.start()))
-            .map(|(&z, &start)| self.at(start, z))
+            .map(|(z, start)| z.map(|z| start * (self.lowest + self.span * logistic(z))))
             .collect();
-        let left = self.left(&place);
+        let mut left = self.minus_right();
+        let blocks = left.par_chunks_mut(BLOCK).enumerate();
+        blocks.for_each(|(block, left)| {
+            (self.equations).add(block, &place.mu, left, |pair, _| {
+                std::array::from_fn(|k| stiffness[pair][k] * factors[pair][k])
+            });
+        });
         let residual: Vec<f64> = (left.iter().enumerate())
             .map(|(rank, left)| {
                 let scaled = left.iter().zip(self.equations.scale(rank));
