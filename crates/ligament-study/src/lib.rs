@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`sweep`] | what a case gives over all combinations of some of its settings |
 //! | [`calibrate`] | with which value of a key a result meets a target |
+//! | [`bond_stiffness`] | how stiff bonds are over their direction |
 //! | [`yielding`] | at which load the first bond yields, and how the directions of the bonds distort that |
 //!
 //! What they share: results by their names (`quantities`), lines of least squares (`line_fit`), and meshes made by other programs
@@ -13,6 +14,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+pub mod bond_stiffness;
 pub mod calibrate;
 mod line_fit;
 pub mod meshing;

@@ -23,6 +23,7 @@ mod anisotropy;
 mod bars;
 mod cracks;
 mod cylinder;
+mod directions;
 mod disk;
 mod disk_modes;
 pub mod entry;
@@ -57,11 +58,12 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 19] = [
+pub static EXPERIMENTS: [Experiment; 20] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
+    directions::EXPERIMENT,
     moduli::EXPERIMENT,
     poisson::EXPERIMENT,
     yielding::EXPERIMENT,

@@ -10,7 +10,7 @@
 //! | solve | [`Solution`](run::Solution): history, last state, why it ended; or natural modes | [`run`] |
 //!
 //! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
-//! into stiffness, [`loading`] supports and loads into what acts on the points, and [`patch_test`] tells how stiff the body has
+//! into stiffness ([`direction`] shows it over the direction of a bond), [`loading`] supports and loads into what acts on the points, and [`patch_test`] tells how stiff the body has
 //! become. What is wrong with a setup is a
 //! [`SetupError`] that names the field, and what a user should know of a model is a [`Warning`].
 //!
@@ -43,6 +43,7 @@
 )]
 
 pub mod body;
+pub mod direction;
 pub mod error;
 pub mod formulation;
 pub mod loading;

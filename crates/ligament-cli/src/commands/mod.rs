@@ -13,6 +13,7 @@ mod plot;
 mod resume;
 mod run;
 mod schema;
+mod stiffness;
 mod sweep;
 mod verify;
 mod yielding;
@@ -33,6 +34,7 @@ pub use plot::PlotArgs;
 pub use resume::ResumeArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
+pub use stiffness::StiffnessArgs;
 pub use sweep::SweepArgs;
 pub use verify::VerifyArgs;
 pub use yielding::YieldArgs;
@@ -129,6 +131,13 @@ pub enum Command {
     /// stands beside them as comments.
     #[command(after_help = new::EXAMPLES)]
     New(NewArgs),
+    /// How stiff bonds are over their direction
+    ///
+    /// Takes k_n, k_t and k_theta of the law of a case for every material and direction. Writes a table (CSV)
+    /// beside the off-axis moduli of the continuum, and polar diagrams (SVG); tells values along x and y and
+    /// the extremes.
+    #[command(after_help = stiffness::EXAMPLES)]
+    Stiffness(StiffnessArgs),
     /// When bonds yield first, and how the directions of the bonds distort that
     ///
     /// Turns a uniform strain through all orientations to a family of bonds and finds the load at which
@@ -173,6 +182,7 @@ impl Cli {
             Command::Inspect(args) => args.execute(),
             Command::Mesh(args) => args.execute(),
             Command::New(args) => args.execute(),
+            Command::Stiffness(args) => args.execute(),
             Command::Yield(args) => args.execute(),
             Command::Verify(args) => args.execute(),
             Command::Schema(args) => args.execute(),

@@ -4,6 +4,7 @@ pub mod hole;
 pub mod outline;
 pub mod precrack;
 mod search;
+pub mod star;
 
 /// All bonds of a body, as arrays over the bonds.
 ///

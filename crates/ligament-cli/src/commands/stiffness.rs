@@ -1,0 +1,48 @@
+//! `ligament stiffness`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::case_args::CaseArgs;
+use crate::terminal;
+use ligament_study::bond_stiffness::{Request, bond_stiffness};
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament stiffness case.toml                                  results/NAME-stiffness
+  ligament stiffness case.toml --set material.angle=0.7854      with the axes turned
+  ligament stiffness case.toml --set material.poisson=0.4       where k_t is negative";
+
+/// `ligament stiffness`.
+#[derive(Debug, Args)]
+pub struct StiffnessArgs {
+    /// The case.
+    #[command(flatten)]
+    pub case: CaseArgs,
+    /// Length of the bonds over their horizon, on which k_theta depends (and k_t of laws in the form of a beam)
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
+    pub length: f64,
+    /// Folder for the results [default: results/NAME-stiffness with the name of the case's folder]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace earlier results in the folder
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl StiffnessArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let case = Box::new(self.case.load()?);
+        let default_out = || Path::new("results").join(format!("{}-stiffness", case.name()));
+        let out = self.out.unwrap_or_else(default_out);
+        let request = Request {
+            case,
+            length: self.length,
+            out,
+            force: self.force,
+        };
+        bond_stiffness(&request, &mut terminal::stdout())
+    }
+}

@@ -1,0 +1,75 @@
+//! The stiffness of bonds over their direction (OMPPD eqs 58, 59), as the law of a setup has it, beside that of the continuum.
+
+use ligament_model::bonds::star::star;
+use ligament_model::{Elasticity, Horizons};
+
+use crate::formulation::Formulation;
+use crate::setup::{Calibration, Law, Setup};
+
+/// Stiffness of a bond, and of the continuum, in one direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InDirection {
+    /// Angle of the direction to the x axis, rad.
+    pub angle: f64,
+    /// k_n, N/m^6.
+    pub axial: f64,
+    /// k_t, N/m^6.
+    pub shear: f64,
+    /// k_theta, N/m^5.
+    pub rotational: f64,
+    /// Off-axis modulus C_xx of the continuum (OMPPD eq. 29), Pa.
+    pub normal_modulus: f64,
+    /// Off-axis modulus C_ss of the continuum (OMPPD eq. 30), Pa.
+    pub shear_modulus: f64,
+}
+
+/// Stiffness of bonds of a material with a length (m) and a horizon (m) at some angles to the x axis (rad), by the integrals over a full
+/// circle; None for bonds that have strains of their own and no such stiffness (`mbb-pd`).
+pub fn over_direction(
+    setup: &Setup,
+    material: usize,
+    [length, horizon]: [f64; 2],
+    angles: &[f64],
+) -> Option<Vec<InDirection>> {
+    if matches!(setup.law, Law::MbbPd { .. }) {
+        return None;
+    }
+    let mut setup = setup.clone();
+    if let Some(calibration) = setup.law.open().calibration {
+        *calibration = Calibration::Integral;
+    }
+    let of = (material, setup.materials.len());
+    let (cloud, bonds) = star(angles, [length, horizon], setup.thickness(), of);
+    let horizons = Horizons::unified(horizon, cloud.len());
+    let formulation = Formulation::new(&setup, &cloud, &horizons, &[]);
+    let stiffness = formulation.stiffness(&bonds, &vec![1.0; bonds.len()]);
+    let elasticity = setup.materials[material].material.elasticity;
+    let in_direction = |(place, &angle): (usize, &f64)| {
+        let [normal_modulus, shear_modulus] = off_axis_moduli(&setup, &elasticity, angle);
+        InDirection {
+            angle,
+            axial: stiffness.axial[place],
+            shear: stiffness.shear[place],
+            rotational: stiffness.rotational[place],
+            normal_modulus,
+            shear_modulus,
+        }
+    };
+    Some(angles.iter().enumerate().map(in_direction).collect())
+}
+
+/// C_xx and C_ss (Pa) of axes at an angle to x: the stresses that a unit stretch along, and a unit shear between, the turned axes take.
+fn off_axis_moduli(setup: &Setup, elasticity: &Elasticity, angle: f64) -> [f64; 2] {
+    let stiffness = elasticity.plane_stiffness(setup.plane());
+    let (sin, cos) = angle.sin_cos();
+    let stretch = [cos * cos, sin * sin, 2.0 * sin * cos];
+    let shear = [-sin * cos, sin * cos, cos * cos - sin * sin];
+    [stretch, shear].map(|strain| {
+        let of_row = |i: usize| {
+            (0..3)
+                .map(|j| strain[i] * stiffness[(i, j)] * strain[j])
+                .sum::<f64>()
+        };
+        (0..3).map(of_row).sum()
+    })
+}
