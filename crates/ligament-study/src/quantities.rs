@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use ligament::suggestion::hint;
 use ligament_case::input_file;
+use ligament_output::folder::refuse_link;
 
 /// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
 const COUNTED: [&str; 1] = ["warnings"];
@@ -29,6 +30,9 @@ pub enum QuantityError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The summary lies elsewhere.
+    #[error(transparent)]
+    Link(#[from] ligament_output::Error),
     /// The summary is not JSON.
     #[error("{} is no summary of a run", path.display())]
     Parse {
@@ -87,6 +91,7 @@ impl Quantities {
     /// Reads those of a run from the summary in its folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, QuantityError> {
         let path = folder.join("summary.json");
+        refuse_link(&path)?;
         let text = input_file::read_text(&path).map_err(|source| QuantityError::Read {
             path: path.clone(),
             source,

@@ -8,8 +8,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+mod disks;
 mod folders;
 mod inputs;
+mod paths;
 
 /// A bar that is pulled apart in 10 steps; a run takes some 20 ms.
 const CASE: &str = r#"title = "Small bar"

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use ligament_output::csv::{Table, Value};
-use ligament_output::folder::{Kind, ResultFolder};
+use ligament_output::folder::{Kind, ResultFolder, refuse_links};
 use serde::{Deserialize, Serialize};
 
 use super::request::{CalibrationError, Request, setting};
@@ -16,8 +16,12 @@ use ligament_run::inputs::Inputs;
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
 
+/// Its runs as a table.
+const TABLE: &str = "calibration.csv";
+
 /// The folder of a calibration has a folder for each run.
 const KIND: Kind = Kind {
+    owns: |name| name == TABLE,
     holds_run: |name| {
         name.strip_prefix("run-")
             .is_some_and(|it| it.parse::<usize>().is_ok())
@@ -131,7 +135,7 @@ impl Record {
             "seconds",
             "folder",
         ];
-        let table = Table::create(folder.file("calibration.csv"), &columns)?;
+        let table = Table::create(folder.file(TABLE), &columns)?;
         let mut record = Self {
             request: request.clone(),
             inputs: inputs.text().to_owned(),
@@ -296,6 +300,7 @@ fn run_name(number: usize) -> String {
 
 /// The runs of an earlier calibration in the folder; none where there is no such folder.
 fn earlier_runs(request: &Request, inputs: &Inputs) -> anyhow::Result<Option<Vec<Run>>> {
+    refuse_links(&request.out, KIND)?;
     let path = request.out.join(RECORD);
     let Ok(text) = fs::read_to_string(&path) else {
         return Ok(None);

@@ -1,0 +1,39 @@
+//! Links in the place of the program's own files. A folder of results may come from anybody; what it holds leads nowhere else.
+
+use std::fs;
+use std::path::Path;
+
+use super::kind::Kind;
+use super::replacement::names;
+use crate::Error;
+
+/// Fails where a link is in the place of a file or folder.
+///
+/// # Errors
+///
+/// With its path.
+pub fn refuse_link(path: &Path) -> Result<(), Error> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),
+        _ => Ok(()),
+    }
+}
+
+/// Fails where a link is in the place of one of the program's own files in a folder of results; without such a folder there is
+/// none.
+///
+/// # Errors
+///
+/// With the path of the link, or if the folder cannot be listed.
+pub fn refuse_links(folder: &Path, kind: Kind) -> Result<(), Error> {
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    for name in names(folder)? {
+        let text = name.to_string_lossy();
+        if kind.may_remove(&text) || (kind.holds_run)(&text) {
+            refuse_link(&folder.join(&name))?;
+        }
+    }
+    Ok(())
+}
