@@ -1,7 +1,7 @@
 //! The folder that holds the results of one run.
 
+mod entries;
 mod kind;
-mod links;
 mod lock;
 mod replacement;
 
@@ -14,8 +14,8 @@ use crate::atomic::{remove_file, replace_file};
 use lock::Lock;
 use replacement::{behind, beside, free_place_aside};
 
+pub use entries::{refuse_link, refuse_links};
 pub use kind::{Kind, RESOLVED_CASE};
-pub use links::{refuse_link, refuse_links};
 pub use replacement::{put_in_place, recover};
 
 /// A folder for the results of one run, to which no other process writes.

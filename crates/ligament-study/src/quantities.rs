@@ -139,6 +139,20 @@ impl Quantities {
         })
     }
 
+    /// Why the run has no result under load, where it has none.
+    pub(crate) fn without_equilibrium(&self) -> Option<String> {
+        let reason = self.get("termination_message").and_then(Value::as_str);
+        let reason = reason.unwrap_or("no equilibrium was found");
+        (self.get("without_equilibrium")? == true)
+            .then(|| format!("no result under load: {reason}"))
+    }
+
+    /// Whether the last state of the run is none in which it could stay.
+    pub(crate) fn ends_not_at_rest(&self) -> bool {
+        self.get("last_state_not_at_rest")
+            .is_some_and(|it| it == true)
+    }
+
     fn numeric(&self) -> Vec<String> {
         let numbers = self.iter().filter(|(_, value)| value.is_number());
         numbers.map(|(name, _)| name.to_owned()).collect()

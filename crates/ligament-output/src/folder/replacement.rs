@@ -6,11 +6,10 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
+use super::entries::{names, refuse_link};
 use super::kind::{Kind, REPLACED};
-use super::links::refuse_link;
 use crate::Error;
 use crate::atomic::{rename, replace_file};
 
@@ -155,13 +154,6 @@ pub(super) fn clear(folder: &Path, kind: Kind) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// Names of what a folder holds.
-pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
-    let entries = fs::read_dir(folder).map_err(Error::system("list", folder))?;
-    let names: io::Result<Vec<OsString>> = entries.map(|it| it.map(|it| it.file_name())).collect();
-    names.map_err(Error::system("list", folder))
 }
 
 fn is_empty(folder: &Path) -> bool {

@@ -141,6 +141,15 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
     run(&case, &folder, true, ProgressMode::Quiet)
         .with_context(|| format!("run {number} ({setting}) failed"))?;
     let results = Quantities::read(&folder)?;
+    if let Some(reason) = results.without_equilibrium() {
+        return Err(CalibrationError::NoEquilibrium {
+            run: number,
+            setting,
+            folder,
+            reason,
+        }
+        .into());
+    }
     let result = results.number(&request.of);
     let result = result.map_err(|source| CalibrationError::NoResult {
         run: number,

@@ -57,6 +57,9 @@ pub(super) struct Run {
     pub(super) trial: Trial,
     /// Reason why the calibration ended.
     termination: String,
+    /// Whether its last state is none in which it could stay.
+    #[serde(default)]
+    last_state_not_at_rest: bool,
     /// Broken bonds.
     broken_bonds: u64,
     /// Wall time, s.
@@ -106,6 +109,7 @@ impl Run {
             number,
             trial,
             termination: word("termination"),
+            last_state_not_at_rest: results.ends_not_at_rest(),
             broken_bonds: count.unwrap_or_default(),
             seconds: results.number("seconds")?,
             units: [word("units.displacement"), word("units.force")],
@@ -243,6 +247,9 @@ impl Record {
             run.broken_bonds,
             run.seconds,
         );
+        if run.last_state_not_at_rest {
+            line.push_str("; its last state is not at rest");
+        }
         if of.contains("peak") && CUT_SHORT.contains(&run.termination.as_str()) {
             line.push_str("; it ended before the load fell: its peak may lie beyond");
         }
@@ -253,6 +260,11 @@ impl Record {
     pub(super) fn write_answer(&self, trial: &Trial, out: &mut dyn Write) -> io::Result<()> {
         let key = &self.request.key;
         writeln!(out, "{key} = {}", self.words(trial))?;
+        let is_it = |run: &&Run| run.trial == *trial;
+        if (self.runs.iter().find(is_it)).is_some_and(|it| it.last_state_not_at_rest) {
+            let last = "the last state of its run is no answer: its bonds were still breaking when the run ended";
+            writeln!(out, "  NOT AT REST        {last}")?;
+        }
         writeln!(out, "  runs               {}", self.runs.len())?;
         writeln!(
             out,

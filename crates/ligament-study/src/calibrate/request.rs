@@ -69,6 +69,20 @@ pub enum CalibrationError {
         /// Why.
         source: QuantityError,
     },
+    /// No state of a run under load is in equilibrium.
+    #[error(
+        "run {run} ({setting}), results in {}: {reason}; a range by --from and --to may keep clear of such values", folder.display()
+    )]
+    NoEquilibrium {
+        /// Number of the run.
+        run: usize,
+        /// The value of the key that it ran with.
+        setting: String,
+        /// Folder of the run.
+        folder: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A file of the case cannot be read.
     #[error("cannot read {}", path.display())]
     Unreadable {

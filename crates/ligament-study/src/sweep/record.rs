@@ -52,7 +52,10 @@ impl Status {
         let is_current = |it: &Record| it.inputs == run.inputs.text();
         if let (Ok(results), Some(record)) = (Quantities::read(&folder.run(run)), &record) {
             if is_current(record) {
-                return Self::Done(results);
+                return match results.without_equilibrium() {
+                    Some(reason) => Self::Failed(reason),
+                    None => Self::Done(results),
+                };
             }
             return match Record::of_new(run, folder).and_then(|it| it.failed) {
                 Some(reason) => Self::Failed(reason),

@@ -1,11 +1,24 @@
-//! Links in the place of the program's own files. A folder of results may come from anybody; what it holds leads nowhere else.
+//! What a folder of results holds. It may come from anybody: a link in the place of one of the program's own files is refused, so
+//! that nothing leads elsewhere.
 
+use std::ffi::OsString;
 use std::fs;
+use std::io;
 use std::path::Path;
 
 use super::kind::Kind;
-use super::replacement::names;
 use crate::Error;
+
+/// Names of what a folder holds.
+///
+/// # Errors
+///
+/// If the folder cannot be listed.
+pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
+    let entries = fs::read_dir(folder).map_err(Error::system("list", folder))?;
+    let names: io::Result<Vec<OsString>> = entries.map(|it| it.map(|it| it.file_name())).collect();
+    names.map_err(Error::system("list", folder))
+}
 
 /// Fails where a link is in the place of a file or folder.
 ///
