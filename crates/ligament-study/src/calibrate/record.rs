@@ -16,7 +16,7 @@ use ligament_run::inputs::Inputs;
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
 
-/// Its runs as a table.
+/// The table of the runs of a calibration.
 const TABLE: &str = "calibration.csv";
 
 /// The folder of a calibration has a folder for each run.
