@@ -5,6 +5,7 @@
 //! | [`run`] | the route of loads, and of natural modes |
 //! | [`resume`] | going on with a run that was stopped, from its checkpoint |
 //! | [`inputs`] | what decides about the results of a run |
+//! | [`provenance`] | what results came from: program, processor, files |
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
@@ -25,6 +26,7 @@ pub mod memory;
 pub mod model;
 mod modes;
 pub mod progress;
+pub mod provenance;
 pub mod resume;
 pub mod run;
 pub mod stages;
