@@ -17,6 +17,7 @@ fn main() {
     for path in sources.iter().map(|it| repository.join(it)) {
         watch(&path);
     }
+    let of_cargo = |name| env::var(name).unwrap_or_default();
     let commit = git(&repository, &["rev-parse", "HEAD"]);
     let changes = commit.as_ref().and_then(|_| {
         // Where HEAD points to another commit, by a commit or a branch.
@@ -32,16 +33,18 @@ fn main() {
         status.extend(sources.iter().filter_map(|path| path.to_str()));
         git(&repository, &status)
     });
+    let (uncommitted, words) = match changes.as_deref() {
+        None => ("", ""),
+        Some("") => ("false", ""),
+        Some(_) => ("true", " with uncommitted changes"),
+    };
+    let version = of_cargo("CARGO_PKG_VERSION");
+    match &commit {
+        None => set("VERSION", &version),
+        Some(commit) => set("VERSION", &format!("{version}, commit {commit}{words}")),
+    }
     set("COMMIT", &commit.unwrap_or_default());
-    set(
-        "UNCOMMITTED",
-        match changes.as_deref() {
-            None => "",
-            Some("") => "false",
-            Some(_) => "true",
-        },
-    );
-    let of_cargo = |name| env::var(name).unwrap_or_default();
+    set("UNCOMMITTED", uncommitted);
     set("PROFILE", &of_cargo("PROFILE"));
     set("TARGET", &of_cargo("TARGET"));
     let compiler = said(Command::new(of_cargo("RUSTC")).arg("--version"));

@@ -15,6 +15,9 @@ pub(crate) const BUILD: Build = Build {
     compiler: known(env!("LIGAMENT_COMPILER")),
 };
 
+/// Version and commit, in words.
+pub(crate) const VERSION: &str = env!("LIGAMENT_VERSION");
+
 /// What is not empty.
 const fn known(text: &'static str) -> Option<&'static str> {
     if text.is_empty() { None } else { Some(text) }
