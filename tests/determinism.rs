@@ -126,11 +126,7 @@ fn imaginary_elements() {
 /// Secants that are made anew in each iteration, with Anderson's acceleration.
 #[test]
 fn bonds_that_soften() {
-    let settings = [
-        "lattice.cells=[120, 40]",
-        "fracture.steps=[0.05, 0.08, 0.09]",
-        "fracture.max_iterations=30",
-    ];
+    let settings = ["lattice.cells=[120, 40]", "fracture.steps=[0.05, 0.075]"];
     let results = assert_same("softening-bar/case.toml", &settings);
     let summary = summary(&results);
     assert!(
@@ -138,7 +134,7 @@ fn bonds_that_soften() {
         "tasks are split"
     );
     let iterations = String::from_utf8_lossy(&results["iterations.csv"]);
-    assert!(iterations.lines().count() > 20, "{iterations}");
+    assert!(iterations.lines().count() > 10, "{iterations}");
 }
 
 /// A force is given: forces are compared with what is asked for in each step.
