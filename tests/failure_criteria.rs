@@ -591,8 +591,13 @@ fn kinds() -> impl Iterator<Item = &'static str> {
 #[test]
 fn protected_bonds_have_no_limit() {
     for kind in kinds() {
+        let fibre = if kind == "fibre" {
+            ", fibre_distance = 1e-3"
+        } else {
+            ""
+        };
         let bench = patch(
-            &format!("kind = \"{kind}\""),
+            &format!("kind = \"{kind}\"{fibre}"),
             &["no_fail=[{ box = [[-0.0021, -0.0021], [0.0021, 0.0021]] }]"],
         );
         let inside = |point: u32| {

@@ -12,11 +12,15 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 #![allow(clippy::print_stderr, reason = "a long run says how far it is")]
 
+mod arrays;
 mod factors;
+mod folder;
 mod mutation;
+mod records;
 mod resources;
 mod results;
 mod solutions;
+mod stopped;
 mod texts;
 
 use std::fs;
@@ -121,23 +125,37 @@ fn files(folder: &std::path::Path, end: &str) -> Vec<Vec<u8>> {
     paths.iter().map(|path| fs::read(path).unwrap()).collect()
 }
 
-fn targets() -> Vec<Box<dyn Target>> {
-    vec![
-        Box::new(texts::Meshes),
-        Box::new(texts::Cases),
-        Box::new(texts::Studies::new()),
-        Box::new(results::Results::new()),
-        Box::new(results::Checkpoints::new()),
-        Box::new(solutions::Solutions::new()),
-        Box::new(factors::Factors),
-    ]
+/// Names of the targets.
+const TARGETS: [&str; 9] = [
+    "mesh",
+    "case",
+    "study",
+    "results",
+    "checkpoint",
+    "stopped",
+    "record",
+    "solution",
+    "factor",
+];
+
+fn target(name: &str) -> Box<dyn Target> {
+    match name {
+        "mesh" => Box::new(texts::Meshes),
+        "case" => Box::new(texts::Cases),
+        "study" => Box::new(texts::Studies::new()),
+        "results" => Box::new(results::Results::new()),
+        "checkpoint" => Box::new(stopped::Checkpoints::new()),
+        "stopped" => Box::new(stopped::Stopped::new()),
+        "record" => Box::new(records::Records::new()),
+        "solution" => Box::new(solutions::Solutions::new()),
+        "factor" => Box::new(factors::Factors),
+        _ => panic!("there is no target {name}, but {TARGETS:?}"),
+    }
 }
 
 /// A fixed number of inputs of a target from a fixed seed; some are accepted and some are not, else nothing would be tried.
 fn for_short(name: &str, inputs: usize) {
-    let mut all = targets();
-    let target = all.iter_mut().find(|target| target.name() == name).unwrap();
-    let (tried, accepted) = hammer(&mut **target, Until::Inputs(inputs), 1);
+    let (tried, accepted) = hammer(&mut *target(name), Until::Inputs(inputs), 1);
     assert!(
         accepted > 0 && accepted < tried,
         "{accepted} of {tried} were accepted"
@@ -170,6 +188,16 @@ fn checkpoints_of_any_bytes() {
 }
 
 #[test]
+fn stopped_runs_that_were_changed() {
+    for_short("stopped", 100);
+}
+
+#[test]
+fn records_that_were_changed() {
+    for_short("record", 60);
+}
+
+#[test]
 fn solutions_of_any_bytes() {
     for_short("solution", 1500);
 }
@@ -188,9 +216,11 @@ fn for_long() {
         panic!("LIGAMENT_FUZZ is \"TARGET SECONDS SEED\"");
     };
     let time = Until::Time(Duration::from_secs(seconds.parse().unwrap()));
-    for mut target in targets() {
-        if name == "all" || name == target.name() {
-            hammer(&mut *target, time, seed.parse().unwrap());
-        }
+    let names = match name {
+        "all" => TARGETS.to_vec(),
+        one => vec![one],
+    };
+    for name in names {
+        hammer(&mut *target(name), time, seed.parse().unwrap());
     }
 }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use ligament_case::case::CaseFile;
 use ligament_cli::explain::{self, Subject};
-use ligament_output::checkpoint::Checkpoint;
 use ligament_plot::picture::Target as Picture;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
@@ -15,6 +14,7 @@ use ligament_run::run::run;
 use ligament_study::calibrate::line;
 
 use crate::Target;
+use crate::folder::Folder;
 
 const CASE: &str = r#"title = "Small bar"
 [lattice]
@@ -44,34 +44,32 @@ fields_every = 1
 bonds = true
 "#;
 
+/// The case of a small bar that breaks, beside whose file its results may lie.
+pub(crate) fn small_bar(folder: &Path) -> CaseFile {
+    let path = folder.join("case.toml");
+    fs::write(&path, CASE).unwrap();
+    CaseFile::load(&path, &[]).unwrap()
+}
+
 const TABLE: &str = "run,model.horizon_factor,mesh.file,status,first_peak.reaction,case.material.tensile_strength\n\
                      1,2.5,a.msh,done,600000,1e6\n2,3,a.msh,done,720000,1e6\n3,3.5,b.msh,failed,,1e6\n4,4,a.msh,done,9e5,1e6\n";
 
-/// The results of a run, one file of which is another; the input is the name of the file, a line feed and its content.
+/// The results of a run, one file of which is another.
 pub(crate) struct Results {
-    folder: tempfile::TempDir,
-    files: Vec<(String, Vec<u8>)>,
+    beside: tempfile::TempDir,
+    folder: Folder,
 }
 
 impl Results {
     pub(crate) fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let case = CaseFile::parse(&folder.path().join("case.toml"), CASE.to_owned(), &[]).unwrap();
-        let out = folder.path().join("out");
-        run(&case, &out, false, ProgressMode::Quiet).unwrap();
+        let beside = tempfile::tempdir().unwrap();
+        let out = beside.path().join("out");
+        run(&small_bar(beside.path()), &out, false, ProgressMode::Quiet).unwrap();
         fs::write(out.join("table.csv"), TABLE).unwrap();
-        let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(&out)
-            .unwrap()
-            .map(|entry| entry.unwrap().path())
-            .map(|path| {
-                (
-                    path.file_name().unwrap().to_str().unwrap().to_owned(),
-                    fs::read(path).unwrap(),
-                )
-            })
-            .collect();
-        files.sort();
-        let results = Self { folder, files };
+        let results = Self {
+            beside,
+            folder: Folder::read(out),
+        };
         assert_eq!(
             results.complaints(),
             [""; 0],
@@ -81,7 +79,7 @@ impl Results {
     }
 
     fn out(&self) -> PathBuf {
-        self.folder.path().join("out")
+        self.folder.path().to_owned()
     }
 
     /// What the readers complain of.
@@ -102,14 +100,21 @@ impl Results {
                 csv: None,
                 json: None,
             };
-            explain::explain(&request, &mut Vec::new()).map_err(|it| it.to_string())
+            let mut told = Vec::new();
+            explain::explain(&request, &mut told).map_err(|it| it.to_string())?;
+            let told = String::from_utf8(told).unwrap();
+            let numbers = told.split(|it: char| it.is_whitespace() || "(),;=:".contains(it));
+            let wrong = ["nan", "-nan", "inf", "-inf"];
+            let is_wrong = |it: &str| wrong.contains(&it.to_lowercase().as_str());
+            assert!(!numbers.into_iter().any(is_wrong), "{told}");
+            Ok(())
         });
         explained.into_iter().filter_map(Result::err).collect()
     }
 
     fn draw(&self) -> Vec<String> {
         let target = || Picture {
-            out: Some(self.folder.path().join("picture.svg")),
+            out: Some(self.beside.path().join("picture.svg")),
             width: None,
             dpi: 100.0,
         };
@@ -163,9 +168,7 @@ impl Target for Results {
     }
 
     fn seeds(&self) -> Vec<Vec<u8>> {
-        let whole =
-            |(name, content): &(String, Vec<u8>)| [name.as_bytes(), b"\n", content].concat();
-        self.files.iter().map(whole).collect()
+        self.folder.seeds(|_| true)
     }
 
     fn words(&self) -> &'static [&'static str] {
@@ -181,50 +184,6 @@ impl Target for Results {
     }
 
     fn read(&mut self, input: &[u8]) -> bool {
-        let mut parts = input.splitn(2, |byte| *byte == b'\n');
-        let name = String::from_utf8_lossy(parts.next().unwrap_or_default()).into_owned();
-        let Some((_, whole)) = self.files.iter().find(|it| it.0 == name) else {
-            return false;
-        };
-        let path = self.out().join(&name);
-        fs::write(&path, parts.next().unwrap_or_default()).unwrap();
-        let complaints = self.complaints();
-        fs::write(&path, whole).unwrap();
-        complaints.is_empty()
-    }
-}
-
-/// Checkpoints.
-pub(crate) struct Checkpoints {
-    seed: Vec<u8>,
-}
-
-impl Checkpoints {
-    pub(crate) fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let checkpoint = Checkpoint {
-            version: "0.1.0".to_owned(),
-            inputs: "lattice.cells = [8, 4]".to_owned(),
-            solution: (0..=255).collect(),
-            results: vec![7; 90],
-            notices: vec!["3 points came loose".to_owned()],
-        };
-        checkpoint.write(folder.path()).unwrap();
-        let seed = fs::read(Path::new(folder.path()).join("checkpoint.bin")).unwrap();
-        Self { seed }
-    }
-}
-
-impl Target for Checkpoints {
-    fn name(&self) -> &'static str {
-        "checkpoint"
-    }
-
-    fn seeds(&self) -> Vec<Vec<u8>> {
-        vec![self.seed.clone()]
-    }
-
-    fn read(&mut self, input: &[u8]) -> bool {
-        Checkpoint::from_bytes(input).is_ok()
+        self.folder.make(input) && self.complaints().is_empty()
     }
 }

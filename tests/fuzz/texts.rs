@@ -148,7 +148,7 @@ impl Target for Studies {
     fn seeds(&self) -> Vec<Vec<u8>> {
         let mut seeds = vec![
             b"title = \"Plates\"\ncase = \"case.toml\"\n[[axis]]\nkey = \"model.horizon_factor\"\nrange = { from = 2.0, to = 4.0, \
-              step = 0.5 }\n[[axis]]\nkey = \"material.young\"\nvalues = [1e9, 2e9]\nlabels = [\"soft\", \"stiff\"]\n[[derived]]\n\
+              step = 0.5 }\n[[axis]]\nkey = \"material.young\"\nvalues = [1e9, 2e9]\nlabels = [\"soft\", \"stiff\"]\n[[result]]\n\
               name = \"ratio\"\nof = \"first_peak.reaction\"\nover = 3.0\n[[plot]]\nx = \"model.horizon_factor\"\n\
               y = \"ratio\"\nby = \"material.young\"\nline = { slope = 0.375, intercept = -0.125 }\nfit = { from = 2.0, to = 4.0 }\n"
                 .to_vec(),
@@ -169,7 +169,7 @@ impl Target for Studies {
         &[
             "[[axis]]\n",
             "[[plot]]\n",
-            "[[derived]]\n",
+            "[[result]]\n",
             "[set]\n",
             "geometry = \"a.geo\"\n",
             "[]",

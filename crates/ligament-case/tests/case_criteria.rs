@@ -163,12 +163,12 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
     assert_eq!(
         error_with("kind = \"compresion\""),
         "60:8: fracture.criterion.0.kind: unknown value \"compresion\"; did you mean \"compression\"? valid values: \
-         \"strength\", \"tension\", \"compression\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\""
+         \"strength\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\""
     );
     assert_eq!(
         error_with("kind = \"tension\"\nlimits = 1e-3"),
         "61:1: fracture.criterion.0.limits: unknown key `limits` in [[fracture.criterion]]; did you mean `limit`? valid keys: \
-         `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `after`, `end`, `scale`"
+         `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `friction_angle`, `fibre_distance`, `after`, `end`, `scale`"
     );
     assert_eq!(
         error_with("kind = \"tension\"\nafter = \"bilinaer\""),
@@ -231,7 +231,7 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         (
             "kind = \"strength\"\nlimit = 1e-3",
             "61:9: fracture.criterion.0.limit: `limit` does not apply with kind = \"strength\": its limits come from the \
-             material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one; remove it",
+             material; \"tension\", \"compression\", \"sliding\", \"frictional\", \"fibre\" and \"bond-energy\" take one; remove it",
         ),
         (
             "kind = \"sliding\"\ncalibration = \"two-point\"",
@@ -306,8 +306,16 @@ fn criteria_name_what_they_lack_of_the_material() {
         (tensile, "kind = \"strength\"", "\"strength\""),
         (tensile, "kind = \"tension\"", "\"tension\" without `limit`"),
         (tensile, "kind = \"sliding\"", "\"sliding\" without `limit`"),
-        (tensile, "kind = \"frictional\"", "\"frictional\""),
-        (compressive, "kind = \"frictional\"", "\"frictional\""),
+        (
+            tensile,
+            "kind = \"frictional\"",
+            "\"frictional\" without `limit`",
+        ),
+        (
+            compressive,
+            "kind = \"frictional\"",
+            "\"frictional\" without `friction_angle`",
+        ),
         (
             compressive,
             "kind = \"compression\"",
@@ -347,6 +355,71 @@ fn criteria_name_what_they_lack_of_the_material() {
     }
 }
 
+/// Keys of friction and of fibres: what goes with what, and in which range.
+#[test]
+fn cohesion_friction_and_fibres_as_given() {
+    let cases = [
+        (
+            "kind = \"frictional\"\nlimit = 1e-3",
+            "59:1: fracture.criterion.0.friction_angle: missing key `friction_angle`: it is required (in rad) beside `limit`: a bond \
+             fails at |gamma| + s tan(beta) = a, and `limit` is a alone",
+        ),
+        (
+            "kind = \"frictional\"\nlimit = 1e-3\nfriction_angle = 0.5\ncalibration = \"printed\"",
+            "63:15: fracture.criterion.0.calibration: `calibration` does not apply with limit: cohesion and friction are given, and \
+             no strength is used; remove it",
+        ),
+        (
+            "kind = \"frictional\"\nfriction_angle = 1.6",
+            "61:18: fracture.criterion.0.friction_angle: must be at least 0 and less than pi/2 (rad), found 1.6",
+        ),
+        (
+            "kind = \"sliding\"\nfriction_angle = 0.5",
+            "61:18: fracture.criterion.0.friction_angle: `friction_angle` does not apply with kind = \"sliding\": only \
+             \"frictional\" has friction; remove it",
+        ),
+        (
+            "kind = \"tension\"\nfibre_distance = 1e-3",
+            "61:18: fracture.criterion.0.fibre_distance: `fibre_distance` does not apply with kind = \"tension\": only \"fibre\" \
+             looks at a fibre beside the axis of the bond; remove it",
+        ),
+        (
+            "kind = \"fibre\"\nfibre_distance = -1e-3",
+            "61:18: fracture.criterion.0.fibre_distance: must be at least 0, found -0.001",
+        ),
+    ];
+    for (lines, message) in cases {
+        assert_eq!(error_with(lines), message);
+    }
+    for (lines, spared) in [
+        (
+            "kind = \"frictional\"\nfriction_angle = 0.5",
+            "compressive_strength = 40e6\n",
+        ),
+        (
+            "kind = \"frictional\"\nlimit = 1e-3\nfriction_angle = 0.5",
+            PROPERTIES,
+        ),
+        (
+            "kind = \"fibre\"\nlimit = 1e-3\nfibre_distance = 1e-3",
+            PROPERTIES,
+        ),
+    ] {
+        let text = with(&format!("[[fracture.criterion]]\n{lines}\n")).replace(spared, "");
+        assert_eq!(criteria_of(text, &[]).len(), 1, "{lines}");
+    }
+    let text =
+        with("[[fracture.criterion]]\nkind = \"fibre\"\nlimit = 1e-3\nfibre_distance = 1e-3\n");
+    assert_eq!(
+        error_of(
+            text.replace("law = \"nhpd\"", "law = \"pds\"")
+                .replace("rule = \"sum\"", "")
+        ),
+        "60:8: fracture.criterion.0.kind: \"fibre\" looks at the bending of bonds, and the points of \"pds\" have no rotations: take \
+         \"tension\""
+    );
+}
+
 #[test]
 fn friction_wants_the_compressive_strength_to_be_the_larger_one() {
     let text = with("[[fracture.criterion]]\nkind = \"frictional\"\n")
@@ -379,9 +452,15 @@ fn materials_with_axes_take_criteria_with_limits_of_their_own() {
                 .ends_with("takes them from it: give it its own `limit`")
         );
     }
+    let given = with_axes("kind = \"frictional\"\nlimit = 1e-3\nfriction_angle = 0.5");
+    assert_eq!(criteria_of(given, &[]).len(), 1);
+    assert!(
+        error_of(with_axes("kind = \"frictional\""))
+            .ends_with("takes them from it: give it its own `limit`")
+    );
     assert_eq!(
-        error_of(with_axes("kind = \"frictional\"")),
-        "7:1: material: `tensile_strength` gives limits of isotropic materials only, and the criterion \"frictional\" of \
+        error_of(with_axes("kind = \"strength\"")),
+        "7:1: material: `tensile_strength` gives limits of isotropic materials only, and the criterion \"strength\" of \
          [fracture] takes them from it: take \"tension\", \"compression\" or \"sliding\" with a `limit`"
     );
     let softening = "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"";

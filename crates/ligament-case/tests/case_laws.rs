@@ -112,3 +112,60 @@ fn keys_that_a_law_or_a_correction_does_not_leave_open_are_refused() {
          model.calibration = \"integral\""
     );
 }
+
+/// The size of the rotational stiffness belongs to laws whose points turn, has one key, and a range.
+#[test]
+fn the_size_of_the_rotational_stiffness_is_refused_by_name() {
+    let of_law =
+        |law: &str, lines: &str| error_with("law = \"nhpd\"", &format!("law = \"{law}\"\n{lines}"));
+    for law in ["bbpd", "bbpd-conical", "pds"] {
+        assert_eq!(
+            of_law(law, "rotational_factor = 2.0"),
+            format!(
+                "14:21: model.rotational_factor: `rotational_factor` does not apply with law = \"{law}\": its points have no \
+                 rotations; remove it"
+            )
+        );
+    }
+    assert_eq!(
+        of_law("pds", "cosserat_length = 1e-3"),
+        "14:19: model.cosserat_length: `cosserat_length` does not apply with law = \"pds\": its points have no rotations; remove it"
+    );
+    assert_eq!(
+        of_law(
+            "mppd",
+            "rotational_stiffness = \"none\"\nrotational_factor = 2.0"
+        ),
+        "15:21: model.rotational_factor: `rotational_factor` does not apply with rotational_stiffness = \"none\": there is no \
+         stiffness to give a size to; remove it"
+    );
+    assert_eq!(
+        of_law("nhpd", "rotational_factor = 2.0\ncosserat_length = 1e-3"),
+        "15:19: model.cosserat_length: `cosserat_length` does not apply with rotational_factor: both give the rotational stiffness its \
+         size; remove it"
+    );
+    assert_eq!(
+        of_law("nhpd", "rotational_factor = -1.0"),
+        "14:21: model.rotational_factor: must be at least 0, found -1.0"
+    );
+    assert_eq!(
+        of_law("nhpd", "cosserat_length = 0.0"),
+        "14:19: model.cosserat_length: must be greater than 0, found 0.0"
+    );
+}
+
+/// With a negative shear stiffness a positive rotational one makes some wave of rotations cost nothing.
+#[test]
+fn a_cosserat_length_needs_a_shear_stiffness_that_is_not_negative() {
+    let of_poisson = |poisson: &str| {
+        TEXT.replace("poisson = 0.21", &format!("poisson = {poisson}"))
+            .replace("law = \"nhpd\"", "law = \"nhpd\"\ncosserat_length = 1e-3")
+    };
+    assert_eq!(
+        error_of(&of_poisson("0.4")),
+        "14:19: model.cosserat_length: the shear stiffness of some bonds is negative (k_t H^3 t = -6.8209e9 Pa), and a length makes \
+         their rotational stiffness positive, so that waves of rotation would cost nothing: take a factor, whose sign is that of the \
+         shear stiffness, or a smaller Poisson's ratio"
+    );
+    CaseFile::parse(Path::new("case.toml"), of_poisson("0.3"), &[]).unwrap();
+}

@@ -120,6 +120,18 @@ impl ResultFolder {
         })
     }
 
+    /// The folder of a run to which nothing writes now, to be read; a replacement that was cut short is ended.
+    ///
+    /// # Errors
+    ///
+    /// If another process writes to it.
+    pub fn settled(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
+        let path = resolved(path.as_ref());
+        recover(&path, Kind::RUN)?;
+        Lock::check(&path)?;
+        Ok(path)
+    }
+
     /// Fails as [`ResultFolder::create`] would, and makes nothing: for a run to ask before its work begins.
     ///
     /// # Errors

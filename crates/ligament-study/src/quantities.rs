@@ -12,6 +12,9 @@ use ligament_output::folder::refuse_link;
 /// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
 const COUNTED: [&str; 1] = ["warnings"];
 
+/// ... what the results came from, ...
+const PROVENANCE: &str = "provenance";
+
 /// ... and the stages, of which time and memory of the whole run are left.
 const STAGES: &str = "stages";
 
@@ -64,11 +67,12 @@ pub enum QuantityError {
 
 impl Quantities {
     /// Flattens a summary: parts of tables and lists are joined by dots, `modes.0.frequency`. Of the warnings their number
-    /// is left, of the stages `seconds` and `peak_bytes`.
+    /// is left, of the stages `seconds` and `peak_bytes`; of the provenance nothing.
     pub(crate) fn of_summary(summary: &Value) -> Self {
         let mut all = Vec::new();
         for (name, value) in summary.as_object().into_iter().flatten() {
             match value {
+                _ if name == PROVENANCE => {}
                 Value::Array(list) if COUNTED.contains(&name.as_str()) => {
                     all.push((name.clone(), list.len().into()));
                 }

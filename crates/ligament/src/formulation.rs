@@ -7,6 +7,7 @@ use ligament_model::correction::{
 };
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
+use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Material, Plane,
@@ -80,7 +81,7 @@ impl<'a> Formulation<'a> {
             } => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, plane),
             Law::MbbPd { .. } => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
         };
-        match law.calibration() {
+        let stiffness = match law.calibration() {
             Some(Calibration::Discrete) => {
                 let effective: Vec<Isotropic> = (setup.materials.iter())
                     .filter_map(|it| constants(&it.material, &law, plane))
@@ -88,7 +89,31 @@ impl<'a> Formulation<'a> {
                 calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, plane)
             }
             Some(Calibration::Integral) | None => stiffness,
+        };
+        self.with_rotational_scale(stiffness, bonds, alpha, &elasticity)
+    }
+
+    /// Stiffness densities of a law with the rotational ones in the size that the setup wants.
+    fn with_rotational_scale(
+        &self,
+        stiffness: BondStiffness,
+        bonds: &BondSet,
+        alpha: &[f64],
+        elasticity: &[Elasticity],
+    ) -> BondStiffness {
+        let (setup, cloud, plane) = (self.setup, self.cloud, self.setup.plane());
+        let length = match (setup.rotational_scale, setup.law.rotational_profile()) {
+            (RotationalScale::Factor(factor), _) => return rotational::scaled(stiffness, factor),
+            (_, None) => return stiffness,
+            (RotationalScale::CosseratLength(length), Some(profile)) => (profile, length),
+        };
+        let materials = (elasticity, plane);
+        let scaled = rotational::with_cosserat_length(stiffness, bonds, cloud, materials, length);
+        if setup.law.calibration() != Some(Calibration::Discrete) {
+            return scaled;
         }
+        let moduli = rotational::curvature_moduli(elasticity, plane, length.1);
+        rotational::calibrated(scaled, alpha, bonds, cloud, &moduli)
     }
 
     /// The correction of bonds with stiffness densities and factors alpha (n_bonds).

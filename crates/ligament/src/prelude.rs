@@ -6,7 +6,7 @@ pub use ligament_mesh::{Mesh, gmsh};
 pub use ligament_model::bonds::precrack::{Ends, PreCrack};
 pub use ligament_model::failure::Choice;
 pub use ligament_model::failure::strength::STRENGTH;
-pub use ligament_model::law::rotational::RotationalStiffness;
+pub use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 pub use ligament_model::{Elasticity, Isotropic, Material, Plane, Shape};
 
 pub use crate::body::{Body, CellSet, Hole, LatticeBody, MeshBody, Points};

@@ -27,6 +27,13 @@ pub struct Criterion {
     /// How the limit of `frictional` comes from the strengths.
     #[schemars(extend("default" = Word(Calibration::default())))]
     pub calibration: Option<Word<Calibration>>,
+    /// Angle beta of the friction of a bond, rad: compression by s makes its limit of sliding larger by s tan(beta). Of `frictional`, in
+    /// the place of the compressive strength; that of the material, phi', is another.
+    #[schemars(range(min = 0))]
+    pub friction_angle: Option<f64>,
+    /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
+    #[schemars(range(min = 0))]
+    pub fibre_distance: Option<f64>,
     /// What a bond does after its limit.
     #[serde(default)]
     pub after: Word<Law>,
@@ -46,6 +53,8 @@ impl From<Kind> for Criterion {
             critical_stretch: None,
             critical_angle: None,
             calibration: None,
+            friction_angle: None,
+            fibre_distance: None,
             after: Word::default(),
             end: None,
             scale: None,
@@ -56,7 +65,7 @@ impl From<Kind> for Criterion {
 impl Criterion {
     /// Fills in what is not given.
     pub(super) fn complete(&mut self) {
-        if self.kind.0 == frictional::FRICTIONAL {
+        if self.kind.0 == frictional::FRICTIONAL && self.limit.is_none() {
             self.calibration.get_or_insert_default();
         }
     }
@@ -73,6 +82,8 @@ impl Criterion {
             critical_stretch: self.critical_stretch,
             critical_angle: self.critical_angle,
             calibration: self.calibration.map(|it| it.0),
+            friction_angle: self.friction_angle,
+            fibre_distance: self.fibre_distance,
             after,
         })
     }

@@ -10,7 +10,7 @@ use super::source::Source;
 use crate::temperature_table;
 
 /// What a setup calls by the names of its types, and the words of a case for it.
-const WORDS: [(&str, &str); 11] = [
+const WORDS: [(&str, &str); 12] = [
     (" or `Law::MbbPd`", " or \"mbb-pd\""),
     ("`Law::MbbPd`", "model.law = \"mbb-pd\""),
     ("`Law::Orthotropic`", "model.law = \"orthotropic\""),
@@ -21,6 +21,10 @@ const WORDS: [(&str, &str); 11] = [
     (
         "`Calibration::Integral`",
         "model.calibration = \"integral\"",
+    ),
+    (
+        "`RotationalStiffness::Decaying`",
+        "rotational_stiffness = \"decaying\"",
     ),
     ("`Form::Full`", "\"full\""),
     ("`Strains::Small`", "strains = \"small\""),
@@ -78,7 +82,7 @@ impl Case {
         let list = match field.name {
             "body" if self.mesh.is_some() => "mesh",
             "body" => "lattice",
-            "law" | "horizon" => "model",
+            "law" | "horizon" | "rotational_scale" => "model",
             "materials" => "material",
             "precracks" => "precrack",
             "supports" => "support",
@@ -92,6 +96,8 @@ impl Case {
         let Some(index) = field.index else {
             let part = match (field.name, field.part) {
                 ("law", None) => Some("law"),
+                ("rotational_scale", Some("length")) => Some("cosserat_length"),
+                ("rotational_scale", _) => Some("rotational_factor"),
                 (_, part) => part,
             };
             return part.map_or(list.to_owned(), |part| format!("{list}.{part}"));

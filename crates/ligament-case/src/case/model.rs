@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::{exactly_one, one_of};
+use super::values::{exactly_one, one_of, refuse};
 use super::word::Word;
 use ligament::setup::{Calibration, Form, Horizon, Law, Strains};
-use ligament_model::law::rotational::RotationalStiffness;
+use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,6 +30,13 @@ pub struct ModelSection {
     pub calibration: Option<Word<Calibration>>,
     /// Stiffness against relative rotation; of `mppd` and `orthotropic`.
     pub rotational_stiffness: Option<Word<RotationalStiffness>>,
+    /// Stiffness against relative rotation over that of the law; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`; 1 without the key.
+    #[schemars(range(min = 0))]
+    pub rotational_factor: Option<f64>,
+    /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
+    /// `rotational_factor`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cosserat_length: Option<f64>,
     /// How the bonds of `mbb-pd` resist their strains.
     pub form: Option<Word<Form>>,
     /// What the strains of `mbb-pd` are taken over.
@@ -63,7 +70,36 @@ impl ModelSection {
             return Err(KeyFault::new(key.child(name), fault));
         }
         self.law = Word(law);
-        Ok(())
+        self.check_rotational_scale(key, &law)
+    }
+
+    /// Keys for the size of the rotational stiffness mean nothing where there is none, and each other's place.
+    fn check_rotational_scale(&self, key: &KeyPath, law: &Law) -> Result<(), KeyFault> {
+        let given = [
+            ("rotational_factor", self.rotational_factor.is_some()),
+            ("cosserat_length", self.cosserat_length.is_some()),
+        ];
+        let Some(profile) = law.rotational_profile() else {
+            let setting = format!("law = \"{}\"", law.name());
+            return refuse(key, given, &setting, "its points have no rotations");
+        };
+        if profile.rotational == RotationalStiffness::Zero {
+            let reason = "there is no stiffness to give a size to";
+            return refuse(key, given, "rotational_stiffness = \"none\"", reason);
+        }
+        let reason = "both give the rotational stiffness its size";
+        let length = [given[1]];
+        match self.rotational_factor {
+            Some(_) => refuse(key, length, "rotational_factor", reason),
+            None => Ok(()),
+        }
+    }
+
+    /// Size of the rotational stiffness.
+    pub(super) fn rotational_scale(&self) -> RotationalScale {
+        let factor = self.rotational_factor.unwrap_or(1.0);
+        let length = self.cosserat_length.map(RotationalScale::CosseratLength);
+        length.unwrap_or(RotationalScale::Factor(factor))
     }
 
     pub(super) fn horizon(&self, key: &KeyPath) -> Result<Horizon, KeyFault> {

@@ -206,6 +206,7 @@ impl Case {
                 .map(Material::setup)
                 .collect::<Result<_, _>>()?,
             law,
+            rotational_scale: self.model.rotational_scale(),
             horizon: self.model.horizon(&root().child("model"))?,
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),

@@ -89,7 +89,7 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     spread(out, "nearest distance", over(&system.cloud.spacing), " m")?;
     spread(out, "horizon", over(&fixed.horizon), " m")?;
     spread(out, "bonds of a point", family(model), "")?;
-    let formulation = formulation_line(model.setup.law);
+    let formulation = formulation_line(&model.setup);
     writeln!(out, "  {formulation}")?;
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     writeln!(out, "  {correction}")?;

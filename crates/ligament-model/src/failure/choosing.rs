@@ -101,6 +101,7 @@ impl Choice {
     pub fn check(&self, on_exact_path: bool) -> Result<(), Unfit> {
         self.check_together()?;
         self.refuse_keys()?;
+        (self.kind.check)(self)?;
         self.refuse_softening(on_exact_path)?;
         let softening = self.after.law.parameter;
         let softening = softening.map(|it| (it.key, self.after.parameter, it.above));

@@ -1,4 +1,6 @@
-//! Sliding that compression makes harder (MPPD eqs 52 to 58).
+//! Sliding that compression makes harder (MPPD eqs 52 to 58), from two strengths, from the tensile strength and an angle, or as given.
+
+use std::f64::consts::FRAC_PI_2;
 
 use super::basis::{Basis, weakest_materials};
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, TENSILE_STRENGTH};
@@ -9,24 +11,51 @@ use crate::material::{Isotropic, Material, Plane};
 
 pub use super::kind::Calibration;
 
-/// Sliding that compression makes harder, from both strengths.
+/// Sliding that compression makes harder.
 pub const FRICTIONAL: Kind = Kind {
     takes: &[TENSILE_STRENGTH, COMPRESSIVE_STRENGTH],
-    keys: &["calibration"],
+    keys: &["limit", "friction_angle", "calibration"],
     brittle_because: Some(
         "its limit moves with the stretch, so that there is no one deformation at which softening begins",
     ),
+    check,
     suits,
     ..Kind::new(
         "frictional",
-        "Sliding that compression makes harder, from both strengths.",
+        "Sliding that compression makes harder, from both strengths, from the `tensile_strength` and a `friction_angle`, or from a \
+         `limit` and a `friction_angle`.",
         &[Measure::Friction],
         limits,
     )
 };
 
+/// The limit a is that of sliding without stretch, and says nothing of how it falls with the stretch.
+fn check(choice: &Choice) -> Result<(), Unfit> {
+    match (choice.limit, choice.friction_angle) {
+        (Some(_), None) => Err(Unfit::Missing {
+            key: "friction_angle",
+            reason: "(in rad) beside `limit`: a bond fails at |gamma| + s tan(beta) = a, and `limit` is a alone".to_owned(),
+        }),
+        (_, Some(angle)) if !(0.0..FRAC_PI_2).contains(&angle) => Err(Unfit::OutOfRange {
+            key: "friction_angle",
+            expected: "at least 0 and less than pi/2 (rad)".to_owned(),
+            found: angle,
+        }),
+        (Some(_), Some(_)) if choice.calibration.is_some() => Err(Unfit::NotWith {
+            key: "calibration",
+            named: "calibration".to_owned(),
+            setting: "limit".to_owned(),
+            reason: "cohesion and friction are given, and no strength is used",
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
-fn suits(_: &Choice, material: &Material) -> Result<(), Unfit> {
+fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
+    if choice.friction_angle.is_some() {
+        return Ok(());
+    }
     match (material.tensile_strength, material.compressive_strength) {
         (Some(tensile), Some(compressive)) if compressive < tensile => Err(Unfit::OutOfRange {
             key: COMPRESSIVE_STRENGTH.key,
@@ -42,8 +71,22 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
     let (plane, calibration) = (basis.plane, choice.calibration.unwrap_or_default());
     let conditions = basis.constants.iter().zip(basis.materials);
     let conditions = conditions.map(|(constants, material)| {
-        let strengths = (material.tensile_strength, material.compressive_strength);
-        let (Some(constants), (Some(tensile), Some(compressive))) = (constants, strengths) else {
+        let slope = choice.friction_angle.map(f64::tan);
+        if let (Some(cohesion), Some(slope)) = (choice.limit, slope) {
+            return Ok(Some(Friction { cohesion, slope }));
+        }
+        let (Some(constants), Some(tensile)) = (constants, material.tensile_strength) else {
+            return Ok(None);
+        };
+        if let Some(slope) = slope {
+            return Ok(Some(with_slope(
+                constants,
+                tensile,
+                plane,
+                (slope, calibration),
+            )));
+        }
+        let Some(compressive) = material.compressive_strength else {
             return Ok(None);
         };
         let found = condition(constants, [tensile, compressive], plane, calibration);
@@ -124,6 +167,29 @@ pub fn condition(
     }
 }
 
+/// The condition for the tensile strength F_t of a bar (Pa) and tan(beta): the paper's calibration by a tension test alone, "adopting
+/// different values of a and beta" (MPPD after eq. 58). The cohesion is that of [`condition`] with the same tan(beta).
+pub fn with_slope(
+    material: &Isotropic,
+    tensile: f64,
+    plane: Plane,
+    (slope, calibration): (f64, Calibration),
+) -> Friction {
+    let poisson = material.in_plane(plane).poisson;
+    let limit = stretch::limit(material, tensile, plane);
+    let per_limit = match calibration {
+        Calibration::Printed => {
+            let tan_phi = slope / (1.0 + poisson);
+            (1.0 + poisson) * (tan_phi + tan_phi.hypot(1.0))
+        }
+        Calibration::TwoPoint => (1.0 - poisson) * slope + (1.0 + poisson) * slope.hypot(1.0),
+    };
+    Friction {
+        cohesion: 0.5 * limit * per_limit,
+        slope,
+    }
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
@@ -170,6 +236,63 @@ mod tests {
                 (c - compression).abs() < 6e-4 * compression,
                 "{poisson}: {c}"
             );
+        }
+    }
+
+    /// With the angle that two strengths give, the tensile strength alone has the cohesion of both; 1e-15 for the other form of it.
+    #[test]
+    fn the_tensile_strength_and_the_angle_of_both_strengths_give_their_cohesion() {
+        for plane in [Plane::Stress, Plane::Strain] {
+            for poisson in [-0.4, 0.0, 0.2] {
+                for calibration in [Calibration::Printed, Calibration::TwoPoint] {
+                    let material = Isotropic {
+                        young: 2e10,
+                        poisson,
+                    };
+                    let both = condition(&material, [5e6, 15e6], plane, calibration).unwrap();
+                    let one = with_slope(&material, 5e6, plane, (both.slope, calibration));
+                    assert_eq!(one.slope, both.slope);
+                    let error = (one.cohesion / both.cohesion - 1.0).abs();
+                    assert!(error < 1e-15, "{poisson} {calibration:?}: {error:e}");
+                }
+            }
+        }
+    }
+
+    /// Without friction it is the largest sliding, as the paper says (below eq. 58).
+    #[test]
+    fn without_friction_it_is_the_largest_sliding() {
+        let material = Isotropic {
+            young: 2e10,
+            poisson: 0.25,
+        };
+        for calibration in [Calibration::Printed, Calibration::TwoPoint] {
+            let friction = with_slope(&material, 5e6, Plane::Stress, (0.0, calibration));
+            let sliding = super::super::sliding::limit(&material, 5e6, Plane::Stress);
+            assert_eq!((friction.cohesion, friction.slope), (sliding, 0.0));
+        }
+    }
+
+    /// A bar of any angle yields at its tensile strength by the strains of the bar, at every Poisson's ratio.
+    #[test]
+    fn a_bar_yields_at_the_tensile_strength_whatever_the_angle() {
+        for (poisson, plane) in [
+            (-0.4, Plane::Stress),
+            (0.3, Plane::Stress),
+            (0.2, Plane::Strain),
+        ] {
+            for angle in [0.0, 0.3, 1.0] {
+                let material = Isotropic {
+                    young: 2e10,
+                    poisson,
+                };
+                let in_plane = material.in_plane(plane);
+                let calibration = (f64::tan(angle), Calibration::TwoPoint);
+                let friction = with_slope(&material, 5e6, plane, calibration);
+                let strain = 5e6 / in_plane.young;
+                let found = utilisation(friction, [strain, -in_plane.poisson * strain]);
+                assert!((found - 1.0).abs() < 1e-14, "{poisson} {angle}: {found}");
+            }
         }
     }
 

@@ -21,6 +21,8 @@ pub struct Kind {
     pub keys: &'static [&'static str],
     /// Reason why bonds always break at their limit, if they do.
     pub brittle_because: Option<&'static str>,
+    /// Further check of what is chosen of the kind.
+    pub check: fn(&Choice) -> Result<(), Unfit>,
     /// Further check of a material, beyond the properties that the kind [takes](Self::takes).
     pub suits: fn(&Choice, &Material) -> Result<(), Unfit>,
     /// Limits of the bonds, for each of the measures.
@@ -91,6 +93,10 @@ pub struct Choice {
     pub critical_angle: Option<f64>,
     /// Calibration of friction by the strengths.
     pub calibration: Option<Calibration>,
+    /// Angle beta of the friction of a bond, in the place of the compressive strength, rad.
+    pub friction_angle: Option<f64>,
+    /// Distance kappa of the outermost fibre from the axis of a bond, m.
+    pub fibre_distance: Option<f64>,
     /// Behaviour of a bond after its limit.
     pub after: After,
 }
@@ -136,6 +142,7 @@ impl Kind {
             takes: &[],
             keys: &[],
             brittle_because: None,
+            check: |_| Ok(()),
             suits: |_, _| Ok(()),
             limits,
         }
@@ -151,6 +158,16 @@ impl Kind {
         let mut keys = self.keys.iter();
         keys.find(|key| **key != "calibration").copied()
     }
+
+    /// The key that spares a property of the material.
+    fn instead_of(&self, property: &Property) -> Option<&'static str> {
+        let friction = "friction_angle";
+        let by_friction = property.key == COMPRESSIVE_STRENGTH.key && self.keys.contains(&friction);
+        if by_friction {
+            return Some(friction);
+        }
+        self.own_limit()
+    }
 }
 
 impl From<Kind> for Choice {
@@ -162,6 +179,8 @@ impl From<Kind> for Choice {
             critical_stretch: None,
             critical_angle: None,
             calibration: None,
+            friction_angle: None,
+            fibre_distance: None,
             after: After {
                 law: brittle::LAW,
                 parameter: None,
@@ -183,7 +202,11 @@ impl Choice {
     /// Properties of each material that the limits come from.
     pub fn takes(&self) -> &'static [Property] {
         let is_given = self.own_limits().iter().any(|(_, limit)| limit.is_some());
-        if is_given { &[] } else { self.kind.takes }
+        match (is_given, self.friction_angle) {
+            (true, _) => &[],
+            (false, Some(_)) => &[TENSILE_STRENGTH],
+            (false, None) => self.kind.takes,
+        }
     }
 
     /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.
@@ -193,7 +216,12 @@ impl Choice {
     /// If one is given that only other kinds take.
     pub(super) fn refuse_keys(&self) -> Result<(), Unfit> {
         let calibration = ("calibration", self.calibration.map(|_| 0.0));
-        let given = self.own_limits().into_iter().chain([calibration]);
+        let others = [
+            calibration,
+            ("friction_angle", self.friction_angle),
+            ("fibre_distance", self.fibre_distance),
+        ];
+        let given = self.own_limits().into_iter().chain(others);
         let mut refused =
             given.filter(|(key, value)| value.is_some() && !self.kind.keys.contains(key));
         let Some((key, _)) = refused.next() else {
@@ -204,11 +232,14 @@ impl Choice {
                 "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
             }
             ("limit", _) => {
-                "its limits come from the material; \"tension\", \"compression\", \"sliding\" and \"bond-energy\" take one"
+                "its limits come from the material; \"tension\", \"compression\", \"sliding\", \"frictional\", \"fibre\" and \
+                 \"bond-energy\" take one"
             }
             ("calibration", _) => {
                 "only the limit of \"frictional\" can come from the strengths in two ways"
             }
+            ("friction_angle", _) => "only \"frictional\" has friction",
+            ("fibre_distance", _) => "only \"fibre\" looks at a fibre beside the axis of the bond",
             _ => "only \"mixed-mode\" has a limit for opening and one for shear",
         };
         Err(Unfit::NotWith {
@@ -239,7 +270,7 @@ impl Choice {
     /// If it has axes or lacks a property; if two of its properties do not go together.
     pub fn suits(&self, material: &Material) -> Result<(), Unfit> {
         let kind = &self.kind;
-        let of_limits = self.takes().iter().map(|it| (it, kind.own_limit()));
+        let of_limits = self.takes().iter().map(|it| (it, kind.instead_of(it)));
         let of_softening = self.parameter_from_energy();
         let of_softening = of_softening.map(|key| (&FRACTURE_ENERGY, Some(key)));
         for (property, instead) in of_limits.chain(of_softening) {

@@ -14,6 +14,8 @@ pub enum Measure {
     Tension,
     /// -s: shortening (MPPD eq. 46).
     Compression,
+    /// s + q |theta_rel|: stretch of the outermost fibre of a bond that bends, q = kappa/l (MPPD eq. 28).
+    Fibre,
     /// |gamma|: sliding (MPPD eq. 50).
     Sliding,
     /// |gamma| + s q: sliding that compression makes harder, q = tan beta (MPPD eq. 58).
@@ -47,9 +49,10 @@ pub enum Weakened {
 
 impl Measure {
     /// All measures.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Tension,
         Self::Compression,
+        Self::Fibre,
         Self::Sliding,
         Self::Friction,
         Self::Energy,
@@ -62,6 +65,7 @@ impl Measure {
         match self {
             Self::Tension => "tension",
             Self::Compression => "compression",
+            Self::Fibre => "fibre",
             Self::Sliding => "sliding",
             Self::Friction => "friction",
             Self::Energy => "energy",
@@ -80,6 +84,7 @@ impl Measure {
         match self {
             Self::Tension => "stretch",
             Self::Compression => "shortening",
+            Self::Fibre => "fibre stretch",
             Self::Sliding => "sliding",
             Self::Friction | Self::Energy | Self::MixedModeX | Self::MixedModeY => "",
         }
@@ -90,6 +95,7 @@ impl Measure {
         match self {
             Self::Tension => "s",
             Self::Compression => "-s",
+            Self::Fibre => "s + |theta_rel| kappa/l",
             Self::Sliding => "|gamma|",
             Self::Friction => "|gamma| + s tan(beta)",
             Self::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
@@ -102,6 +108,7 @@ impl Measure {
     pub fn coefficient_names(self) -> &'static [&'static str] {
         match self {
             Self::Tension | Self::Compression | Self::Sliding => &[],
+            Self::Fibre => &["kappa/l"],
             Self::Friction => &["tan(beta)"],
             Self::Energy => &["k_t/k_n"],
             Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
@@ -116,6 +123,7 @@ impl Measure {
         match self {
             Self::Tension => stretch,
             Self::Compression => -stretch,
+            Self::Fibre => stretch + coefficient() * deformation.rotation().abs(),
             Self::Sliding => shear.abs(),
             Self::Friction => shear.abs() + stretch * coefficient(),
             Self::Energy => {
@@ -133,10 +141,17 @@ impl Measure {
         }
     }
 
+    /// Whether the measure looks at the rotations of the points.
+    pub fn takes_rotations(self) -> bool {
+        self == Self::Fibre
+    }
+
     /// What a criterion of this measure weakens.
     pub fn weakens(self) -> Weakened {
         match self {
-            Self::Tension | Self::Energy | Self::MixedModeX | Self::MixedModeY => Weakened::Opening,
+            Self::Tension | Self::Fibre | Self::Energy | Self::MixedModeX | Self::MixedModeY => {
+                Weakened::Opening
+            }
             Self::Compression => Weakened::Crushing,
             Self::Sliding | Self::Friction => Weakened::Sliding,
         }
@@ -148,6 +163,7 @@ impl Measure {
     /// | measure | worst direction x | measure there |
     /// |---|---|---|
     /// | tension, compression | a principal axis | max(s_1, s_2), -min(s_1, s_2) |
+    /// | fibre | as tension: nothing bends | max(s_1, s_2) |
     /// | sliding | 45 degrees | abs(s_1 - s_2)/2 |
     /// | friction | cos 2x = +-sin(beta), q = tan(beta) | s_m q + s_d/cos(beta) |
     /// | energy | an axis, 45 degrees, where s = 0, or cos 2x = s_m/(s_d (q - 1)) | the largest of these |
@@ -160,7 +176,7 @@ impl Measure {
     /// Panics for a measure of strains of the bond's own, which are those of the body in all directions.
     pub fn worst_directions(self, coefficient: f64, mean: f64, deviator: f64) -> [f64; 5] {
         match self {
-            Self::Tension => [1.0; 5],
+            Self::Tension | Self::Fibre => [1.0; 5],
             Self::Compression => [-1.0; 5],
             Self::Sliding => [0.0; 5],
             Self::Friction => [coefficient / (1.0 + coefficient * coefficient).sqrt(); 5],
@@ -183,7 +199,7 @@ impl Measure {
     /// Panics like [`Measure::worst_directions`].
     pub fn steepest_slope(self, coefficient: f64) -> f64 {
         2.0 * match self {
-            Self::Tension | Self::Compression | Self::Sliding => 1.0,
+            Self::Tension | Self::Compression | Self::Fibre | Self::Sliding => 1.0,
             Self::Friction => (1.0 + coefficient * coefficient).sqrt(),
             Self::Energy => coefficient.max(1.0).sqrt(),
             Self::MixedModeX | Self::MixedModeY => panic!("{NO_DIRECTION}"),
@@ -232,9 +248,12 @@ mod tests {
         let along_y = |shear: f64| (0.3_f64.powi(2) + 0.25 * shear.powi(2)).sqrt();
         assert_eq!(
             of(3.0, -8.0),
-            [3.0, -3.0, 8.0, 8.75, 5.0, 5.0, along_y(8.0)]
+            [3.0, -3.0, 3.075, 8.0, 8.75, 5.0, 5.0, along_y(8.0)]
         );
-        assert_eq!(of(-4.0, 2.0), [-4.0, 4.0, 2.0, 1.0, 1.0, 1.0, along_y(2.0)]);
+        assert_eq!(
+            of(-4.0, 2.0),
+            [-4.0, 4.0, -3.925, 2.0, 1.0, 1.0, 1.0, along_y(2.0)]
+        );
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | [`strength`] | tension | from the energy at the tensile strength (NHPD eqs 14 to 16) |
 //! | [`stretch`] | tension, compression | F/E (MPPD eqs 44 to 46) |
+//! | [`fibre`] | fibre | F/E (MPPD eqs 28, 44) |
 //! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
 //! | [`frictional`] | friction | a, tan(beta) (MPPD eqs 52 to 58) |
 //! | [`fracture_energy`] | tension, energy | from G_c, the elastic moduli and the mean length of the bonds (Silling and Askari 2005) |
@@ -17,6 +18,7 @@ mod basis;
 mod choosing;
 pub mod crack_energies;
 mod criterion;
+pub mod fibre;
 pub mod fracture_energy;
 pub mod frictional;
 mod kind;
@@ -37,10 +39,11 @@ pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
 
 /// All kinds of criteria.
-pub const KINDS: [&Kind; 8] = [
+pub const KINDS: [&Kind; 9] = [
     &strength::STRENGTH,
     &stretch::TENSION,
     &stretch::COMPRESSION,
+    &fibre::FIBRE,
     &sliding::SLIDING,
     &frictional::FRICTIONAL,
     &fracture_energy::CRITICAL_STRETCH,

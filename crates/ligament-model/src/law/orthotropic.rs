@@ -47,6 +47,12 @@ pub fn stiffness(
     })
 }
 
+/// Smallest k_t H^3 t over the directions of bonds, Pa; negative where the rotations of the points are not stable.
+pub fn smallest_shear(material: &Elasticity, plane: Plane) -> f64 {
+    let [.., shear_0, cos_4, sin_4] = harmonics(material, plane, 1.0);
+    shear_0 - cos_4.hypot(sin_4)
+}
+
 /// k_n H^3 and k_t H^3 (N/m^3) as series in the angle psi to the x axis: the constant term, and the factors of cos and sin of
 /// 2 psi and 4 psi (k_t has none of 2 psi). Unlike k_n1 to k_t1 they have a mean over materials with different axes.
 fn harmonics(material: &Elasticity, plane: Plane, thickness: f64) -> [f64; 8] {

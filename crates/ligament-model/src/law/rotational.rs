@@ -1,5 +1,17 @@
 //! The rotational stiffness of a bond beside a shear stiffness. Uniform strains do not see it, so the continuum does not say
-//! what it is: the papers choose.
+//! what it is: the papers choose, and leave it free.
+//!
+//! A third state of deformation settles it (MPPD note 5), the micro-rotations theta = chi . x of a uniform curvature chi. They cost a
+//! Cosserat continuum gamma chi^2/2, and the bonds of a point a fourth of the sum of k_theta (chi . xi)^2 V.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::{BondStiffness, Densities, bulk_stiffness};
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::material::{Elasticity, Plane};
 
 /// A choice of k_theta for a given k_t.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +26,24 @@ pub enum RotationalStiffness {
     Zero,
 }
 
+/// The size of k_theta, which every choice leaves free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RotationalScale {
+    /// Factor of the k_theta of the law, at least 0.
+    Factor(f64),
+    /// Characteristic length l_b in bending of a Cosserat continuum, m, whose modulus of curvature is gamma = 4 G l_b^2 (N).
+    CosseratLength(f64),
+}
+
+/// k_theta over the lengths of bonds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Profile {
+    /// Choice of k_theta for a given k_t.
+    pub rotational: RotationalStiffness,
+    /// Whether k_t falls with the square of the length, as in the form of a beam.
+    pub shear_falls: bool,
+}
+
 impl RotationalStiffness {
     /// k_theta (N/m^5) for the shear stiffness k_t (N/m^6) of a bond of length l (m) with the bond horizon H (m).
     pub fn density(self, shear: f64, length: f64, horizon: f64) -> f64 {
@@ -24,4 +54,118 @@ impl RotationalStiffness {
             Self::Zero => 0.0,
         }
     }
+}
+
+impl Profile {
+    /// q(l) (m), to which k_theta is in proportion: that for k_t = 1, or for k_t = H^2/l^2.
+    fn value(self, length: f64, horizon: f64) -> f64 {
+        let shear = if self.shear_falls {
+            (horizon / length).powi(2)
+        } else {
+            1.0
+        };
+        self.rotational.density(shear, length, horizon)
+    }
+
+    /// Integral of q(l) l^3 over the horizon, over H^5.
+    fn moment(self) -> f64 {
+        match (self.rotational, self.shear_falls) {
+            (RotationalStiffness::Decaying, false) => 1.0 / 60.0,
+            (RotationalStiffness::Decaying, true) => 1.0 / 24.0,
+            (RotationalStiffness::Quarter, false) => 1.0 / 20.0,
+            (RotationalStiffness::Quarter, true) => 1.0 / 12.0,
+            (RotationalStiffness::Beam, false) => 1.0 / 60.0,
+            (RotationalStiffness::Beam, true) => 1.0 / 36.0,
+            (RotationalStiffness::Zero, _) => 0.0,
+        }
+    }
+}
+
+/// Moduli of curvature gamma (n_materials, N) of Cosserat continua with the characteristic length l_b (m) in bending,
+///
+/// gamma = 4 G l_b^2,
+///
+/// with the shear modulus G in the axes of the material. A strip of height h and thickness t then has the bending stiffness
+/// t (E h^3/12 + gamma h) (Gauthier and Jahsman 1975).
+pub fn curvature_moduli(materials: &[Elasticity], plane: Plane, length: f64) -> Vec<f64> {
+    let modulus = |material: &Elasticity| {
+        let c = match material {
+            Elasticity::Orthotropic(it) => it.principal_stiffness(plane),
+            other => other.plane_stiffness(plane),
+        };
+        4.0 * c[(2, 2)] * length.powi(2)
+    };
+    materials.iter().map(modulus).collect()
+}
+
+/// Densities with k_theta times a factor.
+pub fn scaled(mut stiffness: BondStiffness, factor: f64) -> BondStiffness {
+    stiffness.rotational.iter_mut().for_each(|it| *it *= factor);
+    stiffness
+}
+
+/// Densities with the k_theta, in proportion to a profile q(l), of materials that have the characteristic length l_b (m) in bending:
+///
+/// k_theta = 2 gamma q(l) / (pi t M), M = integral of q l^3 over the horizon,
+///
+/// so that the micro-rotations of a uniform curvature chi cost gamma chi^2/2. Bonds without shear stiffness get none: nothing would
+/// hold the rotations of the points to their displacements.
+pub fn with_cosserat_length(
+    stiffness: BondStiffness,
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    (materials, plane): (&[Elasticity], Plane),
+    (profile, length): (Profile, f64),
+) -> BondStiffness {
+    let moduli = curvature_moduli(materials, plane, length);
+    let bulk = |it: &Elasticity| bulk_stiffness(&it.plane_stiffness(plane));
+    let constants: Vec<[f64; 2]> = (materials.iter().zip(moduli))
+        .map(|(material, modulus)| [bulk(material), modulus])
+        .collect();
+    let unit = 2.0 / (PI * cloud.thickness * profile.moment());
+    let of_curvature =
+        BondStiffness::from_constants(bonds, cloud, &constants, |[_, modulus], bond| Densities {
+            axial: 0.0,
+            shear: 0.0,
+            rotational: unit * modulus * profile.value(bond.length, bond.horizon)
+                / bond.horizon.powi(5),
+        });
+    let rotational = (stiffness.shear.par_iter()).zip(of_curvature.rotational);
+    let rotational = rotational.map(|(&shear, it)| if shear == 0.0 { 0.0 } else { it });
+    BondStiffness {
+        rotational: rotational.collect(),
+        ..stiffness
+    }
+}
+
+/// Factors of the k_theta of bonds for which the sums over the families, in place of the integral, make the micro-rotations of a
+/// uniform curvature cost what the `moduli` of the materials (n_materials, N) say, in the mean over its directions:
+///
+/// q = 4 gamma / sum(alpha V_B k_theta l^2) at a point, the mean of its ends' for a bond.
+pub fn calibrated(
+    mut stiffness: BondStiffness,
+    length_factor: &[f64],
+    bonds: &BondSet,
+    cloud: &PointCloud,
+    moduli: &[f64],
+) -> BondStiffness {
+    let rotational = &stiffness.rotational;
+    let factors = cloud.over_points(|point| {
+        let of_bond = |&bond: &u32| {
+            let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
+            let bond = bond as usize;
+            length_factor[bond] * volume * rotational[bond] * bonds.length[bond].powi(2)
+        };
+        let sum: f64 = bonds.incidence.at(point).iter().map(of_bond).sum();
+        if sum == 0.0 {
+            1.0
+        } else {
+            4.0 * cloud.mean_property(point as usize, moduli) / sum
+        }
+    });
+    for (rotational, ends) in stiffness.rotational.iter_mut().zip(&bonds.ends) {
+        let [a, b] = ends.map(|end| factors[end as usize]);
+        *rotational *= 0.5 * (a + b);
+    }
+    stiffness
 }

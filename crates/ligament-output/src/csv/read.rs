@@ -132,12 +132,29 @@ impl Row<'_> {
     ///
     /// If there is no such column, or something else in it.
     pub fn value<T: FromStr>(&self, column: &str) -> Result<T, Error> {
-        let text = &self.sheet.rows[self.number][self.sheet.place(column)?];
-        text.parse().map_err(|_| {
-            let row = self.number + 1;
-            let reason = format!("`{text}` in column `{column}`, row {row}, is no value");
-            self.sheet.strange(reason)
-        })
+        let text = self.text(column)?;
+        text.parse().map_err(|_| self.no_value(column, text))
+    }
+
+    /// The number in a column, which is neither infinite nor not a number.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such column or number.
+    pub fn number(&self, column: &str) -> Result<f64, Error> {
+        let text = self.text(column)?;
+        let value = text.parse().ok().filter(|value: &f64| value.is_finite());
+        value.ok_or_else(|| self.no_value(column, text))
+    }
+
+    fn text(&self, column: &str) -> Result<&str, Error> {
+        Ok(&self.sheet.rows[self.number][self.sheet.place(column)?])
+    }
+
+    fn no_value(&self, column: &str, text: &str) -> Error {
+        let row = self.number + 1;
+        let reason = format!("`{text}` in column `{column}`, row {row}, is no value");
+        self.sheet.strange(reason)
     }
 }
 
@@ -214,6 +231,11 @@ mod tests {
         let sheet = read("step,load\n1,x\n").unwrap();
         let message = sheet.values::<f64>("load").unwrap_err().to_string();
         assert!(message.ends_with("`x` in column `load`, row 1, is no value"));
+        let numbers = read("step,load\n1,nan\n")
+            .unwrap()
+            .rows(|row| row.number("load"));
+        let message = numbers.unwrap_err().to_string();
+        assert!(message.ends_with("`nan` in column `load`, row 1, is no value"));
         let message = sheet.values::<f64>("force").unwrap_err().to_string();
         assert!(message.ends_with("it has no column `force`"));
     }

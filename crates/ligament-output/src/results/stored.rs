@@ -193,10 +193,13 @@ impl StoredRun {
         } else {
             FieldLocation::Point
         };
-        let displacement = file.required_numbers(location, "displacement")?;
-        let rotation = file.required_numbers(location, "rotation")?;
+        let displacement = file.finite_numbers(location, "displacement")?;
+        let rotation = file.finite_numbers(location, "rotation")?;
         let n_points = self.model.positions.len();
-        let thermal = (file.numbers(location, THERMAL_STRAIN)?).unwrap_or_default();
+        let thermal = match file.components(location, THERMAL_STRAIN) {
+            Some(_) => file.finite_numbers(location, THERMAL_STRAIN)?,
+            None => Vec::new(),
+        };
         if rotation.len() != n_points {
             return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
         }
@@ -237,9 +240,10 @@ fn require_run(folder: &Path) -> Result<(), Error> {
 impl StoredModel {
     fn read(folder: &Path) -> Result<Self, Error> {
         let file = VtuFile::open(folder.join(MODEL))?;
-        let numbers = |name| file.required_numbers(FieldLocation::Point, name);
+        let numbers = |name| file.finite_numbers(FieldLocation::Point, name);
         let (tagged, tags) = file.tags(FieldLocation::Point)?;
         let no_fail = file.required_integers(FieldLocation::Point, "no_fail")?;
+        let bonds = StoredBonds::read(&file)?;
         Ok(Self {
             tagged,
             tags,
@@ -247,31 +251,52 @@ impl StoredModel {
             volumes: numbers("volume")?,
             horizon: numbers("horizon")?,
             no_fail: no_fail.into_iter().map(|flag| flag != 0).collect(),
-            bonds: StoredBonds::read(&file)?,
-            criteria: criteria(folder, &file)?,
-            largest: StoredLargest::read(&file)?,
+            criteria: criteria(folder, &file, &bonds.absence)?,
+            largest: StoredLargest::read(&file, &bonds.absence)?,
+            bonds,
         })
     }
 }
 
 impl StoredBonds {
     fn read(file: &VtuFile) -> Result<Self, Error> {
-        let numbers = |name| file.required_numbers(FieldLocation::Cell, name);
         let absent = file.required_integers(FieldLocation::Cell, "absent")?;
+        let absence: Vec<Option<Absence>> = absent.into_iter().map(Absence::from_number).collect();
         Ok(Self {
             ends: file.lines()?,
-            absence: absent.into_iter().map(Absence::from_number).collect(),
-            horizon: numbers("horizon")?,
-            length_factor: numbers("length_factor")?,
-            domain_factor: numbers("domain_factor")?,
+            horizon: file.finite_numbers(FieldLocation::Cell, "horizon")?,
+            length_factor: of_bonds(file, "length_factor", &absence)?,
+            domain_factor: of_bonds(file, "domain_factor", &absence)?,
+            absence,
         })
     }
 }
 
-fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error> {
+/// The numbers of a field that all bonds must have; pairs that are no bonds have none.
+fn of_bonds(file: &VtuFile, name: &str, absence: &[Option<Absence>]) -> Result<Vec<f64>, Error> {
+    let values = file.required_numbers(FieldLocation::Cell, name)?;
+    let mut bonds = values
+        .iter()
+        .zip(absence)
+        .filter(|(_, absence)| absence.is_none());
+    match bonds.any(|(value, _)| value.is_nan()) {
+        false => Ok(values),
+        true => Err(file.strange(format!("bonds have no {name}"))),
+    }
+}
+
+fn criteria(
+    folder: &Path,
+    file: &VtuFile,
+    absence: &[Option<Absence>],
+) -> Result<Vec<StoredCriterion>, Error> {
     Sheet::read(folder.join("criteria.csv"))?.rows(|row| {
         let name: String = row.value("criterion")?;
-        let field = |what: &str| file.numbers(FieldLocation::Cell, &format!("{what}.{name}"));
+        let field = |what: &str| {
+            let name = format!("{what}.{name}");
+            let is_there = file.components(FieldLocation::Cell, &name).is_some();
+            is_there.then(|| of_bonds(file, &name, absence)).transpose()
+        };
         let mut coefficients = Vec::new();
         for what in COEFFICIENTS {
             coefficients.extend(field(what)?);
@@ -279,7 +304,7 @@ fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error
         Ok(StoredCriterion {
             measure: row.value("measure")?,
             after: row.value("after")?,
-            limit: file.required_numbers(FieldLocation::Cell, &format!("limit.{name}"))?,
+            limit: of_bonds(file, &format!("limit.{name}"), absence)?,
             coefficients,
             parameter: field("after")?.unwrap_or_default(),
             name,
@@ -288,13 +313,13 @@ fn criteria(folder: &Path, file: &VtuFile) -> Result<Vec<StoredCriterion>, Error
 }
 
 impl StoredLargest {
-    fn read(file: &VtuFile) -> Result<Option<Self>, Error> {
-        let location = FieldLocation::Cell;
-        let Some(utilisation) = file.numbers(location, "largest_utilisation")? else {
+    fn read(file: &VtuFile, absence: &[Option<Absence>]) -> Result<Option<Self>, Error> {
+        let (location, name) = (FieldLocation::Cell, "largest_utilisation");
+        if file.components(location, name).is_none() {
             return Ok(None);
-        };
+        }
         Ok(Some(Self {
-            utilisation,
+            utilisation: of_bonds(file, name, absence)?,
             step: file.required_integers(location, "step_of_largest")?,
             criterion: file.required_integers(location, "criterion_of_largest")?,
         }))
@@ -311,16 +336,16 @@ impl StoredStep {
         Ok(Self {
             at_rest,
             step: row.value("step")?,
-            load_factor: row.value("load_factor")?,
-            displacement: row.value("displacement")?,
-            reaction: row.value("reaction")?,
+            load_factor: row.number("load_factor")?,
+            displacement: row.number("displacement")?,
+            reaction: row.number("reaction")?,
         })
     }
 }
 
 impl StoredBreak {
     fn read(row: Row<'_>, tagged: &str, names: &[&str]) -> Result<Self, Error> {
-        let component = |place: usize| names.get(place).map_or(Ok(0.0), |name| row.value(name));
+        let component = |place: usize| names.get(place).map_or(Ok(0.0), |name| row.number(name));
         Ok(Self {
             order: row.value("order")?,
             round: row.value("round")?,
@@ -330,7 +355,7 @@ impl StoredBreak {
                 row.value(&format!("{tagged}_b"))?,
             ],
             criterion: row.value("criterion")?,
-            utilisation: row.value("utilisation")?,
+            utilisation: row.number("utilisation")?,
             deformation: BondDeformation::new([component(0)?, component(1)?, component(2)?]),
         })
     }

@@ -135,6 +135,15 @@ impl VtuFile {
         values.ok_or_else(|| self.missing(location, name))
     }
 
+    /// The numbers of a field that the file must have, none of which is infinite or not a number.
+    ///
+    /// # Errors
+    ///
+    /// If it is missing or damaged, or holds something else.
+    pub fn finite_numbers(&self, location: FieldLocation, name: &str) -> Result<Vec<f64>, Error> {
+        self.finite(name, self.required_numbers(location, name)?)
+    }
+
     /// The integers of a field that the file must have.
     ///
     /// # Errors
@@ -170,6 +179,7 @@ impl VtuFile {
     /// If they are damaged or missing.
     pub fn points(&self) -> Result<Vec<[f64; 2]>, Error> {
         let values = self.floats(self.required(Section::Points, "Points")?)?;
+        let values = self.finite("Points", values)?;
         Ok(values.chunks_exact(3).map(|p| [p[0], p[1]]).collect())
     }
 
@@ -218,6 +228,13 @@ impl VtuFile {
         Error::Unreadable {
             path: self.path.clone(),
             reason: reason.into(),
+        }
+    }
+
+    fn finite(&self, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
+        match values.iter().find(|value| !value.is_finite()) {
+            None => Ok(values),
+            Some(value) => Err(self.strange(format!("array {name} holds {value}"))),
         }
     }
 

@@ -27,7 +27,7 @@ pub(super) struct Body {
 impl Body {
     /// Reads it from an output.
     pub(super) fn read(file: &VtuFile) -> Result<Self, Error> {
-        let moved = file.required_numbers(FieldLocation::Point, "displacement")?;
+        let moved = file.finite_numbers(FieldLocation::Point, "displacement")?;
         let (tagged, tags) = match file.integers(FieldLocation::Point, "node")? {
             Some(tags) => (FieldLocation::Point, tags),
             None => {

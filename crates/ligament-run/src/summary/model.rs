@@ -5,9 +5,9 @@ use ligament_model::correction::{CorrectionReport, DomainReport};
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Correction, Form, Law, Open, Surface};
+use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
-use ligament_model::law::rotational::RotationalStiffness;
+use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 
 /// The numbers of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -119,7 +119,7 @@ impl Spread {
 /// Law and corrections of the bonds, in words.
 fn formulation_words(model: &Model) -> String {
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
-    format!("{}; {correction}", formulation_line(model.setup.law))
+    format!("{}; {correction}", formulation_line(&model.setup))
 }
 
 /// Numbers of bonds of the points.
@@ -156,7 +156,8 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line(mut law: Law) -> String {
+pub fn formulation_line(setup: &Setup) -> String {
+    let mut law = setup.law;
     let (name, element) = (law.name(), law.element());
     let Open {
         calibration,
@@ -188,8 +189,15 @@ pub fn formulation_line(mut law: Law) -> String {
         Some(RotationalStiffness::Zero) => ", k_theta = 0",
         None => "",
     };
+    let scale = match setup.rotational_scale {
+        RotationalScale::Factor(1.0) => String::new(),
+        RotationalScale::Factor(factor) => format!(", k_theta {factor} times that"),
+        RotationalScale::CosseratLength(length) => {
+            format!(", k_theta in proportion for a Cosserat length of {length:.4e} m")
+        }
+    };
     format!(
-        "law {}: {unknowns}{constants}{rotational}",
+        "law {}: {unknowns}{constants}{rotational}{scale}",
         match form {
             Some(Form::Rows) => "mbb-pd (rows)",
             Some(Form::Pairwise) => "mbb-pd (pairwise)",

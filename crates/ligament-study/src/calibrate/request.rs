@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use ligament_run::provenance::Build;
 use serde::Serialize;
 
 use crate::quantities::QuantityError;
@@ -37,6 +38,9 @@ pub struct Request {
     /// Whether an earlier calibration in the folder is replaced; it is continued otherwise.
     #[serde(skip)]
     pub force: bool,
+    /// The program, for the record of the runs.
+    #[serde(skip)]
+    pub build: Build,
 }
 
 /// Why a calibration cannot begin or go on.

@@ -13,7 +13,7 @@ use super::{Reading, Setup, Strains, Surface};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 
-type Checked = Result<(), SetupError>;
+pub(super) type Checked = Result<(), SetupError>;
 
 impl Setup {
     /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
@@ -44,6 +44,7 @@ impl Setup {
         }
         self.check_criteria()?;
         self.check_strains_of_bonds()?;
+        self.check_rotational_scale()?;
         self.check_correction()?;
         self.check_load_factors()?;
         self.check_precracks()?;
@@ -146,6 +147,13 @@ impl Setup {
                          \"critical-stretch\" or \"bond-energy\""
                     )
                 };
+                return contradiction(field.part("kind"), reason);
+            }
+            let bends = choice.kind.measures.iter().any(|it| it.takes_rotations());
+            if bends && self.law.rotational_profile().is_none() {
+                let reason = format!(
+                    "\"{kind}\" looks at the bending of bonds, and the points of \"{law}\" have no rotations: take \"tension\""
+                );
                 return contradiction(field.part("kind"), reason);
             }
             for (place, region) in self.materials.iter().enumerate() {
@@ -413,7 +421,7 @@ fn check_load(field: Field, load: &Load) -> Checked {
     }
 }
 
-fn require(
+pub(super) fn require(
     holds: bool,
     field: Field,
     expected: impl Into<Cow<'static, str>>,
@@ -427,13 +435,13 @@ fn require(
 }
 
 /// Fails where there is a value that is not greater than zero, or is none.
-fn positive(field: Field, value: Option<f64>) -> Checked {
+pub(super) fn positive(field: Field, value: Option<f64>) -> Checked {
     let value = value.unwrap_or(1.0);
     require(!value.is_infinite(), field, "a finite number", value)?;
     require(value > 0.0, field, "greater than 0", value)
 }
 
-fn contradiction(field: Field, reason: impl Into<Cow<'static, str>>) -> Checked {
+pub(super) fn contradiction(field: Field, reason: impl Into<Cow<'static, str>>) -> Checked {
     Err(field.error(Fault::Contradiction(reason.into())))
 }
 

@@ -1,7 +1,7 @@
 //! The bond law, with what each law leaves open.
 
 use ligament_model::ElementKind;
-use ligament_model::law::rotational::RotationalStiffness;
+use ligament_model::law::rotational::{Profile, RotationalStiffness};
 
 /// A bond law with its open choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -193,6 +193,30 @@ impl Law {
     /// Origin of the constants; None where the paper's constants are the only ones.
     pub fn calibration(mut self) -> Option<Calibration> {
         self.open().calibration.copied()
+    }
+
+    /// Rotational stiffness over the length of its bonds; None where points have no rotations.
+    pub fn rotational_profile(&self) -> Option<Profile> {
+        match *self {
+            Self::Nhpd | Self::MppdBeam { .. } => Some(Profile {
+                rotational: RotationalStiffness::Beam,
+                shear_falls: true,
+            }),
+            Self::Mppd {
+                rotational_stiffness,
+                ..
+            }
+            | Self::Orthotropic {
+                rotational_stiffness,
+            } => Some(Profile {
+                rotational: rotational_stiffness,
+                shear_falls: false,
+            }),
+            Self::Bbpd { .. }
+            | Self::BbpdConical { .. }
+            | Self::Pds { .. }
+            | Self::MbbPd { .. } => None,
+        }
     }
 
     /// Whether Poisson's ratio follows from the law, whatever the materials have.

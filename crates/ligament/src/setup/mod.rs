@@ -6,6 +6,7 @@ mod conditions;
 mod correction;
 mod law;
 mod probe;
+mod rotation;
 mod temperature;
 
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 use ligament_analysis::SolverSettings;
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::failure::Choice;
+use ligament_model::law::rotational::RotationalScale;
 use ligament_model::{Horizons, Material, Plane, PointCloud};
 
 use crate::body::Body;
@@ -38,6 +40,8 @@ pub struct Setup {
     pub materials: Vec<MaterialRegion>,
     /// Bond law.
     pub law: Law,
+    /// Size of the stiffness against relative rotation, of laws whose points turn.
+    pub rotational_scale: RotationalScale,
     /// Horizon of the points.
     pub horizon: Horizon,
     /// Whether bonds run through holes, slots and notches of a meshed body, as if these were filled; those of a lattice never do.
@@ -111,6 +115,7 @@ impl Setup {
                 material,
             }],
             law,
+            rotational_scale: RotationalScale::Factor(1.0),
             horizon: Horizon::Factor(3.0),
             bonds_through_voids: false,
             correction: Correction::of_paper(&law),

@@ -1,0 +1,51 @@
+//! Largest stretch of the outermost fibre of a bond (MPPD eq. 28, OMPPD eq. 13).
+//!
+//! The papers print s = (u_n^B - u_n^A + kappa theta_rel)/l, where kappa "regulates how much bending is considered in the bond stretch
+//! measure", and set kappa to zero. Bending as it is printed has a sign that depends on which end comes first, and on the side from
+//! which the plane is seen, so that it can be no part of an energy. It is what its sources take it for, a measure of failure: a section
+//! that bends by theta_rel over the length l stretches a fibre at the distance kappa from its axis by kappa theta_rel/l more on one
+//! side, and by as much less on the other.
+
+use super::basis::Basis;
+use super::kind::{Choice, Kind, Limits, TENSILE_STRENGTH};
+use super::measure::Measure;
+use super::stretch;
+use super::unfit::{NoLimit, Unfit};
+
+/// Stretch of the outermost fibre, from the tensile strength.
+pub const FIBRE: Kind = Kind {
+    takes: &[TENSILE_STRENGTH],
+    keys: &["limit", "fibre_distance"],
+    check,
+    ..Kind::new(
+        "fibre",
+        "Stretch of the outermost fibre of a bond that bends, from the `tensile_strength` or a `limit`; with a `fibre_distance`.",
+        &[Measure::Fibre],
+        limits,
+    )
+};
+
+fn check(choice: &Choice) -> Result<(), Unfit> {
+    match choice.fibre_distance {
+        None => Err(Unfit::Missing {
+            key: "fibre_distance",
+            reason: "(in m) by the criterion \"fibre\": it is how far the outermost fibre lies from the axis of the bond"
+                .to_owned(),
+        }),
+        Some(found) if !(found >= 0.0 && found.is_finite()) => Err(Unfit::OutOfRange {
+            key: "fibre_distance",
+            expected: "at least 0".to_owned(),
+            found,
+        }),
+        Some(_) => Ok(()),
+    }
+}
+
+/// The limits of [`stretch::TENSION`], with kappa/l.
+fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
+    let Limits { limit, .. } = stretch::limits(choice, basis, &TENSILE_STRENGTH, stretch::limit);
+    let distance = choice.fibre_distance.unwrap_or_default();
+    let lengths = basis.system.bonds.length.iter();
+    let coefficient = lengths.map(|length| distance / length).collect();
+    Ok(vec![Limits { limit, coefficient }])
+}

@@ -1,0 +1,58 @@
+//! The size of the rotational stiffness must go with law and materials.
+
+use ligament_model::law::orthotropic;
+use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
+
+use super::Setup;
+use super::check::{Checked, contradiction, positive, require};
+use crate::error::Field;
+
+impl Setup {
+    pub(super) fn check_rotational_scale(&self) -> Checked {
+        let (field, scale) = (Field::whole("rotational_scale"), self.rotational_scale);
+        let law = self.law.name();
+        match (self.law.rotational_profile(), scale) {
+            (_, RotationalScale::Factor(1.0)) => return Ok(()),
+            (None, _) => {
+                let reason = format!(
+                    "the points of \"{law}\" have no rotations, so that nothing resists them: take \"nhpd\", \"mppd\", \"mppd-beam\" or \
+                     \"orthotropic\""
+                );
+                return contradiction(field, reason);
+            }
+            (Some(profile), _) if profile.rotational == RotationalStiffness::Zero => {
+                let reason = "there is no rotational stiffness to give a size to: take `RotationalStiffness::Decaying`";
+                return contradiction(field, reason);
+            }
+            _ => {}
+        }
+        match scale {
+            RotationalScale::Factor(factor) => {
+                let expected = "at least 0";
+                let holds = factor >= 0.0 && factor.is_finite();
+                require(holds, field.part("factor"), expected, factor)
+            }
+            RotationalScale::CosseratLength(length) => {
+                positive(field.part("length"), Some(length))?;
+                self.check_coupling(field.part("length"))
+            }
+        }
+    }
+
+    /// A rotation that costs less than nothing against the displacements, and something against its neighbours, has a wave length
+    /// at which it costs nothing.
+    fn check_coupling(&self, field: Field) -> Checked {
+        let elasticities = self.materials.iter().map(|it| &it.material.elasticity);
+        let least = elasticities.map(|it| orthotropic::smallest_shear(it, self.plane()));
+        let least = least.fold(f64::INFINITY, f64::min);
+        if least < 0.0 {
+            let reason = format!(
+                "the shear stiffness of some bonds is negative (k_t H^3 t = {least:.4e} Pa), and a length makes their rotational \
+                 stiffness positive, so that waves of rotation would cost nothing: take a factor, whose sign is that of the shear \
+                 stiffness, or a smaller Poisson's ratio"
+            );
+            return contradiction(field, reason);
+        }
+        Ok(())
+    }
+}
