@@ -4,7 +4,6 @@
 //! stands beside one that the thing compared is there at all.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use std::path::Path;
 use std::sync::Arc;
 
 use ligament::run;
@@ -560,70 +559,6 @@ fn two_thousand_breakages_with_one_factor() {
     );
     assert!(largest(residuals) < 1e-10 && watch.largest_residual < 1e-10);
     assert!(residuals[0] > 0.0, "there are forces");
-}
-
-/// The files of a run: everything but times.
-fn files(out: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files: Vec<(String, Vec<u8>)> = (std::fs::read_dir(out).unwrap())
-        .map(|entry| entry.unwrap().path())
-        .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), path))
-        .filter(|(name, _)| name.ends_with(".vtu") || name.ends_with(".csv"))
-        .filter(|(name, _)| name != "timings.csv")
-        .map(|(name, path)| (name, std::fs::read(path).unwrap()))
-        .collect();
-    files.sort();
-    files
-}
-
-/// All tables and fields of a run have the same bits for one and for two threads.
-#[test]
-fn the_same_bits_for_any_number_of_threads() {
-    let folder = TempDir::new().unwrap();
-    let disk_by = |criteria: &str| {
-        let properties =
-            "tensile_strength = 3.81e6, compressive_strength = 11.43e6, fracture_energy = 20.0";
-        DISK.replace("tensile_strength = 3.81e6", properties)
-            .replace(
-                "steps = 50",
-                &format!("steps = 50, criterion = [{criteria}]"),
-            )
-    };
-    let exact = |text: &str| text.replace("steps = 50", "control = \"event\"");
-    let friction = disk_by("{ kind = \"tension\" }, { kind = \"frictional\" }");
-    let energy = disk_by("{ kind = \"bond-energy\" }");
-    for (name, text, output) in [
-        ("stepped", DISK.to_owned(), "output.fields_every=10"),
-        ("exact", on_the_exact_path(DISK), "output.fields_every=50"),
-        ("friction", exact(&friction), "output.fields_every=50"),
-        ("energy", exact(&energy), "output.fields_every=50"),
-        ("friction in steps", friction, "output.fields_every=10"),
-    ] {
-        let mesh = "mesh.file=../meshes/disk-2mm.msh";
-        let run = |threads: usize| {
-            let threads = format!("solver.threads={threads}");
-            let settings = [
-                mesh,
-                output,
-                "fracture.stop.bonds=150",
-                &threads,
-                "output.bonds=true",
-            ];
-            let out = folder.path().join(format!("{name}, {threads}"));
-            let summary = bench::run_program(&bench::case(&text, &settings), &out);
-            assert!(summary.solver.changes > 20 && summary.solver.factorisations == 1);
-            files(&out)
-        };
-        let one = run(1);
-        let names: Vec<&str> = one.iter().map(|(name, _)| name.as_str()).collect();
-        println!("{name}: {names:?}");
-        assert!(one.len() >= 7 && names.contains(&"iterations.csv"));
-        let two = run(2);
-        assert_eq!(one.len(), two.len());
-        for ((file, bytes), (other, other_bytes)) in one.iter().zip(&two) {
-            assert_eq!(file, other);
-            assert!(bytes == other_bytes, "{name}: {file} differs");
-        }
-    }
 }
 
 /// The factor is made anew where the number of broken bonds passes a multiple of `rebuild_every`, and where more bonds break

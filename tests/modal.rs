@@ -407,27 +407,6 @@ fn many_modes_are_as_exact_as_few() {
     assert_eq!(outcome.notices, []);
 }
 
-/// Nothing depends on the number of threads: the same bits in all shapes.
-#[test]
-fn modes_have_the_same_bits_for_any_number_of_threads() {
-    let find = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let outcome = (pool.build().unwrap()).install(|| ModalBench::new(BEAM, &[]).find());
-        let modes = outcome.modes.into_iter();
-        modes
-            .map(|mode| {
-                (
-                    mode.shape,
-                    mode.eigenvalue,
-                    mode.residual,
-                    mode.participation,
-                )
-            })
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(find(1), find(2));
-}
-
 /// An unstable model is told of: nu = 0.45 with a horizon factor of 4 has more negative eigenvalues than rotations.
 #[test]
 fn an_unstable_model_is_told_of() {

@@ -4,11 +4,8 @@
 //! the closed form.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
-use std::sync::Arc;
-
 use ligament::model::Model;
 use ligament::prelude::*;
-use ligament::run::on_threads;
 use ligament::setup::Surface;
 use ligament_model::Bonds;
 use ligament_model::correction::CorrectionReport;
@@ -234,18 +231,6 @@ fn a_turned_mesh_has_the_same_factors() {
             "{degrees} degrees: {omega:.1e}, {ratio:.1e}"
         );
     }
-}
-
-#[test]
-fn the_factors_do_not_depend_on_the_number_of_threads() {
-    let body: Arc<dyn Body> = Arc::new(MeshBody::from(meshes::read("meshes/disk-2mm.msh")));
-    let factors = |threads: usize| {
-        let mut setup = patched(MeshBody::from(Mesh::default()), 0.21, Law::Nhpd);
-        setup.body = body.clone();
-        let model = on_threads(Some(threads), || build(setup)).unwrap();
-        (model.fixed.domain_factor, model.fixed.shear_ratio)
-    };
-    assert_eq!(factors(1), factors(2));
 }
 
 /// With hardly more bonds than equations they cannot be met, and the model says so.

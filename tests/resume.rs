@@ -245,6 +245,28 @@ fn other_elements_and_loads_go_on_to_the_same_bits() {
     assert_resumes("under a force", &plate(&forced), 4);
 }
 
+/// Laws of bonds with a direction of the material, bars with conical weights, and beams: with load steps and along the exact path.
+#[test]
+fn laws_with_directions_and_beams_go_on_to_the_same_bits() {
+    const ORTHOTROPIC: &str = "material={ young_1 = 30e9, young_2 = 12e9, poisson_12 = 0.25, shear_modulus = 6e9, angle = 30.0 }";
+    const THIRD: &str = "material.poisson=0.333333333333333333";
+    const STRETCH: &str = ", criterion = [{ kind = \"tension\", limit = 1e-4 }]";
+    for (law, material, criterion) in [
+        ("orthotropic", ORTHOTROPIC, STRETCH),
+        ("bbpd-conical", THIRD, ""),
+        ("mppd-beam", "material.poisson=0.25", ""),
+    ] {
+        let law = format!("model.law={law}");
+        let fracture =
+            |how: &str| format!("fracture={{ {how}, stop = {{ bonds = 60 }}{criterion} }}");
+        let (stepped, event) = (fracture("steps = 40"), fracture("control = \"event\""));
+        let settings = [&law, material, "load.0.displacement.y=4e-5", &stepped];
+        assert_resumes(&law, &plate(&settings), 4);
+        let exact = [&law, material, &event];
+        assert_resumes(&format!("{law}, exact path"), &plate(&exact), 4);
+    }
+}
+
 /// Far enough for bonds to soften.
 const FURTHER: &str = "load.0.displacement.y=2e-4";
 
@@ -277,6 +299,11 @@ fn a_run_that_a_rule_ended_can_be_prolonged() {
         (
             &["fracture.steps=[0.2, 0.25, 0.27]"],
             &["fracture.steps=[0.2, 0.25, 0.27, 0.3, 0.25, 0.35]"],
+        ),
+        // Ended while it was unloaded, and loaded again: what it carries in between is no end.
+        (
+            &["fracture.steps=[0.2, 0.27, 0.05]"],
+            &["fracture.steps=[0.2, 0.27, 0.05, 0.07, 0.35]"],
         ),
         (
             &["fracture={ control = \"event\", stop = { displacement = 2.5e-6 } }"],

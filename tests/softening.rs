@@ -8,7 +8,6 @@ use ligament_analysis::{Component, ControlKind, SetupError, fields};
 use ligament_model::failure::softening::exponential::LAST_FORCE;
 use ligament_model::failure::softening::{bilinear, exponential, plastic};
 use ligament_model::failure::{AfterLimit, Weakened};
-use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};
 use verification::numbers::relative_error;
 use verification::trusses::{Rod, Truss};
@@ -339,39 +338,6 @@ end = 6.0
     assert_eq!(last.probes, probed.collect::<Vec<_>>());
     assert!(last.probes[0] > 0.0);
     assert!(damages[0].1.iter().any(|value| *value > 0.3));
-}
-
-/// All tables and fields of a run with softening bonds have the same bits for one and for two threads.
-#[test]
-fn threads_do_not_change_a_bit() {
-    let folder = TempDir::new().unwrap();
-    let text = format!(
-        "{NOTCHED}fracture = {{ steps = 12, criterion = [{{ kind = \"bond-energy\" }}, \
-         {{ kind = \"tension\", after = \"bilinear\" }}] }}\n"
-    );
-    let run = |threads: usize| {
-        let settings = [
-            format!("solver.threads={threads}"),
-            "lattice.cells=[48, 48]".to_owned(),
-            "lattice.spacing=0.0025".to_owned(),
-            "fracture.stop.bonds=30".to_owned(),
-            "output.fields_every=1".to_owned(),
-        ];
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-        let out = folder.path().join(format!("{threads}"));
-        bench::run_program(&bench::case(&text, &settings), &out);
-        let table = |name: &str| std::fs::read(out.join(name)).unwrap();
-        [
-            "history.csv",
-            "iterations.csv",
-            "breaks.csv",
-            "fields_0003.vtu",
-        ]
-        .map(table)
-    };
-    let (one, two) = (run(1), run(2));
-    assert!(one.iter().all(|file| file.len() > 200));
-    assert!(one == two);
 }
 
 /// The exact path has nothing to say of bonds that bend its lines.

@@ -1,4 +1,4 @@
-//! What must not change the answer: numbering, threads, turns, distance, mirrors.
+//! What must not change the answer: numbering, turns, distance, mirrors.
 //!
 //! Each test states its problem and where its expectation comes from. An assertion that something is zero or equal
 //! stands beside one that the thing compared is there at all.
@@ -6,9 +6,6 @@
 
 use ligament_analysis::fields;
 use std::collections::BTreeSet;
-use std::path::Path;
-use tempfile::TempDir;
-use verification::bench;
 use verification::bench::Bench;
 use verification::bench::Run;
 use verification::meshes;
@@ -47,47 +44,6 @@ fn numbering_does_not_matter() {
         let is_path = runs[0].outcome.history.len() > 2;
         assert_eq!(is_path, runs[0].breaks.len() > 500, "the path breaks bonds");
     }
-}
-
-/// One thread or two: no bit of a history, a list of breakages or a field file differs. The whole program runs.
-#[test]
-fn threads_do_not_change_a_bit() {
-    // Enough bonds that sums over them are split among the threads.
-    let text = format!("{DISK}output = {{ fields_every = 5, bonds = true }}\n");
-    let case = bench::case(&text, &["fracture.stop.load_fraction=0.97"]);
-    let folder = TempDir::new().unwrap();
-    let folders = [1, 2].map(|threads| {
-        let out = folder.path().join(threads.to_string());
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        let summary = pool.install(|| bench::run_program(&case, &out));
-        assert!(summary.broken_bonds > 50);
-        out
-    });
-    let files = |folder: &Path| -> BTreeSet<String> {
-        let entries = std::fs::read_dir(folder).unwrap();
-        entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect()
-    };
-    let names = files(&folders[0]);
-    assert_eq!(names, files(&folders[1]));
-    assert!(names.contains("history.csv") && names.contains("breaks.csv"));
-    let mut fields = 0;
-    // Only these hold times.
-    let timed = ["timings.csv", "summary.json", "checkpoint.bin"];
-    for name in names.iter().filter(|name| !timed.contains(&name.as_str())) {
-        let [one, two] = [0, 1].map(|k| std::fs::read(folders[k].join(name)).unwrap());
-        assert!(one == two, "{name} differs");
-        assert!(!one.is_empty(), "{name} is empty");
-        fields += usize::from(name.ends_with(".vtu"));
-    }
-    assert!(
-        fields > 8,
-        "fields and bonds of some load steps are compared"
-    );
 }
 
 /// A disk pressed along a diameter; disk and pressure are turned together. The correction of the domain is tied to the

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use ligament_run::progress::ProgressMode;
+use ligament_run::provenance::Build;
 use ligament_run::run::run;
 use ligament_study::calibrate::{self, calibrate};
 use ligament_study::sweep::folder::StudyFolder;
@@ -104,6 +105,7 @@ fn calibration(beside: &Path) -> calibrate::Request {
         most_runs: 3,
         out: beside.join("out/calibration"),
         force: false,
+        build: Build::default(),
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament_output::checkpoint::Checkpoint;
 use ligament_run::progress::ProgressMode;
+use ligament_run::provenance::Build;
 use ligament_run::resume;
 use ligament_run::run;
 
@@ -63,6 +64,7 @@ impl Stopped {
             case: &case,
             out: &out,
             force: false,
+            build: Build::default(),
             is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 2,
         };
         assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
@@ -98,6 +100,7 @@ impl Target for Stopped {
             folder: self.folder.path(),
             settings: &[],
             threads: Some(1),
+            build: Build::default(),
             is_stopped: &|| false,
         };
         self.folder.make(input) && request.resume(ProgressMode::Quiet).is_ok()

@@ -44,7 +44,7 @@ fn rows(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
             let number = values[column].parse::<f64>().ok();
             number
                 .filter(|number| number.is_finite())
-                .ok_or_else(|| (line, format!("`{}` is no number", values[column])))
+                .ok_or_else(|| (line, format!("`{:.40}` is no number", values[column])))
         };
         let [x, y, change] = columns;
         let sample = Sample {

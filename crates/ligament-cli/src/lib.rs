@@ -7,6 +7,7 @@
 //! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
 //! | [`terminal`] | where the program speaks to people |
+//! | `build` | the commit and the compiler that the program is from |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
 //! | `stop_signal` | the wish that a run stop |
 #![cfg_attr(
@@ -14,6 +15,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+mod build;
 pub mod check;
 pub mod commands;
 pub mod explain;

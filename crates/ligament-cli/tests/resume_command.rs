@@ -118,9 +118,9 @@ fn wait_for_rows(folder: &Path, before: usize, child: &mut Child) {
     }
 }
 
-/// Keys of a summary that times, memory and threads stand in.
+/// Keys of a summary that times, memory, threads and the build stand in.
 fn is_passing(key: &str) -> bool {
-    ["stages", "threads"].contains(&key) || key.ends_with("seconds")
+    ["stages", "threads", "provenance"].contains(&key) || key.ends_with("seconds")
 }
 
 fn without_passing(value: &mut Value) {

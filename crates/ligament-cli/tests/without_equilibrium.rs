@@ -101,3 +101,91 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
         assert!(picture.contains("not at rest"), "{file}");
     }
 }
+
+/// A study has no results of a run that found no equilibrium, however often it is asked, and names runs whose last state is none; a
+/// calibration takes no result of the first kind, and marks the second.
+#[test]
+fn studies_and_calibrations_mark_such_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let criterion = "[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
+    let stepped = format!("{STRIP}[fracture]\nsteps = 50\n{criterion}");
+    let event = format!("{STRIP}[fracture]\ncontrol = \"event\"\n{criterion}");
+    fs::write(folder.join("stepped.toml"), stepped).unwrap();
+    fs::write(folder.join("event.toml"), event).unwrap();
+    let study = |case: &str, values: &str| {
+        let text = format!(
+            "case = \"{case}.toml\"\n[[axis]]\nkey = \"load.0.force.x\"\nvalues = {values}\n"
+        );
+        fs::write(folder.join("study.toml"), text).unwrap();
+        let output = ligament(folder, &["sweep", "study.toml", "--out", case]);
+        let shown = String::from_utf8_lossy(&output.stdout).into_owned();
+        let table = fs::read_to_string(folder.join(case).join("table.csv")).unwrap();
+        (output.status.code(), shown, table)
+    };
+    for _ in 0..2 {
+        let (code, shown, table) = study("stepped", "[1e3, 1e6]");
+        assert_eq!(code, Some(1));
+        assert!(shown.contains("1 done, 1 failed"), "{shown}");
+        let row = table.lines().nth(2).unwrap();
+        assert!(row.contains(",failed,"), "{row}");
+        assert!(row.contains("no result under load"), "{row}");
+    }
+    let (code, shown, table) = study("event", "[1e3, 1e6]");
+    assert_eq!(code, Some(0), "{shown}");
+    assert!(
+        shown.contains("not at rest at its end: force.x=1e6"),
+        "{shown}"
+    );
+    assert!(
+        !shown.contains("not at rest at its end: force.x=1000"),
+        "{shown}"
+    );
+    assert!(
+        table
+            .lines()
+            .next()
+            .unwrap()
+            .contains(",last_state_not_at_rest,")
+    );
+
+    let calibrate = |case: &str, of: &str| {
+        let case_file = format!("{case}.toml");
+        let out = format!("{case}-found");
+        let arguments = [
+            "calibrate",
+            &case_file,
+            "--key",
+            "material.fracture_energy",
+            "--of",
+            of,
+            "--target",
+            "1500",
+            "--out",
+            &out,
+        ];
+        let output = ligament(folder, &arguments);
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (
+            output.status.code(),
+            text(&output.stdout),
+            text(&output.stderr),
+        )
+    };
+    let (code, shown, error) = calibrate("stepped", "first_break.reaction");
+    assert_eq!(code, Some(1), "{shown}");
+    assert!(shown.is_empty(), "{shown}");
+    assert!(
+        error.contains("run 1 (") && error.contains("no result under load"),
+        "{error}"
+    );
+    let (code, shown, error) = calibrate("event", "peak.reaction");
+    assert_eq!(code, Some(0), "{error}");
+    assert!(shown.contains("NOT AT REST"), "{shown}");
+    assert!(error.contains("its last state is not at rest"), "{error}");
+    let record = fs::read_to_string(folder.join("event-found/calibration.json")).unwrap();
+    assert!(
+        record.contains("\"last_state_not_at_rest\": true"),
+        "{record}"
+    );
+}

@@ -49,10 +49,12 @@ pub(crate) fn rotate_file(path: &Path, older: &Path, contents: &[u8]) -> Result<
 ///
 /// If it cannot be removed.
 pub(crate) fn remove_file(path: &Path) -> Result<(), Error> {
+    remove_if_there(path).map_err(Error::system("remove", path))
+}
+
+fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            Err(Error::system("remove", path)(error))
-        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
 }
@@ -111,7 +113,9 @@ fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {
 }
 
 fn write_synced(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
+    // One of a process of the same number that was killed; never a file that a link in its place leads to.
+    remove_if_there(path)?;
+    let mut file = File::create_new(path)?;
     file.write_all(contents)?;
     // Full quotas and remote disks may report a failed write only here; it must be known before the rename.
     file.sync_all()

@@ -25,7 +25,7 @@ use crate::atomic::{read_bytes, remove_file, rotate_file};
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
 /// Number of the format, which changes whenever what is in a checkpoint does.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 
@@ -203,7 +203,7 @@ mod tests {
         bytes[BEGINNING.len()] += 1;
         let reason = Checkpoint::from_bytes(&bytes).unwrap_err();
         assert!(
-            reason.contains("format 2") && reason.contains("format 1"),
+            reason.contains("format 3") && reason.contains("format 2"),
             "{reason}"
         );
         let reason = Checkpoint::from_bytes(b"step,load_factor").unwrap_err();

@@ -26,7 +26,7 @@ impl fmt::Display for FieldLocation {
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The operating system refused an operation.
-    #[error("cannot {action} {path}")]
+    #[error("cannot {action} {path}{}", remedy(action, source))]
     System {
         /// The operation, a verb.
         action: &'static str,
@@ -89,6 +89,11 @@ pub enum Error {
     /// Something other than a folder is in the place of the folder.
     #[error("{0} exists and is not a folder; choose another folder with --out")]
     NotAFolder(PathBuf),
+    /// A link in the place of a file or folder of the program's own, which may lead anywhere.
+    #[error(
+        "{0} is a link, and results are neither read nor written through links: put the file itself in its place, or remove the link"
+    )]
+    Link(PathBuf),
     /// The place the old results are moved to while they are replaced is taken.
     #[error(
         "cannot move the old results aside: {0} exists, probably left by an interrupted run; look into it, then \
@@ -100,6 +105,25 @@ pub enum Error {
         "{0} cannot be replaced because the path does not end in a folder name; choose a named folder with --out"
     )]
     UnnamedFolder(PathBuf),
+}
+
+/// What to do about an operation that the system refused.
+fn remedy(action: &str, source: &io::Error) -> &'static str {
+    match source.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            ": make room on its disk, or take a folder on another one"
+        }
+        io::ErrorKind::FileTooLarge => {
+            ": its disk, or a limit such as `ulimit -f`, takes no file of that size; take a folder on another one, or a higher limit"
+        }
+        io::ErrorKind::ReadOnlyFilesystem => {
+            ": its disk cannot be written to; take a folder on another one"
+        }
+        io::ErrorKind::PermissionDenied if matches!(action, "create" | "write") => {
+            ": take a folder that you may write to"
+        }
+        _ => "",
+    }
 }
 
 impl Error {

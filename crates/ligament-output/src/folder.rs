@@ -1,5 +1,6 @@
 //! The folder that holds the results of one run.
 
+mod entries;
 mod kind;
 mod lock;
 mod replacement;
@@ -13,6 +14,7 @@ use crate::atomic::{remove_file, replace_file};
 use lock::Lock;
 use replacement::{behind, beside, free_place_aside};
 
+pub use entries::{refuse_link, refuse_links};
 pub use kind::{Kind, RESOLVED_CASE};
 pub use replacement::{put_in_place, recover};
 
@@ -54,7 +56,7 @@ impl ResultFolder {
         Self::check_marked(given, kind, replace)?;
         let path = resolved(given);
         fs::create_dir_all(&path).map_err(Error::system("create", &path))?;
-        let lock = Lock::take(&path)?;
+        let lock = locked(&path, kind)?;
         // Another process may have filled the folder before the lock was there.
         match Occupant::admitted(&path, given, kind, replace)? {
             Occupant::Nothing => Ok(Self::locked(path, kind, lock)),
@@ -67,7 +69,7 @@ impl ResultFolder {
         let new = beside(&path)?;
         Occupant::admitted(&new, &new, kind, true)?;
         fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
-        let new_lock = Lock::take(&new)?;
+        let new_lock = locked(&new, kind)?;
         replacement::clear(&new, kind)?;
         Ok(Self {
             replaces: Some((path, lock)),
@@ -92,7 +94,7 @@ impl ResultFolder {
     pub fn existing(path: impl AsRef<Path>, kind: Kind) -> Result<Self, Error> {
         let path = resolved(path.as_ref());
         recover(&path, kind)?;
-        let lock = Lock::take(&path)?;
+        let lock = locked(&path, kind)?;
         Ok(Self::locked(path, kind, lock))
     }
 
@@ -107,15 +109,27 @@ impl ResultFolder {
         recover(&path, kind)?;
         let holds_results = |it: &PathBuf| it.join(kind.marker).is_file();
         let old = behind(&path).filter(holds_results).unwrap_or(path);
-        let lock = Lock::take(&old)?;
+        let lock = locked(&old, kind)?;
         let Some(new) = beside(&old).ok().filter(holds_results) else {
             return Ok(Self::locked(old, kind, lock));
         };
-        let new_lock = Lock::take(&new)?;
+        let new_lock = locked(&new, kind)?;
         Ok(Self {
             replaces: Some((old, lock)),
             ..Self::locked(new, kind, new_lock)
         })
+    }
+
+    /// The folder of a run to which nothing writes now, to be read; a replacement that was cut short is ended.
+    ///
+    /// # Errors
+    ///
+    /// If another process writes to it.
+    pub fn settled(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
+        let path = resolved(path.as_ref());
+        recover(&path, Kind::RUN)?;
+        Lock::check(&path)?;
+        Ok(path)
     }
 
     /// Fails as [`ResultFolder::create`] would, and makes nothing: for a run to ask before its work begins.
@@ -190,6 +204,12 @@ impl ResultFolder {
         self.lock.moved_to(&folder);
         Ok(())
     }
+}
+
+/// The lock on a folder in which nothing leads elsewhere.
+fn locked(folder: &Path, kind: Kind) -> Result<Lock, Error> {
+    refuse_links(folder, kind)?;
+    Lock::take(folder)
 }
 
 /// The occupant of the place of a result folder, where a run may put its results.

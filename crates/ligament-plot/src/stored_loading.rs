@@ -27,7 +27,8 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
         .parse()
         .map_err(|error: toml::de::Error| Error::Unreadable {
             path,
-            reason: error.to_string(),
+            // Not the line: it may be one of any file.
+            reason: error.message().trim().to_owned(),
         })?;
     let control = case.get("fracture").and_then(|it| it.get("control"));
     let first = case.get("load").and_then(|loads| loads.get(0));

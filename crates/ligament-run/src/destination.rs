@@ -1,6 +1,7 @@
 //! The folder of a run while its results are made.
 
-use anyhow::Context;
+use std::io;
+
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 
@@ -20,18 +21,36 @@ pub(crate) fn make_results<T>(
     let made = written
         .map_err(anyhow::Error::from)
         .and_then(|()| make(&folder));
-    let (made, is_complete) = match folder.replaces() {
-        None => made?,
-        Some(earlier) => made.with_context(|| {
-            let unfinished = folder.path().display();
-            let earlier = earlier.display();
-            format!("the results in {earlier} are the earlier ones; those of this run are unfinished, in {unfinished}")
-        })?,
-    };
+    let (made, is_complete) = made.map_err(|error| match what_is_left(&folder, &error) {
+        Some(words) => error.context(words),
+        None => error,
+    })?;
     if is_complete {
         folder.finish()?;
     }
     Ok(made)
+}
+
+/// What a run that failed has left, and what to do with it, where that is not plain.
+fn what_is_left(folder: &ResultFolder, error: &anyhow::Error) -> Option<String> {
+    let place = folder.path().display();
+    let was_not_written = error.chain().any(|it| it.is::<io::Error>());
+    // Without its case a run cannot go on.
+    let can_go_on = was_not_written && folder.file(RESOLVED_CASE).is_file();
+    let onward = can_go_on.then(|| {
+        format!(
+            "when the reason is mended, `ligament resume {place}` goes on from its last checkpoint"
+        )
+    });
+    let earlier = folder.replaces().map(|earlier| {
+        let earlier = earlier.display();
+        format!("the results in {earlier} are the earlier ones; those of this run are unfinished, in {place}")
+    });
+    match (earlier, onward) {
+        (Some(earlier), Some(onward)) => Some(format!("{earlier}: {onward}")),
+        (None, Some(onward)) => Some(format!("the results in {place} are unfinished: {onward}")),
+        (earlier, None) => earlier,
+    }
 }
 
 /// Words for the user where earlier results are replaced.

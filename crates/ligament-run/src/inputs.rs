@@ -1,11 +1,13 @@
 //! What decides about the results of a run: its resolved case and the content of the files that it reads.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, Stop};
 use ligament_case::input_file;
+use serde::{Deserialize, Serialize};
 
 /// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,19 +26,46 @@ pub const MAY_CHANGE: [&str; 8] = [
     "output.checkpoint_every",
 ];
 
+/// The identity of the content of a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Size, bytes.
+    pub bytes: u64,
+    /// XXH64 digest of all bytes, 16 hexadecimal digits.
+    pub xxh64: String,
+}
+
+impl Identity {
+    /// The identity of some bytes.
+    pub fn new(bytes: &[u8]) -> Self {
+        Self {
+            bytes: bytes.len() as u64,
+            xxh64: format!("{:016x}", twox_hash::XxHash64::oneshot(0, bytes)),
+        }
+    }
+}
+
+impl fmt::Display for Identity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} bytes, xxh64 {}", self.bytes, self.xxh64)
+    }
+}
+
 /// Contents of files by their path, each read once.
 #[derive(Debug, Default)]
-pub struct Contents(HashMap<PathBuf, String>);
+pub struct Contents(HashMap<PathBuf, Identity>);
 
 impl Contents {
-    /// The identity of the content of a file: its size and a digest of its bytes.
-    pub fn identity(&mut self, path: &Path) -> io::Result<String> {
+    /// The identity of the content of a file.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be read.
+    pub fn identity(&mut self, path: &Path) -> io::Result<Identity> {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
-        let bytes = input_file::read(path)?;
-        let digest = twox_hash::XxHash64::oneshot(0, &bytes);
-        let content = format!("{} bytes, xxh64 {digest:016x}", bytes.len());
+        let content = Identity::new(&input_file::read(path)?);
         self.0.insert(path.to_owned(), content.clone());
         Ok(content)
     }
@@ -58,6 +87,7 @@ impl Inputs {
         let mut content = |path: &PathBuf| {
             contents
                 .identity(path)
+                .map(|identity| identity.to_string())
                 .map_err(|error| (path.clone(), error))
         };
         if let Some(section) = &mut plain.case.mesh {
@@ -81,7 +111,10 @@ impl Inputs {
     /// # Errors
     ///
     /// If a file cannot be read, with its path.
-    pub fn of_course(case: &CaseFile) -> Result<Self, (PathBuf, io::Error)> {
+    pub fn of_course(
+        case: &CaseFile,
+        contents: &mut Contents,
+    ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
         plain.case.output.fields_every = None;
         plain.case.output.checkpoint_every = None;
@@ -93,7 +126,7 @@ impl Inputs {
                 ..Stop::default()
             };
         }
-        Self::from_case(&plain, None, &mut Contents::default())
+        Self::from_case(&plain, None, contents)
     }
 
     /// The text of the inputs, as a record keeps it.
@@ -111,6 +144,24 @@ impl Inputs {
             [first, rest @ ..] => format!("now {first}, and {} more", rest.len()),
         }
     }
+}
+
+/// The files that a case names, with their keys.
+pub fn files(case: &CaseFile) -> Vec<(String, PathBuf)> {
+    let mesh = case.case.mesh.iter();
+    let mut found: Vec<(String, PathBuf)> = mesh
+        .map(|section| ("mesh.file".to_owned(), section.file.clone()))
+        .collect();
+    for (number, temperature) in case.case.temperatures.iter().enumerate() {
+        let file = temperature.file.iter().cloned();
+        found.extend(file.map(|file| (format!("temperature.{number}.file"), file)));
+    }
+    found
+}
+
+/// The error of a file that cannot be read, in words for the user.
+pub(crate) fn unread((path, error): (PathBuf, io::Error)) -> anyhow::Error {
+    anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
 }
 
 fn has(text: &str, line: &str) -> bool {

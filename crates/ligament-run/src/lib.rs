@@ -4,7 +4,9 @@
 //! |---|---|
 //! | [`run`] | the route of loads, and of natural modes |
 //! | [`resume`] | going on with a run that was stopped, from its checkpoint |
+//! | [`repeat`] | repeating a run from its record, and comparing both to the last bit |
 //! | [`inputs`] | what decides about the results of a run |
+//! | [`provenance`] | what results came from: program, processor, files |
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
@@ -16,6 +18,7 @@
 )]
 
 mod checkpoints;
+mod comparison;
 mod destination;
 pub mod disk;
 pub mod gauges;
@@ -25,6 +28,8 @@ pub mod memory;
 pub mod model;
 mod modes;
 pub mod progress;
+pub mod provenance;
+pub mod repeat;
 pub mod resume;
 pub mod run;
 pub mod stages;

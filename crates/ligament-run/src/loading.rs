@@ -10,8 +10,9 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::{ResultWriter, SoFar, Time, WriteRule};
 
 use crate::checkpoints::{Checkpoints, IsStopped};
-use crate::inputs::Inputs;
+use crate::inputs::{Contents, Inputs, unread};
 use crate::progress::Progress;
+use crate::provenance::{Build, Provenance};
 use crate::stages::Stages;
 use crate::summary::Summary;
 use crate::watch::Watch;
@@ -25,6 +26,7 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
     pub(crate) folder: &'a ResultFolder,
+    pub(crate) build: Build,
     pub(crate) is_stopped: IsStopped<'a>,
 }
 
@@ -48,15 +50,17 @@ impl LoadedBody<'_> {
             model,
             loading,
             folder,
+            build,
             is_stopped,
         } = *self;
         let problem = loading.problem(&model.system, &model.criteria);
         let analysis = &model.setup.analysis;
         let grid = model.body().grid();
         let (fixed, rule) = (&model.fixed, self.rule());
-        let inputs = Inputs::of_course(case).map_err(|(path, error)| {
-            anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
-        })?;
+        let mut contents = Contents::default();
+        let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
+        let mut provenance = Provenance::new(build, case, &mut contents).map_err(unread)?;
+        provenance.resumed = kept.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
         let (writer, notices, restored) = match kept {
@@ -79,7 +83,8 @@ impl LoadedBody<'_> {
 
         let (notices, checkpoints) = watch.into_parts();
         let boundary = &loading.boundary;
-        let summary = Summary::new(case, model, boundary, &outcome, notices, stages.done());
+        let told = (provenance, notices);
+        let summary = Summary::new(case, model, boundary, &outcome, told, stages.done());
         let text = serde_json::to_string_pretty(&summary)
             .context("the summary cannot be written as JSON")?;
         folder.write_text(SUMMARY, &(text + "\n"))?;

@@ -7,7 +7,9 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::write_modes;
 
 use crate::destination::make_results;
+use crate::loading::SUMMARY;
 use crate::memory;
+use crate::provenance::Provenance;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
@@ -17,7 +19,7 @@ use ligament_case::case::CaseFile;
 pub(crate) fn find_modes(
     case: &CaseFile,
     settings: ModalSettings,
-    model: &Model,
+    (model, provenance): (&Model, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
@@ -35,10 +37,10 @@ pub(crate) fn find_modes(
             let grid = model.body().grid();
             write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)
         })?;
-        let summary = ModalSummary::new(case, model, &outcome, stages.done());
+        let summary = ModalSummary::new(case, model, &outcome, provenance, stages.done());
         let text = serde_json::to_string_pretty(&summary)
             .context("the summary cannot be written as JSON")?;
-        folder.write_text("summary.json", &(text + "\n"))?;
+        folder.write_text(SUMMARY, &(text + "\n"))?;
         Ok((summary, true))
     })
 }

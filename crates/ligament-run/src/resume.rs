@@ -17,10 +17,11 @@ use serde_json::Value;
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
-use crate::inputs::{Inputs, MAY_CHANGE};
+use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
 use crate::loading::{Kept, LoadedBody, SUMMARY};
 use crate::model::build_model;
 use crate::progress::{Progress, ProgressMode};
+use crate::provenance::Build;
 use crate::run::Report;
 use crate::stages::Stages;
 
@@ -32,6 +33,8 @@ pub struct Request<'a> {
     pub settings: &'a [String],
     /// Threads, where they are to be others.
     pub threads: Option<u32>,
+    /// The program that goes on with it.
+    pub build: Build,
     /// Tells whether the user wants it to stop again.
     pub is_stopped: IsStopped<'a>,
 }
@@ -97,6 +100,7 @@ impl Request<'_> {
                     model: &model,
                     loading: &loading,
                     folder,
+                    build: self.build,
                     is_stopped: self.is_stopped,
                 };
                 let summary = body.follow(kept, &mut stages, &mut progress)?;
@@ -165,9 +169,7 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
         "its checkpoint was written by version {version} of the program and this is version {VERSION}: go on with that one, or run \
          the case anew"
     );
-    let inputs = Inputs::of_course(case).map_err(|(path, error)| {
-        anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
-    })?;
+    let inputs = Inputs::of_course(case, &mut Contents::default()).map_err(unread)?;
     ensure!(
         inputs.text() == checkpoint.inputs,
         "its checkpoint is of other inputs ({}): go on with the case and the mesh that it was begun with, or run the case anew",

@@ -9,11 +9,13 @@ use ligament::setup::Analysis;
 use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
+use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
 use crate::model::{Model, build_model};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
+use crate::provenance::{Build, Provenance};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use ligament_case::case::CaseFile;
@@ -65,16 +67,19 @@ pub struct Request<'a> {
     pub out: &'a Path,
     /// Whether results of an earlier run may be replaced.
     pub force: bool,
+    /// The program that runs it.
+    pub build: Build,
     /// Tells whether the user wants it to stop.
     pub is_stopped: IsStopped<'a>,
 }
 
-/// Runs a case and writes its results into a new folder.
+/// Runs a case and writes its results into a new folder; the record of these says nothing of the build.
 pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
     let request = Request {
         case,
         out,
         force,
+        build: Build::default(),
         is_stopped: &|| false,
     };
     request.run(mode)
@@ -98,7 +103,10 @@ impl Request<'_> {
         let model = build_model(self.case, &mut stages, &progress)?;
         if let Analysis::Modal(settings) = model.setup.analysis {
             let create = || ResultFolder::create(self.out, self.force);
-            let summary = find_modes(self.case, settings, &model, create, stages)?;
+            let provenance = Provenance::new(self.build, self.case, &mut Contents::default());
+            let provenance = provenance.map_err(unread)?;
+            let body = (&model, provenance);
+            let summary = find_modes(self.case, settings, body, create, stages)?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
         } else {
@@ -134,6 +142,7 @@ fn follow_loads(
             model,
             loading: &loading,
             folder,
+            build: request.build,
             is_stopped: request.is_stopped,
         };
         let summary = body.follow(None, &mut stages, &mut progress)?;

@@ -13,6 +13,7 @@ use ligament_analysis::{ProportionalLoading, Termination};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
+use crate::provenance::Provenance;
 use crate::stages::Stage;
 use ligament::Model;
 use ligament::units::Units;
@@ -67,6 +68,8 @@ pub struct Summary {
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.
     pub solver: SolverSummary,
+    /// What the results came from.
+    pub provenance: Provenance,
     /// Wall time and peak memory of the stages.
     pub stages: Vec<Stage>,
     /// What the user should know.
@@ -152,7 +155,7 @@ impl Summary {
         model: &Model,
         boundary: &ProportionalLoading,
         outcome: &Outcome,
-        notices: Vec<String>,
+        (provenance, notices): (Provenance, Vec<String>),
         stages: &[Stage],
     ) -> Self {
         let history = &outcome.history;
@@ -186,6 +189,7 @@ impl Summary {
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
+            provenance,
             stages: stages.to_vec(),
             warnings,
         }

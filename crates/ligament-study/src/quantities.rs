@@ -7,9 +7,13 @@ use serde_json::Value;
 
 use ligament::suggestion::hint;
 use ligament_case::input_file;
+use ligament_output::folder::refuse_link;
 
 /// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
 const COUNTED: [&str; 1] = ["warnings"];
+
+/// ... what the results came from, ...
+const PROVENANCE: &str = "provenance";
 
 /// ... and the stages, of which time and memory of the whole run are left.
 const STAGES: &str = "stages";
@@ -29,6 +33,9 @@ pub enum QuantityError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The summary lies elsewhere.
+    #[error(transparent)]
+    Link(#[from] ligament_output::Error),
     /// The summary is not JSON.
     #[error("{} is no summary of a run", path.display())]
     Parse {
@@ -60,11 +67,12 @@ pub enum QuantityError {
 
 impl Quantities {
     /// Flattens a summary: parts of tables and lists are joined by dots, `modes.0.frequency`. Of the warnings their number
-    /// is left, of the stages `seconds` and `peak_bytes`.
+    /// is left, of the stages `seconds` and `peak_bytes`; of the provenance nothing.
     pub(crate) fn of_summary(summary: &Value) -> Self {
         let mut all = Vec::new();
         for (name, value) in summary.as_object().into_iter().flatten() {
             match value {
+                _ if name == PROVENANCE => {}
                 Value::Array(list) if COUNTED.contains(&name.as_str()) => {
                     all.push((name.clone(), list.len().into()));
                 }
@@ -87,6 +95,7 @@ impl Quantities {
     /// Reads those of a run from the summary in its folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, QuantityError> {
         let path = folder.join("summary.json");
+        refuse_link(&path)?;
         let text = input_file::read_text(&path).map_err(|source| QuantityError::Read {
             path: path.clone(),
             source,
@@ -132,6 +141,20 @@ impl Quantities {
             name: name.to_owned(),
             value: value.clone(),
         })
+    }
+
+    /// Why the run has no result under load, where it has none.
+    pub(crate) fn without_equilibrium(&self) -> Option<String> {
+        let reason = self.get("termination_message").and_then(Value::as_str);
+        let reason = reason.unwrap_or("no equilibrium was found");
+        (self.get("without_equilibrium")? == true)
+            .then(|| format!("no result under load: {reason}"))
+    }
+
+    /// Whether the last state of the run is none in which it could stay.
+    pub(crate) fn ends_not_at_rest(&self) -> bool {
+        self.get("last_state_not_at_rest")
+            .is_some_and(|it| it == true)
     }
 
     fn numeric(&self) -> Vec<String> {

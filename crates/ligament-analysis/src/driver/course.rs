@@ -45,15 +45,12 @@ pub(super) enum Place {
 /// How far a load step is.
 pub(super) struct InLoadStep {
     pub(super) counters: StepCounters,
-    /// Load factor of the step before.
-    pub(super) load_factor_before: f64,
     /// Load factors of the steps so far, this one the last; the unloaded body is the first.
     pub(super) load_factors: Vec<f64>,
 }
 
 serial!(InLoadStep {
     counters,
-    load_factor_before,
     load_factors,
 });
 

@@ -182,7 +182,8 @@ impl Following<'_> {
             self.path.account(step, &Breakage::default(), &critical)?;
             let end = end
                 .or_else(|| self.path.interruption())
-                .or_else(|| self.path.end_at_rest(&critical));
+                .or_else(|| self.path.end_at_rest(&critical))
+                .or_else(|| self.path.end_by_load_fraction(&critical));
             let end = self.offer(before, step, &line, end)?;
             self.path.enter(step, 0)?;
             let goes_on = usize::from(end.is_none());

@@ -28,7 +28,7 @@ use crate::unbalanced::Unbalanced;
 /// Rules that end a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopRules {
-    /// The load at rest fell to this fraction of the largest so far, after bonds broke.
+    /// The load at rest fell to this fraction of the largest so far, after bonds broke; not where the load was taken back.
     pub load_fraction: Option<f64>,
     /// The displacement of the control load reached this, m.
     pub displacement: Option<f64>,
@@ -318,9 +318,9 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// What ends the run with an equilibrium that is at rest.
+    /// What ends the run with an equilibrium that is at rest, however far the body is loaded.
     pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
-        let (displacement, reaction) = self.control(balanced);
+        let (displacement, _) = self.control(balanced);
         if let Some(displacement) = self
             .stop
             .displacement
@@ -328,6 +328,21 @@ impl<'a> Path<'a> {
         {
             return Some(Termination::DisplacementReached { displacement });
         }
+        let carried = self.carried_by_the_damaged(balanced)?;
+        (carried <= NO_LOAD * self.course.peak).then_some(Termination::FellApart)
+    }
+
+    /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
+    /// could carry more.
+    pub(super) fn end_by_load_fraction(&self, balanced: &Balanced) -> Option<Termination> {
+        let carried = self.carried_by_the_damaged(balanced)?;
+        let fraction =
+            (self.stop.load_fraction).filter(|&fraction| carried <= fraction * self.course.peak)?;
+        Some(Termination::LoadFraction { fraction })
+    }
+
+    /// The load in an equilibrium, in its own direction, of a body of which bonds broke or softened, N.
+    fn carried_by_the_damaged(&self, balanced: &Balanced) -> Option<f64> {
         // Bonds that soften take load away before any breaks.
         if self.course.broken == 0
             && (self.state.softening.remaining.is_empty() || self.course.peak == 0.0)
@@ -335,19 +350,12 @@ impl<'a> Path<'a> {
             return None;
         }
         // A load the other way is carried the other way.
-        let reaction = if self.state.load_factor < 0.0 {
+        let (_, reaction) = self.control(balanced);
+        Some(if self.state.load_factor < 0.0 {
             -reaction
         } else {
             reaction
-        };
-        if reaction <= NO_LOAD * self.course.peak {
-            return Some(Termination::FellApart);
-        }
-        let fraction = self
-            .stop
-            .load_fraction
-            .filter(|&fraction| reaction <= fraction * self.course.peak)?;
-        Some(Termination::LoadFraction { fraction })
+        })
     }
 
     /// Records an equilibrium.

@@ -49,7 +49,6 @@ pub fn run(
         path,
         settings,
         load_factors: &load_factors,
-        load_factor_before: 0.0,
     };
     let termination = stepping.steps_from(0)?;
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
@@ -97,12 +96,7 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     let place = mem::replace(&mut restored.place, Place::Event(0));
-    let Place::LoadStep(InLoadStep {
-        counters,
-        load_factor_before,
-        ..
-    }) = place
-    else {
+    let Place::LoadStep(InLoadStep { counters, .. }) = place else {
         return Err(CheckpointError::OtherDriver.into());
     };
     let load_factors = load_factors(settings, &restored.course.elastic);
@@ -111,7 +105,6 @@ pub fn resume(
         path,
         settings,
         load_factors: &load_factors,
-        load_factor_before,
     };
     let termination = match stepping.come_to_rest(counters, balanced)? {
         Some(end) => end,
@@ -163,8 +156,6 @@ struct Stepping<'a> {
     settings: &'a SteppedSettings,
     /// Load factors of all steps, that of the unloaded body first.
     load_factors: &'a [f64],
-    /// Load factor of the step before.
-    load_factor_before: f64,
 }
 
 impl Stepping<'_> {
@@ -254,11 +245,23 @@ impl Stepping<'_> {
         });
         let interruption = self.path.interruption().or(not_at_rest);
         interruption.or_else(|| {
-            // A load that is taken back is no failure.
-            let is_unloading = self.path.state.load_factor.abs() < self.load_factor_before.abs();
-            let at_rest = self.path.end_at_rest(balanced);
-            at_rest.filter(|_| counters.at_rest && !is_unloading)
+            self.end_at_rest(balanced, counters.step)
+                .filter(|_| counters.at_rest)
         })
+    }
+
+    /// What ends the run in an equilibrium that is at rest. A load that is taken back is no failure, and shows what the body
+    /// can carry only when it is again as large as it was.
+    fn end_at_rest(&self, balanced: &Balanced, step: usize) -> Option<Termination> {
+        let size = |step: usize| self.load_factors[step].abs();
+        let is_unloading = size(step) < size(step.saturating_sub(1));
+        if is_unloading || (step > 0 && size(step) == 0.0) {
+            return None;
+        }
+        let end = self.path.end_at_rest(balanced);
+        let was_larger = (0..step).any(|earlier| size(earlier) > size(step));
+        let fallen = (!was_larger).then(|| self.path.end_by_load_fraction(balanced));
+        end.or(fallen.flatten())
     }
 
     /// Offers the moment of an equilibrium of a load step.
@@ -273,7 +276,6 @@ impl Stepping<'_> {
         let place = || {
             Place::LoadStep(InLoadStep {
                 counters,
-                load_factor_before: self.load_factor_before,
                 load_factors: self.load_factors[..=counters.step].to_vec(),
             })
         };
@@ -290,7 +292,6 @@ impl Stepping<'_> {
     ) -> Result<Option<Termination>, SetupError> {
         counters.largest_ratio =
             largest_ratio(&self.path.state, balanced, &self.path.problem.criteria);
-        self.load_factor_before = self.path.state.load_factor;
         self.path.record(balanced, counters, end.is_some())?;
         Ok(end)
     }

@@ -84,7 +84,7 @@ pub enum Steps {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stop {
-    /// When the load has fallen to this share of its largest value.
+    /// When the load has fallen to this share of its largest value; not where the load factor is below an earlier one.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub load_fraction: Option<f64>,
     /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::numbers::{number, positive};
+use crate::build::BUILD;
 use crate::terminal;
 use ligament_case::case::{CaseFile, MOST_THREADS};
 use ligament_study::calibrate::{Request, calibrate, line};
@@ -172,6 +173,7 @@ impl CalibrateArgs {
             most_runs: runs.max_runs.unwrap_or(15) as usize,
             out: runs.out.unwrap_or_else(default_out),
             force: runs.force,
+            build: BUILD,
         };
         calibrate(&request, &mut terminal::stderr(), &mut terminal::stdout())
     }

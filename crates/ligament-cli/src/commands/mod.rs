@@ -10,6 +10,7 @@ mod mesh;
 mod new;
 mod numbers;
 mod plot;
+mod repeat;
 mod resume;
 mod run;
 mod schema;
@@ -20,6 +21,7 @@ mod yielding;
 
 use std::process::ExitCode;
 
+use crate::build::VERSION;
 use clap::{CommandFactory, Parser, Subcommand};
 
 pub use calibrate::{CalibrateArgs, LineArgs, RunsArgs};
@@ -31,6 +33,7 @@ pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
 pub use new::NewArgs;
 pub use plot::PlotArgs;
+pub use repeat::RepeatArgs;
 pub use resume::ResumeArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
@@ -44,7 +47,7 @@ pub use yielding::YieldArgs;
 /// A case file (TOML) names a Gmsh mesh, materials, supports and loads; `ligament run` computes
 /// displacements, reactions and the breaking of bonds and writes them for ParaView.
 #[derive(Debug, Parser)]
-#[command(name = "ligament", version, after_help = OVERVIEW, arg_required_else_help = true)]
+#[command(name = "ligament", version, long_version = VERSION, after_help = OVERVIEW, arg_required_else_help = true)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -60,12 +63,13 @@ Examples:
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
   ligament resume results/disk              go on with a run that was stopped
+  ligament repeat results/disk              run it again: are all bits the same?
   ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament plot results/disk                a picture of its damage
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
-Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal (`ligament resume` goes on).";
+Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal (`ligament resume` goes on), 5 `ligament repeat` found other results.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -80,6 +84,13 @@ pub enum Command {
     /// with another one.
     #[command(after_help = resume::EXAMPLES)]
     Resume(ResumeArgs),
+    /// Repeat a run and compare: are its results the same to the last bit?
+    ///
+    /// Takes case and mesh from the record in the folder of the results, runs them again and compares all
+    /// tables, fields and the summary bit by bit. Says where the first difference is and how large, and
+    /// whether another version, commit or processor may explain it.
+    #[command(after_help = repeat::EXAMPLES)]
+    Repeat(RepeatArgs),
     /// Run a case over all combinations of some settings: a table, plots, fitted lines
     ///
     /// A study file names a case and axes: keys of the case with their values. Runs all combinations in
@@ -174,6 +185,7 @@ impl Cli {
         let done = match self.command {
             Command::Run(args) => return args.execute(),
             Command::Resume(args) => return args.execute(),
+            Command::Repeat(args) => return args.execute(),
             Command::Sweep(args) => args.execute(),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),

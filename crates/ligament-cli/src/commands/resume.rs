@@ -9,6 +9,7 @@ use ligament_run::progress::ProgressMode;
 use ligament_run::resume::Request;
 
 use super::run::tell;
+use crate::build::BUILD;
 use crate::stop_signal::StopSignal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -46,6 +47,7 @@ impl ResumeArgs {
             folder: &self.folder,
             settings: &self.settings,
             threads: self.threads,
+            build: BUILD,
             is_stopped: &|| stop.came(),
         };
         let report = request.resume(ProgressMode::detect(self.quiet))?;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::case_args::CaseArgs;
+use crate::build::BUILD;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
@@ -69,6 +70,7 @@ impl RunArgs {
             case: &case,
             out: &out,
             force: self.force,
+            build: BUILD,
             is_stopped: &|| stop.came(),
         };
         let report = request.run(ProgressMode::detect(self.quiet))?;

@@ -2,14 +2,17 @@
 //! and the program says why.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+#![allow(clippy::print_stderr, reason = "a test that is not run says so")]
 
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+mod disks;
 mod folders;
 mod inputs;
+mod paths;
 
 /// A bar that is pulled apart in 10 steps; a run takes some 20 ms.
 const CASE: &str = r#"title = "Small bar"

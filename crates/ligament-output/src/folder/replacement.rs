@@ -6,12 +6,12 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
+use super::entries::{names, refuse_link};
 use super::kind::{Kind, REPLACED};
 use crate::Error;
-use crate::atomic::rename;
+use crate::atomic::{rename, replace_file};
 
 /// A folder with `suffix` behind its name.
 ///
@@ -27,8 +27,14 @@ pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
 }
 
 /// The place where new results of a folder are made.
+///
+/// # Errors
+///
+/// If the path has no name, or a link is there.
 pub(super) fn beside(folder: &Path) -> Result<PathBuf, Error> {
-    sibling(folder, ".new")
+    let new = sibling(folder, ".new")?;
+    refuse_link(&new)?;
+    Ok(new)
 }
 
 /// The folder whose new results are made in this one.
@@ -51,7 +57,7 @@ pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
 ///
 /// # Errors
 ///
-/// If something cannot be renamed; the old results are then where they were. What cannot be removed stays in
+/// If a link is in the place, or something cannot be renamed; the old results are then where they were. What cannot be removed stays in
 /// `NAME.replaced`.
 pub fn put_in_place(
     new: &Path,
@@ -59,9 +65,11 @@ pub fn put_in_place(
     kind: Kind,
     meanwhile: impl FnOnce() -> Result<(), Error>,
 ) -> Result<(), Error> {
+    // The files that a link leads to are not those that are to be replaced.
+    refuse_link(folder)?;
     let aside = free_place_aside(folder)?;
     let mark = folder.join(REPLACED);
-    fs::write(&mark, "").map_err(Error::system("write", &mark))?;
+    replace_file(&mark, b"")?;
     fs::rename(folder, &aside).map_err(Error::system("move aside", folder))?;
     let put = meanwhile().and_then(|()| rename(new, folder));
     if let Err(error) = put {
@@ -146,12 +154,6 @@ pub(super) fn clear(folder: &Path, kind: Kind) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
-    let entries = fs::read_dir(folder).map_err(Error::system("list", folder))?;
-    let names: io::Result<Vec<OsString>> = entries.map(|it| it.map(|it| it.file_name())).collect();
-    names.map_err(Error::system("list", folder))
 }
 
 fn is_empty(folder: &Path) -> bool {

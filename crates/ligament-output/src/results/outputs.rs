@@ -8,7 +8,7 @@ use ligament_model::Absence;
 
 use super::model_file::MODEL;
 use crate::atomic::remove_file;
-use crate::folder::{RESOLVED_CASE, ResultFolder};
+use crate::folder::{Kind, RESOLVED_CASE, ResultFolder, refuse_links};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -77,11 +77,11 @@ pub fn kind_of(folder: &Path) -> OutputKind {
     }
 }
 
-/// Makes sure that a run has written to a folder.
+/// Makes sure that a run has written to a folder, and that its files are there themselves.
 ///
 /// # Errors
 ///
-/// If not.
+/// If not, or if a link is in the place of one.
 pub fn require_results(folder: &Path) -> Result<(), Error> {
     let reason = if !folder.exists() {
         "there is no such folder".to_owned()
@@ -92,7 +92,7 @@ pub fn require_results(folder: &Path) -> Result<(), Error> {
             "it has no {RESOLVED_CASE}; name the folder that `ligament run` wrote its results to"
         )
     } else {
-        return Ok(());
+        return refuse_links(folder, Kind::RUN);
     };
     Err(Error::NoResults {
         path: folder.to_path_buf(),

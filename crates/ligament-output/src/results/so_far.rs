@@ -7,7 +7,7 @@ use ligament_analysis::serial;
 
 use super::largest::Largest;
 use super::tables::{FILES, Written};
-use crate::folder::ResultFolder;
+use crate::folder::{Kind, ResultFolder};
 
 /// What a run has written up to a moment.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +50,11 @@ impl SoFar {
             }
         }
         let mut named = self.fields.iter().chain(&self.bonds).map(|(_, name)| name);
-        named
-            .find(|name| !folder.file(name).is_file())
-            .map(|name| format!("{name} is missing"))
+        named.find_map(|name| {
+            if !(Kind::RUN.owns)(name) {
+                return Some(format!("{name} is no name of a file of a run"));
+            }
+            (!folder.file(name).is_file()).then(|| format!("{name} is missing"))
+        })
     }
 }

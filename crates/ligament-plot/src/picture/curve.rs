@@ -117,6 +117,8 @@ impl Curve {
             });
         }
         let sheet = Sheet::read(folder.join("history.csv"))?;
+        // Of a table that is none of a run nothing is told.
+        sheet.values::<usize>("step")?;
         let column = |name: &String| {
             if sheet.columns().contains(name) {
                 return Ok(sheet.values::<f64>(name)?);

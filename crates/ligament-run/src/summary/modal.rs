@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
 use serde::Serialize;
 
+use crate::provenance::Provenance;
 use crate::stages::Stage;
 use crate::summary::{ModelSummary, SolverSummary, StabilitySummary, heading};
 use ligament::Model;
@@ -36,6 +37,8 @@ pub struct ModalSummary {
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.
     pub solver: SolverSummary,
+    /// What the results came from.
+    pub provenance: Provenance,
     /// Wall time and peak memory of the stages.
     pub stages: Vec<Stage>,
     /// What the user should know.
@@ -59,7 +62,13 @@ pub struct ModeSummary {
 
 impl ModalSummary {
     /// Collects the numbers.
-    pub fn new(case: &CaseFile, model: &Model, outcome: &ModalOutcome, stages: &[Stage]) -> Self {
+    pub fn new(
+        case: &CaseFile,
+        model: &Model,
+        outcome: &ModalOutcome,
+        provenance: Provenance,
+        stages: &[Stage],
+    ) -> Self {
         let moving = &outcome.moving;
         let summary = |(index, mode): (usize, &Mode)| ModeSummary {
             mode: index + 1,
@@ -87,6 +96,7 @@ impl ModalSummary {
             modes,
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
+            provenance,
             stages: stages.to_vec(),
             warnings,
         }

@@ -17,7 +17,7 @@ use crate::quantities::Quantities;
 use ligament_case::case::{CaseError, CaseFile, Fault};
 use ligament_run::inputs::{Contents, Inputs};
 use ligament_run::progress::ProgressMode;
-use ligament_run::run::run;
+use ligament_run::run;
 use record::{Record, Run};
 use request::setting;
 pub use request::{CalibrationError, Request};
@@ -138,9 +138,25 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
     let folder = record.run_folder(number);
     let setting = setting(&request.key, key);
     // Where an earlier one was killed its folder is still there.
-    run(&case, &folder, true, ProgressMode::Quiet)
+    let one = run::Request {
+        case: &case,
+        out: &folder,
+        force: true,
+        build: request.build,
+        is_stopped: &|| false,
+    };
+    one.run(ProgressMode::Quiet)
         .with_context(|| format!("run {number} ({setting}) failed"))?;
     let results = Quantities::read(&folder)?;
+    if let Some(reason) = results.without_equilibrium() {
+        return Err(CalibrationError::NoEquilibrium {
+            run: number,
+            setting,
+            folder,
+            reason,
+        }
+        .into());
+    }
     let result = results.number(&request.of);
     let result = result.map_err(|source| CalibrationError::NoResult {
         run: number,

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use ligament_output::csv::{Table, Value};
-use ligament_output::folder::{Kind, ResultFolder};
+use ligament_output::folder::{Kind, ResultFolder, refuse_links};
 use serde::{Deserialize, Serialize};
 
 use super::request::{CalibrationError, Request, setting};
@@ -16,8 +16,12 @@ use ligament_run::inputs::Inputs;
 /// The file by which the folder of a calibration is recognised.
 const RECORD: &str = "calibration.json";
 
+/// The table of the runs of a calibration.
+const TABLE: &str = "calibration.csv";
+
 /// The folder of a calibration has a folder for each run.
 const KIND: Kind = Kind {
+    owns: |name| name == TABLE,
     holds_run: |name| {
         name.strip_prefix("run-")
             .is_some_and(|it| it.parse::<usize>().is_ok())
@@ -53,6 +57,9 @@ pub(super) struct Run {
     pub(super) trial: Trial,
     /// Reason why the calibration ended.
     termination: String,
+    /// Whether its last state is none in which it could stay.
+    #[serde(default)]
+    last_state_not_at_rest: bool,
     /// Broken bonds.
     broken_bonds: u64,
     /// Wall time, s.
@@ -102,6 +109,7 @@ impl Run {
             number,
             trial,
             termination: word("termination"),
+            last_state_not_at_rest: results.ends_not_at_rest(),
             broken_bonds: count.unwrap_or_default(),
             seconds: results.number("seconds")?,
             units: [word("units.displacement"), word("units.force")],
@@ -131,7 +139,7 @@ impl Record {
             "seconds",
             "folder",
         ];
-        let table = Table::create(folder.file("calibration.csv"), &columns)?;
+        let table = Table::create(folder.file(TABLE), &columns)?;
         let mut record = Self {
             request: request.clone(),
             inputs: inputs.text().to_owned(),
@@ -239,6 +247,9 @@ impl Record {
             run.broken_bonds,
             run.seconds,
         );
+        if run.last_state_not_at_rest {
+            line.push_str("; its last state is not at rest");
+        }
         if of.contains("peak") && CUT_SHORT.contains(&run.termination.as_str()) {
             line.push_str("; it ended before the load fell: its peak may lie beyond");
         }
@@ -249,6 +260,11 @@ impl Record {
     pub(super) fn write_answer(&self, trial: &Trial, out: &mut dyn Write) -> io::Result<()> {
         let key = &self.request.key;
         writeln!(out, "{key} = {}", self.words(trial))?;
+        let is_it = |run: &&Run| run.trial == *trial;
+        if (self.runs.iter().find(is_it)).is_some_and(|it| it.last_state_not_at_rest) {
+            let last = "the last state of its run is no answer: its bonds were still breaking when the run ended";
+            writeln!(out, "  NOT AT REST        {last}")?;
+        }
         writeln!(out, "  runs               {}", self.runs.len())?;
         writeln!(
             out,
@@ -296,6 +312,7 @@ fn run_name(number: usize) -> String {
 
 /// The runs of an earlier calibration in the folder; none where there is no such folder.
 fn earlier_runs(request: &Request, inputs: &Inputs) -> anyhow::Result<Option<Vec<Run>>> {
+    refuse_links(&request.out, KIND)?;
     let path = request.out.join(RECORD);
     let Ok(text) = fs::read_to_string(&path) else {
         return Ok(None);

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use ligament_run::provenance::Build;
 use serde::Serialize;
 
 use crate::quantities::QuantityError;
@@ -37,6 +38,9 @@ pub struct Request {
     /// Whether an earlier calibration in the folder is replaced; it is continued otherwise.
     #[serde(skip)]
     pub force: bool,
+    /// The program, for the record of the runs.
+    #[serde(skip)]
+    pub build: Build,
 }
 
 /// Why a calibration cannot begin or go on.
@@ -68,6 +72,20 @@ pub enum CalibrationError {
         folder: PathBuf,
         /// Why.
         source: QuantityError,
+    },
+    /// No state of a run under load is in equilibrium.
+    #[error(
+        "run {run} ({setting}), results in {}: {reason}; a range by --from and --to may keep clear of such values", folder.display()
+    )]
+    NoEquilibrium {
+        /// Number of the run.
+        run: usize,
+        /// The value of the key that it ran with.
+        setting: String,
+        /// Folder of the run.
+        folder: PathBuf,
+        /// Why.
+        reason: String,
     },
     /// A file of the case cannot be read.
     #[error("cannot read {}", path.display())]

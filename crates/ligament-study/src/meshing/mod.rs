@@ -61,7 +61,12 @@ impl Unfinished {
         let mut name = OsString::from(".");
         name.push(out.file_stem().unwrap_or_default());
         name.push(format!("-unfinished-{}.msh", std::process::id()));
-        Ok(Self(out.with_file_name(name)))
+        let path = out.with_file_name(name);
+        // What is written there goes to no file that a link in its place leads to.
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(Self(path)),
+        }
     }
 
     fn path(&self) -> &Path {

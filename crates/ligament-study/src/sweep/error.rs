@@ -61,6 +61,9 @@ pub enum StudyError {
         /// The sweep that uses it, in words.
         what: String,
     },
+    /// The folder of the study cannot be used.
+    #[error(transparent)]
+    Folder(#[from] ligament_output::Error),
     /// A file of the study's folder cannot be used.
     #[error("cannot {action} {}", path.display())]
     File {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use ligament_output::folder::{Kind, ResultFolder};
+use ligament_output::folder::{Kind, ResultFolder, refuse_link};
 use serde_json::json;
 
 use super::error::StudyError;
@@ -82,8 +82,10 @@ impl StudyFolder {
                 Err(error) => return Err(error.into()),
             }
         }
+        refuse_link(&folder.meshes())?;
         for name in ["runs", "records", "logs", "locks"] {
             let path = folder.path.join(name);
+            refuse_link(&path)?;
             fs::create_dir_all(&path).map_err(|source| file_error("create", &path, source))?;
         }
         Ok(folder)
@@ -225,6 +227,7 @@ impl StudyFolder {
 }
 
 fn open_lock(path: &Path) -> Result<File, StudyError> {
+    refuse_link(path)?;
     let opened = File::options().create(true).append(true).open(path);
     opened.map_err(|source| file_error("open", path, source))
 }

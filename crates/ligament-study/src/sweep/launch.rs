@@ -203,7 +203,14 @@ impl Launcher<'_> {
     }
 
     fn spawn(&self, run: &Run, place: &Path, threads: usize) -> io::Result<Child> {
-        let log = File::create(self.folder.log(run))?;
+        let log = self.folder.log(run);
+        if let Err(error) = fs::remove_file(&log)
+            && error.kind() != io::ErrorKind::NotFound
+        {
+            return Err(error);
+        }
+        // A new file, never one that a link in its place leads to.
+        let log = File::create_new(log)?;
         let mut command = Command::new(&self.program);
         command.args(["run", "--force", "--quiet"]);
         command.arg(format!("--threads={threads}"));

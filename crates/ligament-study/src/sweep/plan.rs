@@ -199,6 +199,7 @@ fn mesh_plan(
     let name = parts.join(",");
     let content = contents
         .identity(geometry)
+        .map(|identity| identity.to_string())
         .map_err(|source| StudyError::Input {
             location: study.location(&geometry_key()),
             run: shortened(name.clone(), LONGEST_NAME),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover};
+use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover, refuse_link};
 use ligament_output::{rename, replace_file};
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +52,10 @@ impl Status {
         let is_current = |it: &Record| it.inputs == run.inputs.text();
         if let (Ok(results), Some(record)) = (Quantities::read(&folder.run(run)), &record) {
             if is_current(record) {
-                return Self::Done(results);
+                return match results.without_equilibrium() {
+                    Some(reason) => Self::Failed(reason),
+                    None => Self::Done(results),
+                };
             }
             return match Record::of_new(run, folder).and_then(|it| it.failed) {
                 Some(reason) => Self::Failed(reason),
@@ -135,11 +138,13 @@ pub(super) fn is_demanded(run: &Run, folder: &StudyFolder) -> bool {
 /// The folder in which a run is to put its results: its own, or one beside it while that has earlier ones. What is about to be
 /// computed is noted.
 pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> {
+    // A link or a file in its place is not ours to remove.
+    refuse_link(&folder.run(run))?;
     let place = match has_summary(run, folder) {
         true => folder.new_run(run),
         false => folder.run(run),
     };
-    // A link or a file in its place is not ours to remove; the run itself would refuse as well.
+    refuse_link(&place)?;
     ResultFolder::check(&place, true)?;
     demand(run, folder)?;
     Ok(place)

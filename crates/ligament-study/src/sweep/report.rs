@@ -172,7 +172,15 @@ fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
         "  {} runs: {done} done, {n_failed} failed, {n_missing} missing",
         rows.len()
     )?;
-    for (word, names) in [("failed", failed), ("missing", missing)] {
+    let unsettled = rows
+        .iter()
+        .filter(|row| matches!(&row.status, Status::Done(results) if results.ends_not_at_rest()));
+    let unsettled = unsettled.map(|row| row.run.name.as_str()).collect();
+    for (word, names) in [
+        ("failed", failed),
+        ("missing", missing),
+        ("not at rest at its end", unsettled),
+    ] {
         for name in names.iter().take(LISTED) {
             writeln!(out, "  {word}: {name}")?;
         }

@@ -14,6 +14,7 @@ use ligament_analysis::solver::SolverSettings;
 use ligament_model::failure::Criteria;
 use ligament_model::{BondSystem, Bonds};
 
+use places::Places;
 pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
@@ -37,10 +38,15 @@ impl Loading {
     ///
     /// # Errors
     ///
-    /// If a name of the setup is not in the body, supports and loads contradict each other, or a couple acts on nothing.
+    /// If a name of the setup is not in the body, a probe is off it, supports and loads contradict each other, or a couple acts on nothing.
     pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
         let boundary = boundary(setup, &system.cloud)?;
         couples_have_stiffness(setup, &boundary, system)?;
+        let places = Places {
+            setup,
+            cloud: &system.cloud,
+        };
+        places.require_probes_on_body()?;
         Ok(Self {
             boundary: Arc::new(boundary.reduced(system.layout())),
             probes: setup.probes.iter().map(|it| it.on(system)).collect(),

@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 use ligament_model::PointCloud;
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Place, Setup};
+use crate::setup::{Place, Reading, Setup};
 
 /// A setup and the points of its body, to look places up in.
 #[derive(Clone, Copy)]
@@ -38,9 +38,24 @@ impl Places<'_> {
             }
         }
     }
-}
 
-impl Places<'_> {
+    /// Refuses probes that read a point at a position off the body.
+    pub(super) fn require_probes_on_body(&self) -> Result<(), SetupError> {
+        for (index, probe) in self.setup.probes.iter().enumerate() {
+            let field = Field::element("probes", index).part("reading");
+            let positions = match &probe.reading {
+                Reading::At { position, .. } => std::slice::from_ref(position),
+                Reading::Between { positions, .. } => positions,
+                Reading::Section { .. } => &[],
+            };
+            for &position in positions {
+                let nearest = self.cloud.nearest_point(position);
+                self.require_on_body(field, position, nearest)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Refuses a position farther from its nearest point than that is from its neighbours: a longest side of its cells, or a
     /// diagonal of the spacing where there are none.
     fn require_on_body(

@@ -1,0 +1,67 @@
+//! `ligament repeat`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use ligament_case::case::MOST_THREADS;
+use ligament_run::progress::ProgressMode;
+use ligament_run::repeat::Request;
+
+use crate::build::BUILD;
+use crate::stop_signal::StopSignal;
+use crate::terminal;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament repeat results/disk
+  ligament repeat results/disk --threads 1 --out results/disk-again
+  ligament repeat results/disk --mesh ~/meshes/disk.msh
+
+Case and mesh are those that the folder names; if they have changed since, the run is not repeated and the message says what is
+other. The exit code is 0 if all tables, fields and the summary are the same to the last bit, and 5 if not.";
+
+/// Exit code of a repetition whose results are others.
+const DIFFERENT: u8 = 5;
+
+/// `ligament repeat`.
+#[derive(Debug, Args)]
+pub struct RepeatArgs {
+    /// The folder of the results of the run
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Keep the results of the repetition in this folder [default: DIR.repeat, which stays only if they differ]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// The mesh, where it no longer lies where the run found it
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Threads to compute with [default: as the run did]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
+    pub threads: Option<u32>,
+    /// Show no progress, only the final result and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+impl RepeatArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
+        let stop = StopSignal::awaited()?;
+        let request = Request {
+            folder: &self.folder,
+            out: self.out.as_deref(),
+            mesh: self.mesh.as_deref(),
+            threads: self.threads,
+            build: BUILD,
+            is_stopped: &|| stop.came(),
+        };
+        let repetition = request.repeat(ProgressMode::detect(self.quiet))?;
+        repetition.write(&mut terminal::stdout())?;
+        Ok(if repetition.is_same() {
+            ExitCode::SUCCESS
+        } else {
+            ExitCode::from(DIFFERENT)
+        })
+    }
+}

@@ -1,0 +1,369 @@
+//! Repeating a run from the record in the folder of its results, and comparing both to the last bit.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail, ensure};
+use ligament_analysis::Termination;
+use ligament_case::case::CaseFile;
+use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
+use ligament_output::read_text;
+use ligament_output::results::outputs::require_results;
+use serde_json::Value;
+
+use crate::checkpoints::{IsStopped, VERSION};
+use crate::comparison::{Comparison, Ending};
+use crate::inputs::{Contents, files, unread};
+use crate::loading::SUMMARY;
+use crate::progress::ProgressMode;
+use crate::provenance::{Build, Input, Provenance};
+use crate::run;
+
+/// What the folder of a repetition has behind the name of the results.
+const SUFFIX: &str = ".repeat";
+
+/// A run that is to be repeated.
+pub struct Request<'a> {
+    /// The folder of its results.
+    pub folder: &'a Path,
+    /// The folder for the results of the repetition, which stay there; without one they are made beside those of the run, and go if
+    /// they are the same.
+    pub out: Option<&'a Path>,
+    /// The mesh, where it no longer lies where the run found it.
+    pub mesh: Option<&'a Path>,
+    /// Threads, where they are to be others.
+    pub threads: Option<u32>,
+    /// The program that repeats it.
+    pub build: Build,
+    /// Tells whether the user wants it to stop.
+    pub is_stopped: IsStopped<'a>,
+}
+
+/// What a repetition found.
+#[derive(Debug)]
+pub struct Repetition {
+    folder: PathBuf,
+    /// The results of the repetition, where they were kept.
+    kept: Option<PathBuf>,
+    comparison: Comparison,
+    /// What the user should know of the run.
+    notes: Vec<String>,
+    /// What was otherwise when the run was done: what, then, now.
+    circumstances: Vec<[String; 3]>,
+    /// Whether a note may explain differences.
+    is_explained: bool,
+}
+
+impl Request<'_> {
+    /// Repeats the run with its case and mesh and compares all tables, fields and the summary.
+    ///
+    /// A run that was stopped is followed up to where it was stopped.
+    ///
+    /// # Errors
+    ///
+    /// If the folder holds no results of a run that has ended, another process writes to it, a file that it read is another now, or
+    /// the run fails.
+    pub fn repeat(&self, mode: ProgressMode) -> anyhow::Result<Repetition> {
+        let folder = ResultFolder::settled(self.folder).map_err(in_use)?;
+        require_results(&folder)?;
+        let summary = summary_of(&folder)?;
+        let case = self.case(&folder)?;
+        let record = &summary["provenance"];
+        let has_record = record.is_object();
+        let mut contents = Contents::default();
+        if has_record {
+            check_inputs(&folder, record, &case, &mut contents)?;
+        }
+        let out = self.place(&folder)?;
+        let now = Provenance::new(self.build, &case, &mut contents).map_err(unread)?;
+        if let Err(error) = self.run_again(&case, &folder, &out, &summary, mode) {
+            if self.out.is_none() {
+                // Nothing was there before; what cannot be removed harms nobody.
+                let _ = fs::remove_dir_all(&out);
+            }
+            return Err(error);
+        }
+        let ending = match summary["termination"].as_str() {
+            Some(name) if name == WALL_TIME => Ending::ByTime,
+            _ => Ending::ByCourse,
+        };
+        let comparison = Comparison::new(&folder, &out, ending)?;
+        let kept = (self.out.is_some() || !comparison.is_same()).then(|| out.clone());
+        if kept.is_none() {
+            fs::remove_dir_all(&out).with_context(|| format!("cannot remove {}", out.display()))?;
+        }
+        Ok(Repetition {
+            notes: notes(&summary, has_record),
+            circumstances: circumstances(&summary, &serde_json::to_value(now)?),
+            is_explained: !has_record || record["resumed"] == true,
+            folder: self.folder.to_path_buf(),
+            kept,
+            comparison,
+        })
+    }
+
+    /// The case of the run, on the threads that are wanted now.
+    fn case(&self, folder: &Path) -> anyhow::Result<CaseFile> {
+        let mut case = CaseFile::load(&folder.join(RESOLVED_CASE), &[])?;
+        let threads = &mut case.case.solver.threads;
+        *threads = self.threads.or(*threads);
+        if let Some(mesh) = self.mesh {
+            let Some(section) = &mut case.case.mesh else {
+                bail!("--mesh: the body of the run is no mesh");
+            };
+            section.file = std::path::absolute(mesh)?;
+        }
+        // A repetition may take its time: it is stopped where the run was.
+        if let Some(fracture) = &mut case.case.fracture {
+            fracture.stop.wall_time = None;
+        }
+        Ok(case)
+    }
+
+    /// The folder for the results of the repetition, where nothing is yet.
+    fn place(&self, folder: &Path) -> anyhow::Result<PathBuf> {
+        let place = match self.out {
+            Some(out) => out.to_path_buf(),
+            None => {
+                let name = folder.file_name();
+                let mut name: OsString = name.context("the folder has no name: give --out")?.into();
+                name.push(SUFFIX);
+                folder.with_file_name(name)
+            }
+        };
+        ensure!(
+            fs::symlink_metadata(&place).is_err(),
+            "{} is there already, perhaps from an earlier repetition: remove it, or choose another folder with --out",
+            place.display()
+        );
+        Ok(place)
+    }
+
+    /// Does the run anew, up to where it was stopped if it was.
+    fn run_again(
+        &self,
+        case: &CaseFile,
+        folder: &Path,
+        out: &Path,
+        summary: &Value,
+        mode: ProgressMode,
+    ) -> anyhow::Result<()> {
+        let was_cut_short = [Termination::Stopped.name(), WALL_TIME]
+            .iter()
+            .any(|name| summary["termination"] == *name);
+        let length = |folder: &Path| TOLD.iter().map(|name| length_of(&folder.join(name))).sum();
+        let end: u64 = length(folder);
+        let is_at_its_end = || was_cut_short && length(out) >= end;
+        let request = run::Request {
+            case,
+            out,
+            force: false,
+            build: self.build,
+            is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
+        };
+        let report = request
+            .run(mode)
+            .with_context(|| format!("the run in {} cannot be repeated", folder.display()))?;
+        ensure!(
+            !report.is_stopped() || is_at_its_end(),
+            "stopped: nothing was compared"
+        );
+        Ok(())
+    }
+}
+
+/// Name of the end by a limit of time.
+const WALL_TIME: &str = "wall-time";
+
+/// Tables that grow with each equilibrium, of which a run can be stopped at the end.
+const TOLD: [&str; 2] = ["iterations.csv", "breaks.csv"];
+
+/// The error of a folder that another process writes to.
+fn in_use(error: ligament_output::Error) -> anyhow::Error {
+    match error {
+        ligament_output::Error::Busy { path, .. } => anyhow::anyhow!(
+            "{} is in use: a run writes its results there; repeat it when it has come to its end",
+            path.display()
+        ),
+        other => other.into(),
+    }
+}
+
+fn length_of(path: &Path) -> u64 {
+    fs::metadata(path).map_or(0, |file| file.len())
+}
+
+/// The summary of a run that has ended or was stopped.
+fn summary_of(folder: &Path) -> anyhow::Result<Value> {
+    let path = folder.join(SUMMARY);
+    ensure!(
+        path.is_file(),
+        "the run in {0} has not come to its end, for it has no {SUMMARY}: `ligament resume {0}` goes on with it",
+        folder.display()
+    );
+    serde_json::from_str(&read_text(&path)?)
+        .with_context(|| format!("cannot use {}", path.display()))
+}
+
+/// Refuses to repeat a run whose case or files are others than they were, with their names.
+fn check_inputs(
+    folder: &Path,
+    record: &Value,
+    case: &CaseFile,
+    contents: &mut Contents,
+) -> anyhow::Result<()> {
+    let inputs: Vec<Input> =
+        serde_json::from_value(record["inputs"].clone()).with_context(|| {
+            format!(
+                "cannot use the record in {}",
+                folder.join(SUMMARY).display()
+            )
+        })?;
+    let now = files(case);
+    let mut changed = Vec::new();
+    for Input { key, file, content } in inputs {
+        let named = |key: &String| now.iter().find(|(other, _)| other == key);
+        let (what, path) = match &key {
+            None => ("the case of the run".to_owned(), folder.join(&file)),
+            Some(key) => (
+                format!("`{key}`"),
+                named(key).map_or(file, |(_, path)| path.clone()),
+            ),
+        };
+        let found = contents.identity(&path).map_err(|error| {
+            let hint = match key.as_deref() {
+                Some("mesh.file") => "; if the mesh lies elsewhere now, give its place by --mesh",
+                _ => "",
+            };
+            unread((path.clone(), error)).context(format!("{what} cannot be read{hint}"))
+        })?;
+        if found != content {
+            let path = path.display();
+            changed.push(format!("{what}, {path}: {content} then, {found} now"));
+        }
+    }
+    ensure!(
+        changed.is_empty(),
+        "the run in {} cannot be repeated, for what it read has changed since: {}",
+        folder.display(),
+        changed.join("; ")
+    );
+    Ok(())
+}
+
+/// What the user should know of a run that is compared.
+fn notes(summary: &Value, has_record: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !has_record {
+        notes.push(
+            "the results have no record of commit and inputs, for they are of an earlier version; the files that the case names were \
+             taken as they are now"
+                .to_owned(),
+        );
+    }
+    if summary["provenance"]["resumed"] == true {
+        notes.push(
+            "the run was resumed: what came before may be from other settings of its output, or another build"
+                .to_owned(),
+        );
+    }
+    if summary["without_equilibrium"] == true {
+        notes.push(
+            "the run has no equilibrium under load: only the way there was compared".to_owned(),
+        );
+    }
+    if summary["termination"] == Termination::Stopped.name() || summary["termination"] == WALL_TIME
+    {
+        notes.push("the run was cut short: it was compared up to there".to_owned());
+    }
+    notes
+}
+
+/// What was otherwise when the run was done, and may explain a difference: what, then, now.
+fn circumstances(then: &Value, now: &Value) -> Vec<[String; 3]> {
+    let word = |value: &Value| match value {
+        Value::Null => "not known".to_owned(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    };
+    let record = &then["provenance"];
+    let has_record = record.is_object();
+    let commit = |of: &Value| match of["uncommitted_changes"].as_bool() {
+        Some(true) => format!("{} with uncommitted changes", word(&of["commit"])),
+        _ => word(&of["commit"]),
+    };
+    let named = |key: &str| [word(&record[key]), word(&now[key])];
+    [
+        ("version", [word(&then["version"]), VERSION.to_owned()]),
+        ("commit", [commit(record), commit(now)]),
+        ("profile", named("profile")),
+        ("target", named("target")),
+        ("compiler", named("compiler")),
+        ("processor", named("processor")),
+        ("vectors", named("vector_instructions")),
+    ]
+    .into_iter()
+    .filter(|(what, [then, now])| then != now && (has_record || *what == "version"))
+    .map(|(what, [then, now])| [what.to_owned(), then, now])
+    .collect()
+}
+
+impl Repetition {
+    /// Whether all was the same to the last bit.
+    pub fn is_same(&self) -> bool {
+        self.comparison.is_same()
+    }
+
+    /// The lines that a user sees.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (folder, compared) = (self.folder.display(), self.comparison.compared);
+        let differing = self.comparison.differing.as_slice();
+        match differing {
+            [] => writeln!(
+                out,
+                "{folder}: repeated, the same to the last bit in all {compared} files"
+            )?,
+            [first, rest @ ..] => {
+                let count = differing.len();
+                writeln!(
+                    out,
+                    "{folder}: repeated, NOT THE SAME in {count} of {compared} files"
+                )?;
+                writeln!(out, "  first difference   {first}")?;
+                for other in rest.iter().take(SHOWN) {
+                    writeln!(out, "  also               {other}")?;
+                }
+                if rest.len() > SHOWN {
+                    writeln!(
+                        out,
+                        "  also               {} more files",
+                        rest.len() - SHOWN
+                    )?;
+                }
+            }
+        }
+        writeln!(
+            out,
+            "  not compared       times, memory, threads, checkpoints"
+        )?;
+        for [what, then, now] in &self.circumstances {
+            writeln!(out, "  {what:<18} {then} then, {now} now")?;
+        }
+        if !self.is_same() && !self.is_explained && self.circumstances.is_empty() {
+            let alike = "program and processor are as they were: were results changed since? If not, please report it";
+            writeln!(out, "  {:<18} {alike}", "explanation")?;
+        }
+        for note in &self.notes {
+            writeln!(out, "  note: {note}")?;
+        }
+        if let Some(kept) = &self.kept {
+            writeln!(out, "  repetition in      {}", kept.display())?;
+        }
+        Ok(())
+    }
+}
+
+/// Files after the first whose difference is shown.
+const SHOWN: usize = 5;
