@@ -99,6 +99,7 @@ experiments!(
     statics,
     lamina,
     tension,
+    directions,
     moduli,
     poisson,
     yielding,
