@@ -274,6 +274,27 @@ fn stability_is_counted_and_its_loss_reported() {
     );
 }
 
+/// A body that is moved at one side and held nowhere goes along. What stiffness and stretch its rounding would give is not told.
+#[test]
+fn a_body_that_nothing_holds_goes_along() {
+    const PLATE: &str = r#"
+        lattice = { cells = [20, 20], spacing = 0.001, set = { bottom = { bottom = 1 }, top = { top = 1 } } }
+        material = { young = 30e9, poisson = 0.3, tensile_strength = 3e6 }
+        model = { law = "mppd", horizon_factor = 3.0 }
+        load = [{ group = "top", displacement = { y = 1e-5 } }]
+        fracture = { steps = 2 }
+    "#;
+    let free = Bench::new(PLATE, &[]).solve();
+    assert!(free.outcome.elastic_stiffness.is_nan());
+    assert_eq!(free.outcome.first_break, None);
+    assert!(free.notices.contains(&Notice::Undeformed));
+    let held = r#"support=[{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]"#;
+    let held = Bench::new(PLATE, &[held]).solve();
+    assert!(held.outcome.elastic_stiffness > 1e6);
+    assert!(held.outcome.first_break.is_some());
+    assert!(!held.notices.contains(&Notice::Undeformed));
+}
+
 /// A total force of 2000 N on a side of 0.1 m, a force of 20 kN/m along it, and half of each together are one load; the
 /// supports answer with the same force.
 #[test]

@@ -187,6 +187,12 @@ pub enum Notice {
         /// Expected ones.
         expected: usize,
     },
+    /// The loads move the body as a whole.
+    #[error(
+        "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding; hold a \
+         part of it by a [[support]]"
+    )]
+    Undeformed,
 }
 
 /// A state in equilibrium, for observers that want fields.

@@ -94,6 +94,7 @@ impl<'a> Watch<'a> {
                 )
             }
             Notice::Unstable { .. }
+            | Notice::Undeformed
             | Notice::NegativeEnergy { .. }
             | Notice::EnergyUnbalanced { .. } => notice.to_string(),
         }

@@ -23,7 +23,7 @@ pub(super) struct Start {
 
 /// What the elastic solution tells of the loading to come.
 pub(super) struct ElasticAnswer {
-    /// NaN where there is no equilibrium.
+    /// NaN where there is no equilibrium, or nothing resists the load.
     pub(super) stiffness: f64,
     pub(super) first_break: Option<LoadPoint>,
     pub(super) stability: Option<Stability>,
@@ -72,10 +72,22 @@ pub(super) fn begin(
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
-        start.read_off(problem, &at_one, &balanced, equilibrium.fragments());
+        match is_deformed(problem, &at_one, &balanced) {
+            true => start.read_off(problem, &at_one, &balanced, equilibrium.fragments()),
+            false => observer.notice(&Notice::Undeformed)?,
+        }
         start.at_one = Some(at_one);
     }
     Ok(start)
+}
+
+/// Whether the energy at a load factor of one is more than rounding of its displacements; temperatures may change a free body
+/// without any.
+fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
+    let temperatures = problem.loads.temperature_change(at_one.load_factor);
+    let is_heated = temperatures.iter().any(|change| *change != 0.0);
+    let rounding = balanced.energy_floor / at_one.displacement.len() as f64;
+    is_heated || rounding == 0.0 || balanced.stored_energy.abs() > rounding
 }
 
 impl Start {
