@@ -94,6 +94,12 @@ fn of_parsed(mesh: &Mesh, file: &str, name: &str, law: Law) -> Starter {
     } else {
         Vec::new()
     };
+    let ends = groups::ends(mesh, extent, spacing);
+    let middle = on_body(
+        mesh,
+        [0, 1].map(|axis| 0.5 * (extent[0][axis] + extent[1][axis])),
+        spacing,
+    );
     let body = Body {
         name: name.to_owned(),
         section: Section::Mesh {
@@ -105,25 +111,35 @@ fn of_parsed(mesh: &Mesh, file: &str, name: &str, law: Law) -> Starter {
             .map(|it| it.name.clone())
             .collect(),
         extent,
-        middle: middle(mesh, extent, spacing),
+        middle,
+        opening: opening(middle, sides[ends.axis], ends.axis)
+            .map(|place| on_body(mesh, place, spacing)),
         spacing,
     };
-    let ends = groups::ends(mesh, extent, spacing);
     starter(&body, &ends, law, warnings)
 }
 
-/// The middle of the bounding box or, where the body has a hole there, the node nearest to it.
-fn middle(mesh: &Mesh, [low, high]: [[f64; 2]; 2], spacing: f64) -> [f64; 2] {
-    let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
-    let distance = |node: &[f64; 2]| (node[0] - middle[0]).hypot(node[1] - middle[1]);
+/// A place or, where the body has a hole there, the node nearest to it.
+fn on_body(mesh: &Mesh, place: [f64; 2], spacing: f64) -> [f64; 2] {
+    let distance = |node: &[f64; 2]| (node[0] - place[0]).hypot(node[1] - place[1]);
     let nearest = (mesh.positions.iter()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let in_hole = nearest.filter(|node| distance(node) > spacing);
-    in_hole.copied().unwrap_or(middle)
+    in_hole.copied().unwrap_or(place)
+}
+
+/// Places on either side of the middle, apart along an axis by a fifth of the body's size.
+fn opening(middle: [f64; 2], size: f64, axis: usize) -> [[f64; 2]; 2] {
+    [-0.1, 0.1].map(|share| {
+        let mut place = middle;
+        place[axis] += share * size;
+        place
+    })
 }
 
 /// The starter case of a lattice of square cells.
 pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
-    let extent = [[0.0; 2], cells.map(|count| f64::from(count) * spacing)];
+    let sides = cells.map(|count| f64::from(count) * spacing);
+    let (middle, axis) = (sides.map(|side| 0.5 * side), 1);
     let body = Body {
         name: "lattice".to_owned(),
         section: Section::Lattice {
@@ -132,14 +148,15 @@ pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
             rows: 3.min(cells[1] / 3).max(1),
         },
         parts: Vec::new(),
-        extent,
-        middle: extent[1].map(|side| 0.5 * side),
+        extent: [[0.0; 2], sides],
+        middle,
+        opening: opening(middle, sides[axis], axis),
         spacing,
     };
     let ends = Ends {
         support: Spot::Group("bottom".to_owned()),
         load: Spot::Group("top".to_owned()),
-        axis: 1,
+        axis,
         away: 1.0,
         presses: false,
         found: "as the lowest and the highest rows",

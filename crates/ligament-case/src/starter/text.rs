@@ -20,6 +20,8 @@ pub(super) struct Body {
     pub(super) extent: [[f64; 2]; 2],
     /// Where it is in the middle, m.
     pub(super) middle: [f64; 2],
+    /// Two places on it whose distance along the load is an opening, m.
+    pub(super) opening: [[f64; 2]; 2],
     /// Distance of the points, m.
     pub(super) spacing: f64,
 }
@@ -338,11 +340,6 @@ stop = {{ load_fraction = 0.5 }} # when the load has fallen to this share of its
 
 fn records(body: &Body, ends: &Ends) -> String {
     let quantum = quantum(body);
-    let along = ends.axis;
-    let middle = body.middle;
-    let (mut from, mut to) = (middle, middle);
-    from[along] -= 0.1 * size(body, along);
-    to[along] += 0.1 * size(body, along);
     let point =
         |[x, y]: [f64; 2]| format!("[{}, {}]", exact(quantum.round(x)), exact(quantum.round(y)));
     format!(
@@ -362,10 +359,10 @@ fn records(body: &Body, ends: &Ends) -> String {
 #bonds = true # the bonds as lines, too
 #stress = [\"virial\"] # stresses at the points
 ",
-        point(from),
-        point(to),
-        ["x", "y"][along],
-        point(middle)
+        point(body.opening[0]),
+        point(body.opening[1]),
+        ["x", "y"][ends.axis],
+        point(body.middle)
     )
 }
 
