@@ -34,7 +34,7 @@ pub enum Standing {
         /// The evidence for the error.
         reason: String,
     },
-    /// No set-up is known that leads to the value.
+    /// The set-up of the table does not lead to the value.
     Open {
         /// What an independent calculation gives, and is compared with.
         instead: Printed,

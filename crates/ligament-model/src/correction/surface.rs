@@ -8,7 +8,7 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::horizon::Horizons;
 
-/// Factors lambda (n_bonds), MPPD section 3:
+/// Factors lambda (n_bonds), MPPD section 2:
 ///
 /// lambda_AB = (V0_A + V0_B)/(V(H_A) + V(H_B)), V0 = pi h^2 t, V(H_A) = sum over B of alpha V_B (without A itself)
 ///

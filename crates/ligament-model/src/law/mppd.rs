@@ -1,4 +1,4 @@
-//! The micropolar law with a constant shear stiffness (MPPD section 3).
+//! The micropolar law with a constant shear stiffness (MPPD section 2).
 
 use rayon::prelude::*;
 

@@ -61,9 +61,9 @@ of `ligament run`. Each table is also a CSV file here, with all digits. The case
 what an entry changes in them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
 
 - **met**: the computed value, rounded, is the known one. **within tolerance**: it is as near as *allowed*.
-- **misprint**: the known value is a misprint, and the computed one is what should stand there. **not reproduced**: no
-  set-up is known that leads to the known value, and the computed one is that of an independent calculation. Notes give
-  the reasons; an entry that misses what it is compared with instead fails as any other.
+- **misprint**: the known value is a misprint, and the computed one is what should stand there. **not reproduced**: the
+  set-up of the table does not lead to the known value, and the computed one is that of an independent calculation. Notes
+  give the reasons; an entry that misses what it is compared with instead fails as any other.
 - **missed**: the known value is right, and the method does not come near enough to it, for the reason in the note.
 - **not judged**: shown for comparison. **FAILED**: should be near, and is not.
 ";
