@@ -155,6 +155,9 @@ pub enum Fault {
         /// Distance from the nearest point, m.
         distance: f64,
     },
+    /// A line that no bond crosses.
+    #[error("no bond crosses this line: a force through it would be 0 N whatever the load")]
+    NothingCrossed,
     /// Cells of a mesh on top of others.
     #[error(
         "cells of the mesh overlap: its outline crosses itself between {from} and {to}. Bodies that touch share nodes: mesh them as one \

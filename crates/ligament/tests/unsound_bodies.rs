@@ -92,6 +92,27 @@ fn a_position_off_the_body_is_refused() {
 }
 
 #[test]
+fn a_section_that_no_bond_crosses_is_refused() {
+    let with_section = |line: [[f64; 2]; 2]| {
+        let mut setup = plate([0.01; 2], |_| ());
+        setup.probes = vec![Probe {
+            name: "section".to_owned(),
+            reading: Reading::Section {
+                line,
+                component: ligament::setup::Axis::X,
+            },
+        }];
+        setup
+    };
+    assert_eq!(
+        error(with_section([[0.2, 0.0], [0.2, 0.1]])),
+        "probes[0].reading: no bond crosses this line: a force through it would be 0 N whatever the load"
+    );
+    let crossed = with_section([[0.025, -0.01], [0.025, 0.07]]);
+    crossed.solve(&mut Unobserved).unwrap();
+}
+
+#[test]
 fn a_horizon_as_large_as_the_body_is_told() {
     let warned = |factor: f64| {
         let mut setup = plate([0.01; 2], |_| ());

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Problem;
-use ligament_analysis::probe::Probe;
+use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_model::failure::Criteria;
 use ligament_model::{BondSystem, Bonds};
@@ -18,7 +18,7 @@ use places::Places;
 pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
-use crate::error::SetupError;
+use crate::error::{Fault, Field, SetupError};
 use crate::setup::Setup;
 use boundary::{boundary, couples_have_stiffness};
 
@@ -38,7 +38,7 @@ impl Loading {
     ///
     /// # Errors
     ///
-    /// If a name of the setup is not in the body, a probe is off it, supports and loads contradict each other, or a couple acts on nothing.
+    /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict each other, or a couple acts on nothing.
     pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
         let boundary = boundary(setup, &system.cloud)?;
         couples_have_stiffness(setup, &boundary, system)?;
@@ -47,9 +47,11 @@ impl Loading {
             cloud: &system.cloud,
         };
         places.require_probes_on_body()?;
+        let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
+        sections_are_crossed(&probes)?;
         Ok(Self {
             boundary: Arc::new(boundary.reduced(system.layout())),
-            probes: setup.probes.iter().map(|it| it.on(system)).collect(),
+            probes,
             solver: setup.solver,
         })
     }
@@ -62,6 +64,21 @@ impl Loading {
             loads: self.boundary.clone(),
             solver: self.solver,
             probes: self.probes.clone(),
+        }
+    }
+}
+
+/// Refuses probes of a force through a line that no bond crosses.
+fn sections_are_crossed(probes: &[Probe]) -> Result<(), SetupError> {
+    let crossed = |probe: &Probe| match &probe.reading {
+        Reading::SectionForce { bonds, .. } => !bonds.is_empty(),
+        _ => true,
+    };
+    match probes.iter().position(|probe| !crossed(probe)) {
+        None => Ok(()),
+        Some(index) => {
+            let field = Field::element("probes", index).part("reading");
+            Err(field.error(Fault::NothingCrossed))
         }
     }
 }
