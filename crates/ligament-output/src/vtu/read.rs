@@ -22,6 +22,9 @@ const MOST_CORNERS: usize = 4;
 /// Numbers that a field has for a point or cell at most.
 const MOST_COMPONENTS: usize = 16;
 
+/// Size that no number of a result has: squares and quotients of smaller ones are numbers.
+const BEYOND: f64 = 1e100;
+
 /// Bytes of a number in the header of an array.
 const HEADER_ENTRY: usize = 8;
 
@@ -135,7 +138,7 @@ impl VtuFile {
         values.ok_or_else(|| self.missing(location, name))
     }
 
-    /// The numbers of a field that the file must have, none of which is infinite or not a number.
+    /// The numbers of a field that the file must have, all of which are of a size that results have.
     ///
     /// # Errors
     ///
@@ -232,7 +235,7 @@ impl VtuFile {
     }
 
     fn finite(&self, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
-        match values.iter().find(|value| !value.is_finite()) {
+        match values.iter().find(|value| !(value.abs() < BEYOND)) {
             None => Ok(values),
             Some(value) => Err(self.strange(format!("array {name} holds {value}"))),
         }
