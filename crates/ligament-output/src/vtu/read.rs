@@ -235,7 +235,10 @@ impl VtuFile {
     }
 
     fn finite(&self, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
-        match values.iter().find(|value| !(value.abs() < BEYOND)) {
+        match values
+            .iter()
+            .find(|value| value.is_nan() || value.abs() >= BEYOND)
+        {
             None => Ok(values),
             Some(value) => Err(self.strange(format!("array {name} holds {value}"))),
         }
