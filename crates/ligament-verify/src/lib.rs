@@ -6,6 +6,7 @@
 //! | [`table`], [`entry`], `printed` | a table, the verdict on an entry, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, a file each |
+//! | [`finite_elements`] | classical elasticity, which the papers compare their lattices with |
 //! | [`report`], [`tally`] | console, Markdown, CSV and SVG |
 #![cfg_attr(
     test,
@@ -28,6 +29,7 @@ mod disk;
 mod disk_modes;
 pub mod entry;
 mod experiment;
+pub mod finite_elements;
 mod frequencies;
 mod griffith;
 mod hole;
@@ -42,6 +44,7 @@ mod published;
 pub mod report;
 mod ring;
 mod softening;
+mod square_elements;
 mod statics;
 pub mod table;
 pub mod tally;
