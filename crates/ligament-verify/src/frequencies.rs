@@ -22,15 +22,15 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = template!("verification/square-modes.toml");
+pub(super) static CASE: Template = template!("verification/square-modes.toml");
 
 /// Density of the case, kg/m^3.
 const DENSITY: f64 = 2500.0;
 
 /// The lamina stands on its base.
-const ALONG: usize = 1;
+pub(super) const ALONG: usize = 1;
 
-const TABLES: [Published; 3] = [
+pub(super) const TABLES: [Published; 3] = [
     published!("mppd-table-4"),
     published!("mppd-table-5"),
     published!("mppd-table-6"),

@@ -41,6 +41,7 @@ mod plates;
 mod poisson;
 mod printed;
 mod published;
+mod readings;
 pub mod report;
 mod ring;
 mod softening;
@@ -61,9 +62,10 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 20] = [
+pub static EXPERIMENTS: [Experiment; 21] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
+    readings::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
     directions::EXPERIMENT,

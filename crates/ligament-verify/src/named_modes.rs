@@ -23,6 +23,13 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
+    /// No frequencies: of an entry that is not computed.
+    pub(super) const NONE: Self = Self {
+        flexural: f64::NAN,
+        axial: f64::NAN,
+        second_flexural: f64::NAN,
+    };
+
     /// The named frequencies of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
     /// The axial mode has the largest effective mass along the cantilever, wherever it stands among the three:

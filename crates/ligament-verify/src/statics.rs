@@ -27,9 +27,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static TRACTION: Template = template!("verification/square-traction.toml");
-static SHEAR: Template = template!("verification/square-shear.toml");
-static BENDING: Template = template!("verification/square-bending.toml");
+pub(super) static TRACTION: Template = template!("verification/square-traction.toml");
+pub(super) static SHEAR: Template = template!("verification/square-shear.toml");
+pub(super) static BENDING: Template = template!("verification/square-bending.toml");
 
 /// Half-width of the plate between its outermost points, m.
 const HALF_WIDTH: f64 = 0.3;
@@ -86,7 +86,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 }
 
 /// The case with a load.
-fn case_of(load: SquareLoad) -> &'static Template {
+pub(super) fn case_of(load: SquareLoad) -> &'static Template {
     match load {
         SquareLoad::Traction => &TRACTION,
         SquareLoad::Shear => &SHEAR,
@@ -96,12 +96,14 @@ fn case_of(load: SquareLoad) -> &'static Template {
 
 /// What the tables read in a run, m.
 #[derive(Debug, Clone, Copy)]
-struct Reading {
+pub(super) struct Reading {
     /// Largest |u_x| and |u_y| of all points.
-    largest: [f64; 2],
+    pub(super) largest: [f64; 2],
+    /// |u_x| and |u_y| in the middles of the right and the upper side.
+    pub(super) middle: [f64; 2],
     /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, what a rigid rotation leaves of
     /// them; twice.
-    of_sides: [f64; 2],
+    pub(super) of_sides: [f64; 2],
     /// |u_x| and |u_y| on the diagonal, inside.
     inside: [f64; 2],
     /// Poisson's ratio inside, of a plate in traction.
@@ -109,10 +111,11 @@ struct Reading {
 }
 
 impl Reading {
-    fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
+    pub(super) fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
         let at = |x, y| displacement_at(solution, [x, y]);
         Ok(Self {
             largest: largest_displacements(solution)?,
+            middle: [at(HALF_WIDTH, 0.0)[0].abs(), at(0.0, HALF_WIDTH)[1].abs()],
             of_sides: [0.5 * (at(0.0, HALF_WIDTH)[0] + at(HALF_WIDTH, 0.0)[1]); 2],
             inside: at(INSIDE, INSIDE).map(f64::abs),
             poisson: -at(INSIDE, 0.0)[0] / at(0.0, INSIDE)[1],
