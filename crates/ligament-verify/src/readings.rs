@@ -93,7 +93,9 @@ impl Score {
         differences.sort_by(f64::total_cmp);
         ensure!(!differences.is_empty(), "no printed value counts");
         Ok(Self {
-            met: rows().filter(|row| row.entry.known.is_rounded_from(row.computed)).count(),
+            met: rows()
+                .filter(|row| row.entry.known.is_rounded_from(row.computed))
+                .count(),
             median: differences[differences.len() / 2],
             largest: differences[differences.len() - 1],
         })
@@ -123,7 +125,12 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
                 SquareLoad::Traction if !is_largest => found.middle,
                 SquareLoad::Traction | SquareLoad::Bending => found.largest,
             };
-            Ok(1e3 * if printed.text("component")? == "u_x" { x } else { y })
+            Ok(1e3
+                * if printed.text("component")? == "u_x" {
+                    x
+                } else {
+                    y
+                })
         })
     };
     Ok(vec![
@@ -145,7 +152,9 @@ fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
         let trial = with_law(frequencies::CASE.trial(), reading)?
             .set("lattice.set.base.bottom", rows)
             .set("material.poisson", printed.number("nu")?);
-        memory.result(trial.command(), || Frequencies::from_trial(&trial, frequencies::ALONG))
+        memory.result(trial.command(), || {
+            Frequencies::from_trial(&trial, frequencies::ALONG)
+        })
     })
 }
 

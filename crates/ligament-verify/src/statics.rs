@@ -37,7 +37,12 @@ const HALF_WIDTH: f64 = 0.3;
 /// Distance from the middle, a horizon inside the sides, at which Poisson's ratio is read (MPPD eq. 59), m.
 const INSIDE: f64 = 0.27;
 
+/// Stress of the loads, Pa.
+const STRESS: f64 = 10e6;
+
 const MILLIMETRES: f64 = 1e3;
+
+const MEGAPASCAL: f64 = 1e-6;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
@@ -47,8 +52,12 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .set("model.law", model.to_lowercase());
         memory.reading(&trial, Reading::from_solution)
     };
-    let poisson = published!("mppd-table-1-poisson")
-        .judge(extent, |labels| Ok(read(&TRACTION, labels, "PDS")?.poisson))?;
+    let poisson = published!("mppd-table-1-poisson").judge(extent, |labels| {
+        Ok(read(&TRACTION, labels, labels.text("model")?)?.poisson)
+    })?;
+    let shear_modulus = published!("mppd-table-2-shear-modulus").judge(extent, |labels| {
+        Ok(MEGAPASCAL * STRESS / read(&SHEAR, labels, labels.text("model")?)?.shear_angle)
+    })?;
     let mut judge = |table: Published, load, displacement: fn(Reading) -> [f64; 2]| {
         table.judge(extent, |labels| {
             let [x, y] = match labels.text("model")? {
@@ -67,6 +76,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         judge(published!("mppd-table-2"), SquareLoad::Shear, |it| {
             it.of_sides
         })?,
+        shear_modulus,
         judge(published!("mppd-table-3"), SquareLoad::Bending, |it| {
             it.largest
         })?,
@@ -81,7 +91,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     ];
     let traction = "Simple traction: largest displacement across the load";
     let bending = "Simple bending: largest displacement along the load";
-    let plots = vec![plot(&tables[0], traction)?, plot(&tables[4], bending)?];
+    let plots = vec![plot(&tables[0], traction)?, plot(&tables[5], bending)?];
     Ok(Findings { tables, plots })
 }
 
@@ -108,6 +118,8 @@ pub(super) struct Reading {
     inside: [f64; 2],
     /// Poisson's ratio inside, of a plate in traction.
     poisson: f64,
+    /// Shear angle inside, of a plate in shear.
+    shear_angle: f64,
 }
 
 impl Reading {
@@ -119,6 +131,7 @@ impl Reading {
             of_sides: [0.5 * (at(0.0, HALF_WIDTH)[0] + at(HALF_WIDTH, 0.0)[1]); 2],
             inside: at(INSIDE, INSIDE).map(f64::abs),
             poisson: -at(INSIDE, 0.0)[0] / at(0.0, INSIDE)[1],
+            shear_angle: (at(0.0, INSIDE)[0] + at(INSIDE, 0.0)[1]) / INSIDE,
         })
     }
 }
