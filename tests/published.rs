@@ -99,6 +99,7 @@ experiments!(
     statics,
     lamina,
     tension,
+    maps,
     directions,
     moduli,
     poisson,

@@ -50,6 +50,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables,
         plots: Vec::new(),
+        ..Findings::default()
     })
 }
 

@@ -88,6 +88,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![peaks, griffith],
         plots: vec![plot],
+        ..Findings::default()
     })
 }
 

@@ -36,6 +36,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![table],
         plots: Vec::new(),
+        ..Findings::default()
     })
 }
 

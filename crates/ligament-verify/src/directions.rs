@@ -45,6 +45,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables,
         plots: Vec::new(),
+        ..Findings::default()
     })
 }
 

@@ -51,6 +51,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![table],
         plots: vec![plot],
+        ..Findings::default()
     })
 }
 

@@ -43,5 +43,6 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![table],
         plots: Vec::new(),
+        ..Findings::default()
     })
 }

@@ -1,6 +1,7 @@
 //! An experiment, and what it comes to.
 
 use anyhow::Context;
+use ligament_plot::picture::maps::Maps;
 use ligament_plot::plots::Plot;
 
 use super::table::{Extent, Table};
@@ -44,4 +45,6 @@ pub struct Findings {
     pub tables: Vec<Table>,
     /// Curves of them.
     pub plots: Vec<Plot>,
+    /// Pictures of bodies.
+    pub maps: Vec<Maps>,
 }

@@ -50,7 +50,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
     })?;
     let plots = tables.iter().map(plot).collect::<Result<_, _>>()?;
-    Ok(Findings { tables, plots })
+    Ok(Findings {
+        tables,
+        plots,
+        ..Findings::default()
+    })
 }
 
 fn plot(table: &Table) -> Result<Plot, LabelError> {

@@ -93,7 +93,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         published!("mode-one").judge(extent, |labels| Ok(separated(labels)?.deviation))?;
     let plots = vec![plot(&strength)?];
     let tables = vec![strength, crossing, work, energy, deviation];
-    Ok(Findings { tables, plots })
+    Ok(Findings {
+        tables,
+        plots,
+        ..Findings::default()
+    })
 }
 
 /// Curves of computed strengths, each with the labels of its entries.

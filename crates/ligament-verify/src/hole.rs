@@ -65,6 +65,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![table],
         plots: Vec::new(),
+        ..Findings::default()
     })
 }
 

@@ -1,12 +1,12 @@
 //! Natural frequencies of an orthotropic lamina with a hole, and their convergence (OMPPD Tables 3 to 5, Fig. 18).
 
 use super::experiment::{Experiment, Findings};
-use super::finite_elements::{Body, Degree, Mesh};
+use super::finite_elements::Mode;
+use super::lamina_elements;
 use super::named_modes::{self, Frequencies};
 use super::published::{Published, published};
 use super::table::{Extent, LabelError, Row, Table};
 use super::trial::{Memory, Template, template};
-use ligament_model::material::{Elasticity, Orthotropic};
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
@@ -25,7 +25,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = template!("verification/lamina-modes.toml");
+pub(super) static CASE: Template = template!("verification/lamina-modes.toml");
 
 /// The lamina sticks out along x.
 const ALONG: usize = 0;
@@ -47,6 +47,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut findings = Findings {
         plots: middle.iter().map(of_angle).collect::<Result<_, _>>()?,
         tables: middle.clone(),
+        ..Findings::default()
     };
     if extent == Extent::Full {
         let coarse = tables(extent, &mut memory, COARSE)?;
@@ -68,35 +69,17 @@ fn tables(
     named_modes::tables(TABLES, extent, |labels| {
         let angle = labels.number("angle")?.to_radians();
         if labels.text("of")? == "finite elements" {
-            return memory.result(format!("finite elements, {angle}"), || elements(angle));
+            return memory.result(format!("finite elements, {angle}"), || {
+                let (_, modes) = lamina_elements::modes(angle)?;
+                let named = |mode: &Mode| (mode.frequency, mode.participation[ALONG]);
+                Frequencies::from_modes(modes.iter().map(named))
+            });
         }
         let trial = CASE.trial().set("material.angle", angle);
         let trial = trial.on_lattice([cells, cells / 2], 0.4 / f64::from(cells));
         let trial = trial.set("lattice.set.end.left", cells / COARSE);
         memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
     })
-}
-
-/// Frequencies of 1,824 elements of nine nodes around the hole, axis 1 turned by an angle (rad), 10 mm at the left end held.
-fn elements(angle: f64) -> anyhow::Result<Frequencies> {
-    let elasticity = Elasticity::Orthotropic(Orthotropic {
-        young: [15e9, 5e9],
-        poisson: 0.25,
-        shear_modulus: 4.8e9,
-        out_of_plane: None,
-        angle,
-    });
-    let mesh = Mesh::lamina_with_hole(Degree::Quadratic, 0.2, 0.04, 0.01, 12);
-    let body = Body::new(mesh, &elasticity, 1e-3);
-    let held: Vec<_> = (body.mesh.nodes.iter())
-        .map(|[x, _]| [*x < -0.1899; 2])
-        .collect();
-    let modes = body.modes(&held, 2500.0, 3)?;
-    Frequencies::from_modes(
-        modes
-            .iter()
-            .map(|mode| (mode.frequency, mode.participation[ALONG])),
-    )
 }
 
 /// Largest change of a frequency from the coarse lattice, and largest difference of the fine one from finite elements.

@@ -35,6 +35,8 @@ mod frequencies;
 mod griffith;
 mod hole;
 mod lamina;
+mod lamina_elements;
+mod maps;
 mod moduli;
 mod named_modes;
 mod papers;
@@ -64,12 +66,13 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 21] = [
+pub static EXPERIMENTS: [Experiment; 22] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
+    maps::EXPERIMENT,
     directions::EXPERIMENT,
     moduli::EXPERIMENT,
     poisson::EXPERIMENT,

@@ -51,7 +51,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         plot(&tables[1], "E", "E over its input")?,
         plot(&tables[1], "nu", "nu (input 0.25, BBPD 1/3)")?,
     ];
-    Ok(Findings { tables, plots })
+    Ok(Findings {
+        tables,
+        plots,
+        ..Findings::default()
+    })
 }
 
 /// The constants in the middle of the lattice of an entry.

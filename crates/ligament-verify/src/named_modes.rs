@@ -1,6 +1,6 @@
 //! The modes of a cantilever by their names.
 
-use anyhow::ensure;
+use anyhow::{anyhow, ensure};
 use ligament_analysis::modal::Mode;
 
 use super::published::Published;
@@ -42,19 +42,34 @@ impl Frequencies {
 
     /// The named frequencies of three modes, each a frequency and its share in a motion along the cantilever.
     pub(super) fn from_modes(modes: impl Iterator<Item = (f64, f64)>) -> anyhow::Result<Self> {
-        let modes: Vec<(f64, f64)> = modes.collect();
-        ensure!(modes.len() == 3, "{} modes, expected 3", modes.len());
-        let along = |mode: &(f64, f64)| mode.1.powi(2);
-        let largest = modes.iter().map(along).fold(0.0, f64::max);
-        let (axial, flexural): (Vec<(f64, f64)>, Vec<_>) =
-            modes.iter().partition(|mode| along(mode) == largest);
-        ensure!(axial.len() == 1, "no mode is the axial one");
+        let [flexural, axial, second_flexural] = in_named_order(modes.collect(), |it| it.1)?;
         Ok(Self {
-            flexural: flexural[0].0,
-            axial: axial[0].0,
-            second_flexural: flexural[1].0,
+            flexural: flexural.0,
+            axial: axial.0,
+            second_flexural: second_flexural.0,
         })
     }
+}
+
+/// The first flexural, the axial and the second flexural of three modes with rising frequencies, by their shares in a motion
+/// along the cantilever.
+pub(super) fn in_named_order<T>(
+    modes: Vec<T>,
+    along: impl Fn(&T) -> f64,
+) -> anyhow::Result<[T; 3]> {
+    let modes: [T; 3] = modes
+        .try_into()
+        .map_err(|modes: Vec<T>| anyhow!("{} modes, expected 3", modes.len()))?;
+    let shares = modes.each_ref().map(|mode| along(mode).powi(2));
+    let largest = shares.iter().copied().fold(0.0, f64::max);
+    let axial: Vec<usize> = (0..3).filter(|it| shares[*it] == largest).collect();
+    ensure!(axial.len() == 1, "no mode is the axial one");
+    let [first, second, third] = modes;
+    Ok(match axial[0] {
+        0 => [second, first, third],
+        1 => [first, second, third],
+        _ => [first, third, second],
+    })
 }
 
 /// Tables of the first flexural, the axial and the second flexural mode, of the frequencies that an entry asks for.

@@ -52,6 +52,8 @@ pub(super) struct Item {
 pub(super) enum Comparison {
     /// It is no result: a sketch, a mesh.
     NoResult,
+    /// A picture without numbers, which is drawn.
+    Drawn,
     /// Nothing, though it is a result.
     NotComputed,
     /// Rows of tables.
@@ -97,6 +99,7 @@ pub(super) fn items() -> Result<Vec<Item>, TableError> {
         }
         let comparison = match tables.as_str() {
             "-" => Comparison::NoResult,
+            "drawn" => Comparison::Drawn,
             "" if remark.is_empty() => {
                 return Err(at(line, "an item that nothing compares needs the reason"));
             }
@@ -118,7 +121,7 @@ impl Item {
     fn selections(&self) -> &[Selection] {
         match &self.comparison {
             Comparison::Rows(selections) => selections,
-            Comparison::NoResult | Comparison::NotComputed => &[],
+            Comparison::NoResult | Comparison::Drawn | Comparison::NotComputed => &[],
         }
     }
 

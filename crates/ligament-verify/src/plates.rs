@@ -72,7 +72,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         })
     })?);
     let plots = vec![plot(&tables[0])?];
-    Ok(Findings { tables, plots })
+    Ok(Findings {
+        tables,
+        plots,
+        ..Findings::default()
+    })
 }
 
 fn tension(labels: Labels<'_>) -> anyhow::Result<&'static Template> {

@@ -45,6 +45,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![lattice, mesh],
         plots,
+        ..Findings::default()
     })
 }
 

@@ -40,7 +40,12 @@ macro_rules! published {
     ($name:literal) => {
         $crate::published::Published {
             name: $name,
-            text: include_str!(concat!("published/", $name, ".csv")),
+            text: include_str!(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/src/published/",
+                $name,
+                ".csv"
+            )),
         }
     };
 }

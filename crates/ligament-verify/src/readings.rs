@@ -53,6 +53,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![statics, frequencies],
         plots: Vec::new(),
+        ..Findings::default()
     })
 }
 

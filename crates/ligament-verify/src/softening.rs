@@ -43,6 +43,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![table],
         plots,
+        ..Findings::default()
     })
 }
 

@@ -2,7 +2,7 @@
 
 use ligament_model::material::{Elasticity, Isotropic};
 
-use super::finite_elements::{Body, Degree, Mesh};
+use super::finite_elements::{Body, Degree, Mesh, Mode};
 use super::named_modes::Frequencies;
 
 /// Side of an element, m.
@@ -39,23 +39,38 @@ fn plate(poisson: f64, cells: usize) -> Body {
 
 /// The frequencies of the plate of 60 x 60 elements whose lowest 30 mm are held, Hz.
 pub(super) fn frequencies(poisson: f64, density: f64) -> anyhow::Result<Frequencies> {
+    let (_, modes) = modes(poisson, density)?;
+    let named = |mode: &Mode| (mode.frequency, mode.participation[1]);
+    Frequencies::from_modes(modes.iter().map(named))
+}
+
+/// The three lowest modes of that plate.
+pub(super) fn modes(poisson: f64, density: f64) -> anyhow::Result<(Mesh, Vec<Mode>)> {
     let body = plate(poisson, 60);
     let base = -30.0 * SPACING + HELD + 0.5 * SPACING;
     let held: Vec<_> = (body.mesh.nodes.iter())
         .map(|[_, y]| [*y < base; 2])
         .collect();
     let modes = body.modes(&held, density, 3)?;
-    Frequencies::from_modes(
-        modes
-            .iter()
-            .map(|mode| (mode.frequency, mode.participation[1])),
-    )
+    Ok((body.mesh, modes))
 }
 
 /// The largest |u_x| and |u_y| of all nodes under a load on the volume of the outermost elements, m, the middle at rest.
 ///
-/// The numbers of the paper come from 61 x 61 elements in traction and shear, and from 60 x 60 in bending.
 pub(super) fn largest_displacements(load: SquareLoad, poisson: f64) -> anyhow::Result<[f64; 2]> {
+    let (_, displacements) = displacements(load, poisson)?;
+    let larger =
+        |largest: [f64; 2], u: &[f64; 2]| [0, 1].map(|axis| largest[axis].max(u[axis].abs()));
+    Ok(displacements.iter().fold([0.0, 0.0], larger))
+}
+
+/// The displacements of the nodes under such a load, m.
+///
+/// The numbers of the paper come from 61 x 61 elements in traction and shear, and from 60 x 60 in bending.
+pub(super) fn displacements(
+    load: SquareLoad,
+    poisson: f64,
+) -> anyhow::Result<(Mesh, Vec<[f64; 2]>)> {
     let cells = if load == SquareLoad::Bending { 60 } else { 61 };
     let body = plate(poisson, cells);
     let outermost = 0.5 * SPACING * (cells - 1) as f64;
@@ -87,11 +102,10 @@ pub(super) fn largest_displacements(load: SquareLoad, poisson: f64) -> anyhow::R
         let count = displacements.len() as f64;
         [0, 1].map(|axis| displacements.iter().map(|u| u[axis]).sum::<f64>() / count)
     };
-    Ok(displacements
-        .iter()
-        .fold([0.0, 0.0], |largest: [f64; 2], u| {
-            [0, 1].map(|axis| largest[axis].max((u[axis] - at_rest[axis]).abs()))
-        }))
+    for u in &mut displacements {
+        *u = [u[0] - at_rest[0], u[1] - at_rest[1]];
+    }
+    Ok((body.mesh, displacements))
 }
 
 /// Turns displacements so that they have no rotation in the mean, about the origin in the middle of the nodes.

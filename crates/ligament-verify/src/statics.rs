@@ -92,7 +92,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let traction = "Simple traction: largest displacement across the load";
     let bending = "Simple bending: largest displacement along the load";
     let plots = vec![plot(&tables[0], traction)?, plot(&tables[5], bending)?];
-    Ok(Findings { tables, plots })
+    Ok(Findings {
+        tables,
+        plots,
+        ..Findings::default()
+    })
 }
 
 /// The case with a load.

@@ -20,7 +20,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static CASE: Template = template!("verification/lamina-tension.toml");
+pub(super) static CASE: Template = template!("verification/lamina-tension.toml");
 
 /// Angle (degrees), x, y (m), u_x, u_y (m) by finite elements along the upper edge.
 const ELEMENTS: &str = include_str!("../../../tests/reference/fem-hole-edge.csv");
@@ -57,6 +57,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables: vec![table],
         plots: vec![plot(&edges, 0), plot(&edges, 1)],
+        ..Findings::default()
     })
 }
 

@@ -70,6 +70,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(Findings {
         tables,
         plots: plots.into_iter().collect::<anyhow::Result<_>>()?,
+        ..Findings::default()
     })
 }
 

@@ -1,7 +1,9 @@
 //! The tables of a report as CSV, and its plots as SVG.
 
-use ligament_output::csv;
 use ligament_output::folder::ResultFolder;
+use ligament_output::{csv, replace_file};
+
+use ligament_plot::plots::png::to_png;
 
 use crate::entry::Verdict;
 use crate::experiment::{Experiment, Findings};
@@ -10,6 +12,12 @@ use crate::tally::Tally;
 
 /// The file by which a folder is known to hold a report: a row an experiment.
 pub(crate) const SUMMARY: &str = "verification.csv";
+
+/// Width of pictures of bodies, mm, ...
+const WIDTH: f64 = 160.0;
+
+/// ... and their resolution: 700 pixels across.
+const DOTS_PER_INCH: f64 = 110.0;
 
 /// The table of experiments, which grows while they are run.
 pub(crate) struct Summary(csv::Table);
@@ -48,6 +56,10 @@ pub(crate) fn write(folder: &ResultFolder, findings: &Findings) -> anyhow::Resul
     }
     for plot in &findings.plots {
         folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
+    }
+    for maps in &findings.maps {
+        let png = to_png(&maps.to_svg(WIDTH)?, DOTS_PER_INCH)?;
+        replace_file(&folder.file(&format!("{}.png", maps.name)), &png)?;
     }
     Ok(())
 }

@@ -46,6 +46,10 @@ pub(crate) fn text(done: &[(&Experiment, Findings)]) -> String {
         for plot in &findings.plots {
             let _ = write!(text, "\n![{}]({}.svg)\n", plot.title, plot.name);
         }
+        for maps in &findings.maps {
+            let (title, quantity, name) = (&maps.title, &maps.quantity, &maps.name);
+            let _ = write!(text, "\n{title}: {quantity}.\n\n![{title}]({name}.png)\n");
+        }
     }
     text
 }

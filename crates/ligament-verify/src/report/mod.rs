@@ -127,7 +127,7 @@ nu,known,allowed,subset,standing,instead,reason
         let table = known.judge(Extent::Full, compute)?;
         Ok(Findings {
             tables: vec![table],
-            plots: vec![],
+            ..Findings::default()
         })
     }
 

@@ -158,6 +158,7 @@ fn against(rows: &[Compared<'_>]) -> String {
 fn outcome(item: &Item, rows: &[Compared<'_>]) -> String {
     match &item.comparison {
         Comparison::NoResult => "no result".to_owned(),
+        Comparison::Drawn => "[drawn](report.md#maps)".to_owned(),
         Comparison::NotComputed => "**not computed**".to_owned(),
         Comparison::Rows(_) if rows.is_empty() => "not run".to_owned(),
         Comparison::Rows(_) => words(rows),

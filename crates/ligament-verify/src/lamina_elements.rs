@@ -1,0 +1,63 @@
+//! The orthotropic lamina of OMPPD as finite elements: 1,824 quadrilaterals of nine nodes around the round hole.
+
+use ligament_model::material::{Elasticity, Orthotropic};
+
+use super::finite_elements::{Body, Degree, Mesh, Mode};
+
+const HEIGHT: f64 = 0.2;
+
+const RADIUS: f64 = 0.04;
+
+const THICKNESS: f64 = 1e-3;
+
+const DENSITY: f64 = 2500.0;
+
+/// Length of the end that is held, of the modes, m.
+const HELD: f64 = 0.01;
+
+/// Thickness of the layers whose displacement is given in tension, m: the three columns of the lattice that are less than a horizon
+/// from the end.
+const LAYER: f64 = 0.015;
+
+/// Displacement of the ends in tension, m.
+const STROKE: f64 = 0.5e-3;
+
+/// Nodes nearer than this to a line of the mesh lie on it, m.
+const NEAR: f64 = 1e-4;
+
+/// The lamina with axis 1 at an angle (rad), and a line of the mesh so far from both ends (m).
+fn lamina(angle: f64, layer: f64) -> Body {
+    let elasticity = Elasticity::Orthotropic(Orthotropic {
+        young: [15e9, 5e9],
+        poisson: 0.25,
+        shear_modulus: 4.8e9,
+        out_of_plane: None,
+        angle,
+    });
+    let mesh = Mesh::lamina_with_hole(Degree::Quadratic, HEIGHT, RADIUS, layer, 12);
+    Body::new(mesh, &elasticity, THICKNESS)
+}
+
+/// The three lowest modes of the lamina whose left end is held.
+pub(super) fn modes(angle: f64) -> anyhow::Result<(Mesh, Vec<Mode>)> {
+    let body = lamina(angle, HELD);
+    let held: Vec<_> = (body.mesh.nodes.iter())
+        .map(|[x, _]| [*x < HELD - HEIGHT + NEAR; 2])
+        .collect();
+    let modes = body.modes(&held, DENSITY, 3)?;
+    Ok((body.mesh, modes))
+}
+
+/// The displacements of the nodes with the layers at both ends pulled apart along x, m.
+pub(super) fn displacements(angle: f64) -> anyhow::Result<(Mesh, Vec<[f64; 2]>)> {
+    let body = lamina(angle, LAYER);
+    let inner = HEIGHT - LAYER - NEAR;
+    let mut prescribed: Vec<_> = (body.mesh.nodes.iter())
+        .map(|[x, _]| [(x.abs() > inner).then(|| STROKE * x.signum()), None])
+        .collect();
+    // One node holds the motion along y, which nothing else does.
+    prescribed[body.mesh.nearest_node([HEIGHT, 0.0])][1] = Some(0.0);
+    let forces = vec![[0.0; 2]; body.mesh.nodes.len()];
+    let displacements = body.displacements(&prescribed, &forces)?;
+    Ok((body.mesh, displacements))
+}

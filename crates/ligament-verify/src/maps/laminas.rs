@@ -1,0 +1,92 @@
+//! The orthotropic laminas of OMPPD (Figs 9, 11 to 15, 19 to 23).
+
+use ligament_plot::picture::maps::Maps;
+
+use super::Motion;
+use super::drawing::{Quantity, maps_of_component, maps_of_modes};
+use crate::lamina_elements;
+use crate::named_modes::in_named_order;
+use crate::{lamina, tension};
+
+/// The cantilevers stick out along x.
+const ALONG: usize = 0;
+
+/// Angles of the material's axis 1, degrees, with the numbers of their figures: of tension, and of modes.
+const ANGLES: [(f64, usize, usize); 5] = [
+    (0.0, 11, 19),
+    (30.0, 12, 20),
+    (45.0, 13, 21),
+    (60.0, 14, 22),
+    (90.0, 15, 23),
+];
+
+/// All maps of the figures.
+pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
+    let mut maps = vec![rotations()?];
+    for (angle, figure, _) in ANGLES {
+        let (mesh, displacements) = lamina_elements::displacements(angle.to_radians())?;
+        let elements = Motion::of_elements(mesh, displacements).without_rigid_motion();
+        let motions = [
+            ("finite elements".to_owned(), elements),
+            ("lattice".to_owned(), stretched(angle, true)?),
+        ];
+        let title = format!("Lamina in tension, axis 1 at {angle} degrees");
+        for axis in [0, 1] {
+            let name = format!("omppd-figure-{figure}");
+            maps.push(maps_of_component(name, &title, &motions, axis));
+        }
+    }
+    for (angle, _, figure) in ANGLES {
+        let (mesh, elements) = lamina_elements::modes(angle.to_radians())?;
+        let elements = in_named_order(elements, |it| it.participation[ALONG])?;
+        let elements = elements.map(|mode| Motion::of_elements(mesh.clone(), mode.shape));
+        let methods = [
+            ("finite elements", elements.into()),
+            ("lattice", modes(angle)?),
+        ];
+        let title = format!("Modes of the lamina, axis 1 at {angle} degrees");
+        let name = format!("omppd-figure-{figure}");
+        maps.push(maps_of_modes(name, &title, &methods));
+    }
+    Ok(maps)
+}
+
+/// The lamina in tension, with or without its hole.
+fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
+    let mut trial = tension::CASE
+        .trial()
+        .set("material.angle", angle.to_radians());
+    if !has_hole {
+        trial = trial.set("lattice.remove", Vec::<f64>::new());
+    }
+    let solution = trial.solve()?;
+    let motion = Motion::of_lattice(&solution.model.system, &solution.outcome.state.displacement)?;
+    Ok(motion.without_rigid_motion())
+}
+
+fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
+    let trial = lamina::CASE
+        .trial()
+        .set("material.angle", angle.to_radians());
+    let system = trial.model()?.system;
+    let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
+    let modes = modes.map(|mode| Motion::of_lattice(&system, &mode.shape));
+    modes.into_iter().collect()
+}
+
+/// Fig. 9: rotations of the points, which a homogeneous body does not need.
+fn rotations() -> anyhow::Result<Maps> {
+    let mut bodies = Vec::new();
+    for (title, has_hole) in [("without hole", false), ("with hole", true)] {
+        bodies.push(stretched(0.0, has_hole)?.drawn(title, Quantity::Rotation));
+    }
+    Ok(Maps {
+        name: "omppd-figure-9".to_owned(),
+        title: "Lamina in tension, axis 1 along the load".to_owned(),
+        quantity: "rotation".to_owned(),
+        unit: "rad",
+        columns: bodies.len(),
+        bodies,
+        are_modes: false,
+    })
+}

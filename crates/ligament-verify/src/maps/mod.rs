@@ -1,0 +1,58 @@
+//! Maps of displacements, rotations and natural modes: lattices beside finite elements (MPPD Figs 12 to 24, OMPPD Figs 9 to 23).
+
+mod drawing;
+mod laminas;
+mod squares;
+
+use super::experiment::{Experiment, Findings};
+use super::published::published;
+use super::statics::{BENDING, SHEAR, TRACTION};
+use super::table::Extent;
+use super::{frequencies, lamina, tension};
+use drawing::Motion;
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "maps",
+    title: "Maps of displacements and modes",
+    source: "Diana and Casolo (MPPD), Figs 12 to 24; (OMPPD), Figs 9, 11 to 15, 19 to 23",
+    setup: "The plates of the tables of MPPD and the laminas of the tables of OMPPD, and our own finite elements of the same \
+            bodies, drawn with the same colours and the same magnification. Of the plates, the lattice is compared with the \
+            elements at all points, both without their rigid motion: displacements by the L2 norm of their difference over \
+            that by finite elements, modes by the square of the cosine between both (the modal assurance criterion).",
+    cases: &[
+        &TRACTION,
+        &SHEAR,
+        &BENDING,
+        &frequencies::CASE,
+        &tension::CASE,
+        &lamina::CASE,
+    ],
+    compute,
+};
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let mut squares = squares::Squares::default();
+    let displacements = published!("maps-displacements").judge(extent, |labels| {
+        let (load, ratio) = (labels.text("load")?, labels.number("nu")?);
+        let elements = squares.elements(load, ratio)?;
+        let lattice = squares.lattice(load, ratio, labels.text("model")?)?;
+        Ok(100.0 * lattice.difference(&elements))
+    })?;
+    let modes = published!("maps-modes").judge(extent, |labels| {
+        let ratio = labels.number("nu")?;
+        let place = squares::place_of_mode(labels.text("mode")?)?;
+        let elements = squares.modes_of_elements(ratio)?;
+        let lattice = squares.modes_of_lattice(ratio, labels.text("model")?)?;
+        Ok(lattice[place].assurance(&elements[place]))
+    })?;
+    let mut findings = Findings {
+        tables: vec![displacements, modes],
+        ..Findings::default()
+    };
+    if extent == Extent::Full {
+        findings.maps = squares.maps()?;
+        findings.maps.extend(laminas::maps()?);
+    }
+    Ok(findings)
+}

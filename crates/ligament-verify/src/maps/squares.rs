@@ -1,0 +1,164 @@
+//! The square plates of MPPD (Figs 12 to 24).
+
+use std::collections::BTreeMap;
+
+use anyhow::{Context, bail};
+use ligament_plot::picture::maps::Maps;
+
+use super::Motion;
+use super::drawing::{Quantity, maps_of_component, maps_of_modes};
+use crate::frequencies;
+use crate::named_modes::in_named_order;
+use crate::square_elements::{self, SquareLoad};
+use crate::statics::case_of;
+
+const DENSITY: f64 = 2500.0;
+
+/// The plates stand on their base.
+const ALONG: usize = 1;
+
+/// Poisson's ratios of the figures, as they are written, with the number of the first figure of traction for each.
+const RATIOS: [(&str, f64, usize); 3] =
+    [("-0.5", -0.5, 12), ("0", 0.0, 13), ("1/3", 1.0 / 3.0, 14)];
+
+const LOADS: [&str; 3] = ["traction", "shear", "bending"];
+
+const MODELS: [&str; 2] = ["PDS", "MPPD"];
+
+/// Motions that were computed, by load, Poisson's ratio and model.
+#[derive(Debug, Default)]
+pub(super) struct Squares {
+    motions: BTreeMap<String, Motion>,
+    modes: BTreeMap<String, Vec<Motion>>,
+}
+
+impl Squares {
+    /// The plate under a load by finite elements.
+    pub(super) fn elements(&mut self, load: &str, ratio: f64) -> anyhow::Result<Motion> {
+        self.motion(format!("elements {load} {ratio}"), || {
+            let (mesh, displacements) = square_elements::displacements(load_of(load)?, ratio)?;
+            Ok(Motion::of_elements(mesh, displacements))
+        })
+    }
+
+    /// The plate under a load as a lattice of a model.
+    pub(super) fn lattice(
+        &mut self,
+        load: &str,
+        ratio: f64,
+        model: &str,
+    ) -> anyhow::Result<Motion> {
+        self.motion(format!("{model} {load} {ratio}"), || {
+            let trial = (case_of(load_of(load)?).trial())
+                .set("material.poisson", ratio)
+                .set("model.law", model.to_lowercase());
+            let solution = trial.solve()?;
+            Motion::of_lattice(&solution.model.system, &solution.outcome.state.displacement)
+        })
+    }
+
+    fn motion(
+        &mut self,
+        key: String,
+        compute: impl FnOnce() -> anyhow::Result<Motion>,
+    ) -> anyhow::Result<Motion> {
+        if let Some(motion) = self.motions.get(&key) {
+            return Ok(motion.clone());
+        }
+        let motion = compute()?.without_rigid_motion();
+        self.motions.insert(key, motion.clone());
+        Ok(motion)
+    }
+
+    /// The three modes by finite elements, in the order of their names.
+    pub(super) fn modes_of_elements(&mut self, ratio: f64) -> anyhow::Result<Vec<Motion>> {
+        let key = format!("elements {ratio}");
+        if let Some(modes) = self.modes.get(&key) {
+            return Ok(modes.clone());
+        }
+        let (mesh, modes) = square_elements::modes(ratio, DENSITY)?;
+        let modes = in_named_order(modes, |it| it.participation[ALONG])?;
+        let motion = |shape| Motion::of_elements(mesh.clone(), shape);
+        let modes: Vec<Motion> = modes.map(|mode| motion(mode.shape)).into();
+        self.modes.insert(key, modes.clone());
+        Ok(modes)
+    }
+
+    /// The three modes of a lattice, in the order of their names.
+    pub(super) fn modes_of_lattice(
+        &mut self,
+        ratio: f64,
+        model: &str,
+    ) -> anyhow::Result<Vec<Motion>> {
+        let key = format!("{model} {ratio}");
+        if let Some(modes) = self.modes.get(&key) {
+            return Ok(modes.clone());
+        }
+        let trial = (frequencies::CASE.trial())
+            .set("material.poisson", ratio)
+            .set("model.law", model.to_lowercase());
+        let system = trial.model()?.system;
+        let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
+        let modes = modes.map(|mode| Motion::of_lattice(&system, &mode.shape));
+        let modes = modes.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
+        self.modes.insert(key, modes.clone());
+        Ok(modes)
+    }
+
+    /// All maps of the figures.
+    pub(super) fn maps(&mut self) -> anyhow::Result<Vec<Maps>> {
+        let mut maps = Vec::new();
+        let mut turning = Vec::new();
+        for (row, load) in LOADS.into_iter().enumerate() {
+            for (written, ratio, first) in RATIOS {
+                let mut motions = vec![("finite elements".to_owned(), self.elements(load, ratio)?)];
+                for model in MODELS {
+                    motions.push((model.to_owned(), self.lattice(load, ratio, model)?));
+                }
+                if let (2, Some((_, motion))) = (row, motions.last()) {
+                    turning.push(motion.drawn(format!("nu = {written}"), Quantity::Rotation));
+                }
+                let name = format!("mppd-figure-{}", first + 3 * row);
+                let title = format!("Square plate in {load}, nu = {written}");
+                for axis in [0, 1] {
+                    maps.push(maps_of_component(name.clone(), &title, &motions, axis));
+                }
+            }
+        }
+        maps.push(Maps {
+            name: "mppd-figure-21".to_owned(),
+            title: "Square plate in bending, MPPD".to_owned(),
+            quantity: "rotation".to_owned(),
+            unit: "rad",
+            columns: turning.len(),
+            bodies: turning,
+            are_modes: false,
+        });
+        for (written, ratio, first) in RATIOS {
+            let mut methods = vec![("finite elements", self.modes_of_elements(ratio)?)];
+            for model in MODELS {
+                methods.push((model, self.modes_of_lattice(ratio, model)?));
+            }
+            let title = format!("Modes of the square plate, nu = {written}");
+            let name = format!("mppd-figure-{}", first + 10);
+            maps.push(maps_of_modes(name, &title, &methods));
+        }
+        Ok(maps)
+    }
+}
+
+fn load_of(name: &str) -> anyhow::Result<SquareLoad> {
+    match name {
+        "traction" => Ok(SquareLoad::Traction),
+        "shear" => Ok(SquareLoad::Shear),
+        "bending" => Ok(SquareLoad::Bending),
+        other => bail!("no load `{other}`"),
+    }
+}
+
+/// The place of a mode by its name.
+pub(super) fn place_of_mode(name: &str) -> anyhow::Result<usize> {
+    let names = ["flexural I", "axial I", "flexural II"];
+    let place = names.iter().position(|it| *it == name);
+    place.with_context(|| format!("no mode `{name}`"))
+}
