@@ -53,7 +53,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
         (Some(stretch), Some(angle)) => {
             let limits = OfModes {
                 stretch: [stretch; 2],
-                angle,
+                angle: [angle; 2],
             };
             let each = basis.materials.iter();
             each.map(|_| of_material(&limits, 1.0, 1.0)).collect()
@@ -107,9 +107,12 @@ fn of_energies(material: &Material, basis: &Basis<'_>) -> OfMaterial {
 
 /// From the limits of modes that are equally tough.
 fn of_material(limits: &OfModes, ratio: f64, exponent: f64) -> OfMaterial {
-    let of_axis = |stretch: f64| [(stretch / limits.angle).powi(2), ratio, exponent];
+    let of_axis = |axis: usize| {
+        let share = (limits.stretch[axis] / limits.angle[axis]).powi(2);
+        [share, ratio, exponent]
+    };
     OfMaterial {
         stretch: limits.stretch,
-        coefficients: limits.stretch.map(of_axis),
+        coefficients: [0, 1].map(of_axis),
     }
 }
