@@ -298,7 +298,7 @@ fn free_plates_are_stable() {
 /// and the strains of all bonds are the uniform ones; more than 2 m rows inside no force is left. All to rounding.
 #[test]
 fn uniform_strains_are_exact_on_rectangular_cells() {
-    for [dx, dy] in [[0.001, 0.0015], [0.0021, 0.001]] {
+    for [dx, dy] in [[0.001_f64, 0.0015], [0.0021, 0.001]] {
         for (form, horizon) in [("full", "3.0"), ("full", "4.0"), ("rows", "3.0")] {
             let spacing = format!("lattice.spacing=[{dx}, {dy}]");
             let corner = format!("lattice.corner=[{}, {}]", -20.5 * dx, -20.5 * dy);

@@ -21,6 +21,7 @@ use ligament::suggestion::hint;
 
 mod anisotropy;
 mod bars;
+mod cost;
 mod cracks;
 mod cylinder;
 mod directions;
@@ -58,7 +59,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 20] = [
+pub static EXPERIMENTS: [Experiment; 21] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -74,6 +75,7 @@ pub static EXPERIMENTS: [Experiment; 20] = [
     plates::EXPERIMENT,
     cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
+    cost::EXPERIMENT,
     patch_test::EXPERIMENT,
     bars::EXPERIMENT,
     ring::EXPERIMENT,

@@ -33,7 +33,7 @@ struct OfMaterial {
 }
 
 /// Between two fracture energies the exponent says what a mixture of both modes takes.
-fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
+pub(super) fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     let differ =
         (material.fracture_energy_sliding).is_some_and(|it| Some(it) != material.fracture_energy);
     if choice.takes().is_empty() || !differ || material.mixed_mode_exponent.is_some() {
@@ -83,10 +83,7 @@ fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limit
     let coefficient = materials.iter();
     let coefficient =
         coefficient.flat_map(|&material| &of_materials[material].coefficients[axis][..count]);
-    Limits {
-        limit,
-        coefficient: coefficient.copied().collect(),
-    }
+    Limits::new(limit, coefficient.copied().collect())
 }
 
 /// From the fracture energies of a material; none means that it never fails.

@@ -264,9 +264,10 @@ impl Setup {
             };
             return contradiction(law.part("form"), reason);
         }
-        if strains == Strains::True && !is_elastic {
-            let reason = "true strains are not proportional to the load, as the paths of fracture and modes are: they are for elastic \
-                          analyses; take `Strains::Small`";
+        let has_steps = matches!(self.analysis, Analysis::Stepped(_));
+        if strains == Strains::True && !is_elastic && !has_steps {
+            let reason = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
+                          load steps; take `Strains::Small`";
             return contradiction(law.part("strains"), reason);
         }
         Ok(())
