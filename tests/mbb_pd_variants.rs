@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ligament_analysis::history::BreakRecord;
 use ligament_case::case::CaseFile;
 use ligament_model::element::{BondDeformation, ElementKind};
-use ligament_model::failure::printed::CrackAtPoints;
+use ligament_model::failure::crack_at_points::CrackAtPoints;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};
 use verification::numbers::relative_error;

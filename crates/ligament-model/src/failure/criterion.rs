@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
-use super::printed::CrackAtPoints;
 use super::softening::{AfterLimit, brittle};
 use crate::element::BondDeformation;
 

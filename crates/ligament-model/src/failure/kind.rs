@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::basis::Basis;
+use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
-use super::printed::CrackAtPoints;
 use super::softening::{Law, brittle};
 use super::unfit::{NoLimit, Unfit};
 use crate::material::{Elasticity, Material};

@@ -17,6 +17,7 @@
 
 mod basis;
 mod choosing;
+pub mod crack_at_points;
 pub mod crack_energies;
 mod criterion;
 pub mod fibre;

@@ -12,17 +12,13 @@
 //!
 //! The printed sums are those of a crack along x; bonds along x have the same s_c. A bond breaks by the smaller s_c of its ends.
 
-mod crack;
-
 use std::sync::Arc;
 
-pub use crack::{CrackAtPoints, Mode};
-
 use super::basis::Basis;
+use super::crack_at_points::{CrackAtPoints, Mode};
 use super::kind::{FRACTURE_ENERGY, Kind, Limits};
 use super::measure::Measure;
 use super::mixed_mode;
-use crate::material::Material;
 
 /// Opening (mode I).
 pub const OPENING: Kind = Kind {
@@ -73,15 +69,4 @@ fn limits(mode: Mode, basis: &Basis<'_>) -> Vec<Limits> {
         coefficient: system.bonds.direction.iter().map(tangent).collect(),
         crack_at_points: Some(Arc::new(crack)),
     }]
-}
-
-/// G_Ic, G_IIc and eta of a material; one that lacks an energy never fails.
-fn toughness(material: &Material) -> [f64; 3] {
-    let opening = material.fracture_energy.unwrap_or(f64::INFINITY);
-    let sliding = material.fracture_energy_sliding.unwrap_or(opening);
-    [
-        opening,
-        sliding,
-        material.mixed_mode_exponent.unwrap_or(1.0),
-    ]
 }

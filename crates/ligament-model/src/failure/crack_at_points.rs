@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::toughness;
+use super::basis::Basis;
 use crate::bonds::Incidence;
 use crate::element::BondDeformation;
 use crate::element::imaginary::{SymmetricEntries, matrix};
-use crate::failure::Basis;
+use crate::material::Material;
 
 /// The deformation that a crack is taken to have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -193,6 +193,17 @@ fn energy(mode: Mode, [x, y]: [f64; 2], entries: SymmetricEntries) -> f64 {
         Mode::Mixed => ((tan - poisson).powi(2), 1.0, (1.0 + sin).powi(2)),
     };
     (of_1 * row_1 + 0.5 * tan * of_6 * row_6) * x + (of_2 * row_2 + 0.5 * cot * of_6 * row_6) * y
+}
+
+/// G_Ic, G_IIc and eta of a material; one that lacks an energy never fails.
+fn toughness(material: &Material) -> [f64; 3] {
+    let opening = material.fracture_energy.unwrap_or(f64::INFINITY);
+    let sliding = material.fracture_energy_sliding.unwrap_or(opening);
+    [
+        opening,
+        sliding,
+        material.mixed_mode_exponent.unwrap_or(1.0),
+    ]
 }
 
 #[cfg(test)]
