@@ -37,9 +37,9 @@ pub enum Measure {
     /// Stretch S_xx of a bond along x, S_yy of one along y, and of others the critical stretch to which the angle belongs that they open by
     /// in mode I, phi sgn(tan(theta))/sin(theta), with phi = S_xy + S_xx cot(theta) + S_yy tan(theta) (MBB-PD eqs A.6, C.3).
     PrintedOpening,
-    /// The same in mode II: abs(phi) (eq. C.6).
+    /// Stretch or angle in mode II: as in mode I, but of others abs(phi) (eq. C.6).
     PrintedSliding,
-    /// The same in both modes: abs(phi)/(1 +- sin(theta)) (eqs 24, C.10), with the plus where phi has the sign that opening gives it.
+    /// Stretch or angle in both modes: as in mode I, but of others abs(phi)/(1 +- sin(theta)) (eqs 24, C.10), with the plus where phi has the sign that opening gives it.
     PrintedMixed,
 }
 
