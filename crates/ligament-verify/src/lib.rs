@@ -65,7 +65,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 21] = [
+pub static EXPERIMENTS: [Experiment; 22] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
