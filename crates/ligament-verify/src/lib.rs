@@ -23,6 +23,7 @@ use ligament::suggestion::hint;
 
 mod anisotropy;
 mod bars;
+mod cost;
 mod cracks;
 mod cylinder;
 mod directions;
@@ -64,7 +65,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 21] = [
+pub static EXPERIMENTS: [Experiment; 22] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -81,6 +82,7 @@ pub static EXPERIMENTS: [Experiment; 21] = [
     plates::EXPERIMENT,
     cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
+    cost::EXPERIMENT,
     patch_test::EXPERIMENT,
     bars::EXPERIMENT,
     ring::EXPERIMENT,
