@@ -23,6 +23,7 @@ use ligament::suggestion::hint;
 
 mod anisotropy;
 mod bars;
+mod cost;
 mod cracks;
 mod cylinder;
 mod directions;
@@ -66,7 +67,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 22] = [
+pub static EXPERIMENTS: [Experiment; 23] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -84,6 +85,7 @@ pub static EXPERIMENTS: [Experiment; 22] = [
     plates::EXPERIMENT,
     cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
+    cost::EXPERIMENT,
     patch_test::EXPERIMENT,
     bars::EXPERIMENT,
     ring::EXPERIMENT,
