@@ -112,6 +112,7 @@ experiments!(
     cylinder,
     cracks,
     cost,
+    cost,
     patch_test,
     bars,
     ring,
