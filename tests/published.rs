@@ -112,7 +112,6 @@ experiments!(
     cylinder,
     cracks,
     cost,
-    cost,
     patch_test,
     bars,
     ring,
