@@ -21,16 +21,19 @@ use ligament::suggestion::hint;
 
 mod anisotropy;
 mod bars;
+mod crack_path;
 mod cracks;
 mod cylinder;
 mod directions;
 mod disk;
 mod disk_modes;
+mod disk_test;
 pub mod entry;
 mod experiment;
 mod frequencies;
 mod griffith;
 mod hole;
+mod inclined;
 mod lamina;
 mod moduli;
 mod named_modes;
@@ -41,7 +44,9 @@ mod printed;
 mod published;
 pub mod report;
 mod ring;
+mod slots;
 mod softening;
+mod spread;
 mod statics;
 pub mod table;
 pub mod tally;
@@ -58,7 +63,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 20] = [
+pub static EXPERIMENTS: [Experiment; 22] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     lamina::EXPERIMENT,
@@ -69,6 +74,8 @@ pub static EXPERIMENTS: [Experiment; 20] = [
     yielding::EXPERIMENT,
     anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
+    slots::EXPERIMENT,
+    inclined::EXPERIMENT,
     griffith::EXPERIMENT,
     softening::EXPERIMENT,
     plates::EXPERIMENT,
