@@ -134,17 +134,14 @@ impl Crack {
         }
     }
 
-    /// Whether the crack joins two segments: from one to the other leads a chain of its points, each in the horizon of the one
-    /// before, and segment and chain lie within a horizon of each other at its ends.
-    pub(super) fn joins(&self, from: Segment, to: Segment) -> bool {
-        let is_at = |point: &Place, segment| distance(point.at, segment) <= point.horizon;
-        let mut reached: Vec<bool> = self.points.iter().map(|point| is_at(point, from)).collect();
+    /// The part of the crack that starts at a segment: a chain of its points leads there, each in the horizon of the one before, and
+    /// the segment is in the horizon of the first.
+    pub(super) fn part_from(&self, segment: Segment) -> Self {
+        let is_at = |point: &Place| distance(point.at, segment) <= point.horizon;
+        let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
         let mut front: Vec<usize> = (0..reached.len()).filter(|&it| reached[it]).collect();
         while let Some(last) = front.pop() {
             let here = self.points[last];
-            if is_at(&here, to) {
-                return true;
-            }
             for (next, point) in self.points.iter().enumerate() {
                 let reach = here.horizon.max(point.horizon);
                 if !reached[next] && distance(point.at, [here.at; 2]) <= reach {
@@ -153,7 +150,57 @@ impl Crack {
                 }
             }
         }
-        false
+        let points = self.points.iter().zip(reached);
+        Self {
+            points: points
+                .filter(|(_, is_part)| *is_part)
+                .map(|(point, _)| *point)
+                .collect(),
+        }
+    }
+
+    /// Whether the crack joins two segments: the part of it that starts at one has a point with the other in its horizon.
+    pub(super) fn joins(&self, from: Segment, to: Segment) -> bool {
+        let part = self.part_from(from);
+        part.points
+            .iter()
+            .any(|point| distance(point.at, to) <= point.horizon)
+    }
+
+    /// Distance of the nearest of its points from a segment, m; infinite without points.
+    pub(super) fn gap_to(&self, segment: Segment) -> f64 {
+        let distances = self.points.iter().map(|point| distance(point.at, segment));
+        distances.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance between the nearest points of two cracks, m; infinite where one has no points.
+    pub(super) fn gap_between(&self, other: &Self) -> f64 {
+        let gaps = self.points.iter().map(|point| other.gap_to([point.at; 2]));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Mean horizon of its points, m.
+    pub(super) fn mean_horizon(&self) -> f64 {
+        self.points.iter().map(|point| point.horizon).sum::<f64>() / self.points.len() as f64
+    }
+
+    /// The mean place of its points, m; none without points.
+    pub(super) fn centre(&self) -> Option<[f64; 2]> {
+        let mean = |axis: usize| {
+            self.points.iter().map(|point| point.at[axis]).sum::<f64>() / self.points.len() as f64
+        };
+        (!self.points.is_empty()).then(|| [mean(0), mean(1)])
+    }
+
+    /// The points of the crack that are no farther from the origin than its parts on both sides of the line through the origin across
+    /// `along` reach; none where one of them is missing.
+    pub(super) fn common_part(&self, along: [f64; 2]) -> Option<Self> {
+        let reach = |sign: f64| {
+            let side = self.part(|[x, y]| sign * (x * along[0] + y * along[1]) > 0.0);
+            side.tip().map(|tip| radius(tip.at))
+        };
+        let common = reach(1.0)?.min(reach(-1.0)?);
+        Some(self.part(|at| radius(at) <= common))
     }
 
     /// The point of the crack farthest from the origin.
@@ -162,21 +209,11 @@ impl Crack {
         points.max_by(|a, b| radius(a.at).total_cmp(&radius(b.at)))
     }
 
-    /// Distances of the points of a crack, turned by half a turn about the origin, from the nearest point of it, as far as the parts
-    /// of it on both sides of the line through the origin across `along` reach; none where one of them is missing.
+    /// Distances of the points of the [common part](Self::common_part), turned by half a turn about the origin, from the nearest point of the
+    /// crack.
     pub(super) fn half_turn(&self, along: [f64; 2]) -> Option<HalfTurn> {
-        let side = |sign: f64| {
-            self.part(|[x, y]| sign * (x * along[0] + y * along[1]) > 0.0)
-                .tip()
-                .map(|tip| radius(tip.at))
-        };
-        let common = side(1.0)?.min(side(-1.0)?);
-        let compared = self.part(|at| radius(at) <= common);
-        let nearest = |[x, y]: [f64; 2]| {
-            let distances =
-                (self.points.iter()).map(|other| (x - other.at[0]).hypot(y - other.at[1]));
-            distances.fold(f64::INFINITY, f64::min)
-        };
+        let compared = self.common_part(along)?;
+        let nearest = |at: [f64; 2]| self.gap_to([at; 2]);
         let turned = compared.points.iter().map(|point| point.at.map(|x| -x));
         let distances: Vec<f64> = turned.map(nearest).collect();
         Some(HalfTurn {
@@ -208,6 +245,10 @@ mod tests {
         assert!(row.joins(at(-1.0), at(3.0)));
         assert!(!row.joins(at(-1.0), at(4.0)), "there is a gap of 2");
         assert!(!row.joins(at(-2.0), at(2.0)));
+        let left = row.part_from(at(-1.0));
+        assert_eq!([left.gap_to(at(5.0)), left.points.len() as f64], [3.0, 3.0]);
+        assert_eq!(left.gap_between(&row.part_from(at(5.0))), 2.0);
+        assert_eq!(left.centre(), Some([1.0, 0.0]));
         assert_eq!(distance([3.0, 4.0], [[0.0, 0.0]; 2]), 5.0);
         assert_eq!(
             distance([3.0, 4.0], [[-1.0, 0.0], [1.0, 0.0]]),

@@ -84,7 +84,8 @@ impl Case<'_> {
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut tests = Memory::default();
-    let tests = &mut tests;
+    let mut equations = Memory::default();
+    let (tests, sizes) = (&mut tests, &mut equations);
     let peaks =
         published!("disk-peak").judge(extent, |labels| Ok(of_labels(labels)?.test(tests)?.peak))?;
     let tables = vec![
@@ -92,10 +93,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         published!("disk-spread").judge(extent, |labels| spread_of(labels, tests))?,
         published!("disk-start").judge(extent, |labels| start(labels, tests))?,
         published!("disk-crack").judge(extent, |labels| crack(labels, tests))?,
-        published!("disk-equations").judge(extent, equations)?,
+        published!("disk-equations").judge(extent, |labels| rises(labels, sizes))?,
     ];
     let mut plots = vec![peak_plot(&peaks)?];
     if extent == Extent::Full {
+        plots.push(cost_plot(sizes)?);
         for correction in ["domain", "patch"] {
             for (mesh, _) in &MESHES {
                 plots.push(curves(mesh, correction, tests)?);
@@ -216,28 +218,60 @@ fn crack(labels: Labels<'_>, tests: &mut Memory<DiskTest>) -> anyhow::Result<f64
     })
 }
 
-/// Horizon factors at which the equations are larger than at the one before.
-fn equations(labels: Labels<'_>) -> anyhow::Result<f64> {
-    let (mesh, correction) = (labels.text("mesh")?, "domain");
+/// A size of the equations over the horizon factor.
+fn sizes(mesh: &str, of: &str, memory: &mut Memory<Equations>) -> anyhow::Result<Vec<[f64; 2]>> {
     let mut sizes = Vec::new();
     for (lambda, _) in CURVES {
-        let model = Case {
+        let correction = "domain";
+        let trial = Case {
             mesh,
             correction,
             lambda,
         }
-        .trial()?
-        .model()?;
-        let equations = Equations::from_model(&model)?;
-        sizes.push(match labels.text("of")? {
+        .trial()?;
+        let equations =
+            memory.result(trial.command(), || Equations::from_model(&trial.model()?))?;
+        let size = match of {
             "unknowns" => equations.unknowns,
             "matrix" => equations.matrix,
             "factor" => equations.factor,
             "multiplications" => equations.multiplications,
             other => bail!("no size `{other}` of the equations"),
-        });
+        };
+        sizes.push([lambda, size]);
     }
-    Ok(sizes.windows(2).filter(|pair| pair[1] > pair[0]).count() as f64)
+    Ok(sizes)
+}
+
+/// Horizon factors at which the equations are larger than at the one before.
+fn rises(labels: Labels<'_>, memory: &mut Memory<Equations>) -> anyhow::Result<f64> {
+    let sizes = sizes(labels.text("mesh")?, labels.text("of")?, memory)?;
+    let rises = sizes.windows(2).filter(|pair| pair[1][1] > pair[0][1]);
+    Ok(rises.count() as f64)
+}
+
+/// Multiplications that the factor takes, over those at lambda = 2 (in place of the times of Fig. 8).
+fn cost_plot(memory: &mut Memory<Equations>) -> anyhow::Result<Plot> {
+    let mut series = Vec::new();
+    for ((mesh, _), colour) in MESHES
+        .iter()
+        .zip([Colour::Sky, Colour::Blue, Colour::Vermilion])
+    {
+        let sizes = sizes(mesh, "multiplications", memory)?;
+        let [_, at_2] = sizes[1];
+        let points = sizes.iter().map(|[lambda, size]| [*lambda, size / at_2]);
+        series.push(Series::line(*mesh, colour, points.collect()));
+    }
+    let axes = [
+        "horizon factor lambda",
+        "multiplications of a factor / those at lambda = 2",
+    ];
+    Ok(Plot::new(
+        "disk-equations",
+        "Cost of the equations of the disk",
+        axes,
+        series,
+    ))
 }
 
 fn peak_plot(table: &Table) -> anyhow::Result<Plot> {

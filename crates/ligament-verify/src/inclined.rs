@@ -50,9 +50,6 @@ static MESH: StoredMesh = stored_mesh!("diagonal-plate-4mm.msh");
 /// Horizon factors of the paper with its adjusted strengths, Pa.
 const ADJUSTED: [(f64, f64); 3] = [(2.2, 14.286e6), (3.0, 10e6), (4.0, 7.273e6)];
 
-/// Half the diagonal of the plate, m.
-const DIAGONAL: f64 = 0.15 * std::f64::consts::FRAC_1_SQRT_2;
-
 /// What is read in a test.
 #[derive(Debug, Clone)]
 struct PlateTest {
@@ -60,12 +57,12 @@ struct PlateTest {
     peak: f64,
     /// Distance of the first broken bond from the nearer end of the slot, over its horizon.
     start: f64,
-    /// Ends of the slot that a crack joins to an edge of the plate.
-    edges: f64,
     /// Mean distance of the crack from its image after half a turn, over the mean horizon of its points.
     mismatch: f64,
-    /// Angle from the crack at the right end of the slot, turned by half a turn, to that at the left one, degrees.
-    turned: f64,
+    /// See [`towards_left`], degrees.
+    towards_left: f64,
+    /// Whether the crack reaches farther on the left.
+    leads_left: bool,
 }
 
 impl PlateTest {
@@ -77,42 +74,37 @@ impl PlateTest {
         let first = middle(model, first.bond as usize);
         let from_end = ends.map(|end| distance(first.at, [end; 2]));
         let crack = Crack::from_breakages(model, breaks);
-        let horizons = crack.points.iter().map(|point| point.horizon).sum::<f64>();
         let half_turn = crack.half_turn([1.0, 0.0]);
         let peak = outcome.first_peak(DROP);
         let peak = peak.context("the run has no state at rest")?;
         Ok(Self {
             peak: 1e-3 * peak.reaction,
             start: from_end[0].min(from_end[1]) / first.horizon,
-            edges: edges_reached(&crack, ends),
-            mismatch: half_turn.map_or(f64::NAN, |it| it.mean) * crack.points.len() as f64
-                / horizons,
-            turned: turned(&crack, ends),
+            mismatch: half_turn.map_or(f64::NAN, |it| it.mean) / crack.mean_horizon(),
+            towards_left: towards_left(&crack, ends),
+            leads_left: reach(&crack, -1.0) > reach(&crack, 1.0),
         })
     }
 }
 
-/// Ends of the slot, left and right, that the crack joins to an edge of the plate on its side.
-fn edges_reached(crack: &Crack, [left, right]: Segment) -> f64 {
-    let reaches = |end: [f64; 2], corner: f64| {
-        let edges = [DIAGONAL, -DIAGONAL].map(|y| [[corner, 0.0], [0.0, y]]);
-        edges.iter().any(|&edge| crack.joins([end; 2], edge))
+/// Angle to the x axis of the mean direction in which the crack leaves the right end of the slot, less that at the left end, degrees, as
+/// far as both reach: how much nearer to the direction of the fine side the crack lies there. NaN where there is none at an end.
+fn towards_left(crack: &Crack, [left, right]: Segment) -> f64 {
+    let angle = |end: [f64; 2], sign: f64| {
+        let common = crack.common_part([1.0, 0.0])?;
+        let [x, y] = common.part(|[x, _]| sign * x > sign * end[0]).centre()?;
+        Some((y - end[1]).abs().atan2(sign * (x - end[0])))
     };
-    f64::from(u8::from(reaches(left, -DIAGONAL))) + f64::from(u8::from(reaches(right, DIAGONAL)))
-}
-
-/// Angle from the straight line between the right end of the slot and the tip of the crack there, turned by half a turn, to that on
-/// the left, degrees; NaN where there is no crack on a side.
-fn turned(crack: &Crack, [left, right]: Segment) -> f64 {
-    let direction = |end: [f64; 2], sign: f64| {
-        let side = crack.part(|[x, _]| sign * x > sign * end[0]);
-        let [x, y] = side.tip()?.at;
-        Some((sign * (y - end[1])).atan2(sign * (x - end[0])))
-    };
-    match (direction(left, -1.0), direction(right, 1.0)) {
-        (Some(left), Some(right)) => (left - right).to_degrees(),
+    match (angle(left, -1.0), angle(right, 1.0)) {
+        (Some(left), Some(right)) => (right - left).to_degrees(),
         _ => f64::NAN,
     }
+}
+
+/// Largest distance of a point of the crack from the middle of the plate on a side of it, m; 0 without any.
+fn reach(crack: &Crack, sign: f64) -> f64 {
+    let tip = crack.part(|[x, _]| sign * x > 0.0).tip();
+    tip.map_or(0.0, |tip| tip.at[0].hypot(tip.at[1]))
 }
 
 /// A test by its settings.
@@ -155,7 +147,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let tables = vec![
         published!("inclined-spread").judge(extent, |labels| over_horizons(labels, tests))?,
         published!("inclined-crack").judge(extent, |labels| crack(labels, tests))?,
-        published!("inclined-symmetry").judge(extent, |labels| symmetric(labels, tests))?,
+        published!("inclined-symmetry").judge(extent, |labels| symmetry(labels, tests))?,
     ];
     let plots = match extent {
         Extent::Fast => Vec::new(),
@@ -191,29 +183,37 @@ fn crack(labels: Labels<'_>, tests: &mut Memory<PlateTest>) -> anyhow::Result<f6
     let test = case.test(tests)?;
     Ok(match labels.text("of")? {
         "start" => test.start,
-        "edges" => test.edges,
         "half turn" => test.mismatch,
-        "turned" => test.turned,
         other => bail!("nothing `{other}` of a crack"),
     })
 }
 
-/// Number of tests whose crack is within a horizon of its image after half a turn, in the mean.
-fn symmetric(labels: Labels<'_>, tests: &mut Memory<PlateTest>) -> anyhow::Result<f64> {
+/// What all tests together say of the symmetry of the cracks.
+fn symmetry(labels: Labels<'_>, tests: &mut Memory<PlateTest>) -> anyhow::Result<f64> {
     let correction = labels.text("correction")?;
-    let mut count = 0;
+    let mut all = Vec::new();
     for (theta, _) in &PLATES {
         for (lambda, _) in ADJUSTED {
-            let test = Case {
-                theta,
-                correction,
-                lambda,
-            }
-            .test(tests)?;
-            count += usize::from(test.mismatch <= 1.0);
+            all.push(
+                Case {
+                    theta,
+                    correction,
+                    lambda,
+                }
+                .test(tests)?,
+            );
         }
     }
-    Ok(count as f64)
+    let count = |is: &dyn Fn(&PlateTest) -> bool| all.iter().filter(|test| is(test)).count() as f64;
+    Ok(match labels.text("of")? {
+        "symmetric" => count(&|test| test.mismatch <= 1.0),
+        "left leads" => count(&|test| test.leads_left),
+        "towards the left" => {
+            let angles = all.iter().map(|test| test.towards_left);
+            angles.sum::<f64>() / all.len() as f64
+        }
+        other => bail!("nothing `{other}` of the symmetry"),
+    })
 }
 
 /// Colours of the horizon factors.
