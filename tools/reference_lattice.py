@@ -340,12 +340,16 @@ def square_frequencies(folder):
 
 
 def lamina_frequencies(folder):
-    """OMPPD tables 3-5 and the convergence of its Fig. 18: the lamina with hole, m = 3.2, 10 mm at one end held."""
+    """OMPPD tables 3-5 and the convergence of its Fig. 18: the lamina with hole, m = 3.2, 10 mm at one end held.
+
+    The rotations of the held points are free: that meets 10 of the 15 printed frequencies to the digits, held ones none.
+    """
     rows = []
     print("Frequencies of the orthotropic lamina, Hz, and % off the published ones")
     for nx, ny, dx in (40, 20, 0.01), (80, 40, 0.005), (160, 80, 0.0025):
         grid = Lattice(nx, ny, dx, 3.2, hole=0.04)
         held = np.repeat(grid.column < round(0.01 / dx), 3)
+        held[2::3] = False
         print(f"   {grid.n} points, {len(grid.l)} bonds")
         for zeta, published in zip(ANGLES, OMPPD_PUBLISHED):
             modes = Plate(grid, orthotropic_law(*LAMINA, np.radians(zeta), grid)).frequencies(held, 2500.0, 0, 4)

@@ -35,8 +35,8 @@ impl Folder {
         &self.path
     }
 
-    /// Each file that is read, and each array of a VTU file by itself, as it is and without a number: changed in the file, its checksum would be
-    /// all that is read.
+    /// Each file that is read, and each array of a VTU file by itself, as it is and without a number: changed in the
+    /// file, its checksum would be all that is read.
     pub(crate) fn seeds(&self, is_read: impl Fn(&str) -> bool) -> Vec<Vec<u8>> {
         let mut seeds = Vec::new();
         for (name, content) in self.files.iter().filter(|it| is_read(&it.0)) {

@@ -133,7 +133,10 @@ pub struct BreakRecord {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Notice {
     /// Supports and loads do not hold the intact body, or a part of it: gauges do.
-    #[error("{} points are not held by supports and loads: {} rigid motions of theirs are free (first at point {})", .0.points, .0.motions.len(), .0.first)]
+    #[error(
+        "{} points are not held by supports and loads: {} rigid motions of theirs are free (first at point {})",
+        .0.points, .0.motions.len(), .0.first
+    )]
     FreeBody(FreeBody),
     /// Points came loose, and rigid motions of theirs are held.
     #[error(

@@ -12,10 +12,14 @@ fn case() -> PathBuf {
 }
 
 fn stiffness(out: &Path, settings: &[&str]) -> Output {
+    stiffness_of(&case(), out, settings)
+}
+
+fn stiffness_of(case: &Path, out: &Path, settings: &[&str]) -> Output {
     let settings = settings.iter().flat_map(|setting| ["--set", setting]);
     Command::new(env!("CARGO_BIN_EXE_ligament"))
         .arg("stiffness")
-        .arg(case())
+        .arg(case)
         .args(settings)
         .args(["--out", out.to_str().unwrap()])
         .output()
@@ -64,6 +68,29 @@ fn along_the_axes_it_is_the_printed_constants() {
     }
     let again = stiffness(&out, &[]);
     assert_eq!(again.status.code(), Some(1));
+}
+
+/// A group may have any name, and the name of a file none that leads elsewhere.
+#[test]
+fn a_material_with_a_name_that_is_no_file_name_gets_its_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let text = fs::read_to_string(case()).unwrap();
+    let text = (text.replace("base = {", "\"../left\" = { left = 12 }, base = {"))
+        .replace("[material]", "[material.all]\ngroup = \"../left\"");
+    let case = folder.path().join("case.toml");
+    fs::write(&case, text).unwrap();
+    let output = stiffness_of(&case, &out, &[]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    let mut names: Vec<_> = (fs::read_dir(&out).unwrap())
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".svg"))
+        .collect();
+    names.sort();
+    assert_eq!(names, ["k-n-material-1.svg", "k-t-material-1.svg"]);
+    let table = fs::read_to_string(out.join("stiffness.csv")).unwrap();
+    assert!(table.lines().nth(1).unwrap().starts_with("../left,"));
 }
 
 /// Isotropic bonds are the same in all directions, with a negative k_t above Poisson's ratio 1/3; a Cosserat length needs no k_t for its

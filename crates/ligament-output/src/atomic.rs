@@ -52,7 +52,12 @@ pub(crate) fn remove_file(path: &Path) -> Result<(), Error> {
     remove_if_there(path).map_err(Error::system("remove", path))
 }
 
-fn remove_if_there(path: &Path) -> io::Result<()> {
+/// Removes a file, if there is one, with the error of the system for callers that have their own.
+///
+/// # Errors
+///
+/// If it cannot be removed.
+pub fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),

@@ -26,5 +26,5 @@ pub mod terminal;
 pub mod vtu;
 mod xml;
 
-pub use atomic::{read_text, rename, replace_file};
+pub use atomic::{read_text, remove_if_there, rename, replace_file};
 pub use error::{Error, FieldLocation};

@@ -89,10 +89,10 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         screen,
         "law {law}, bonds of {length:.4e} m with the horizon {horizon:.4e} m\n"
     )?;
-    for (name, curves) in &materials {
+    for (index, (name, curves)) in materials.iter().enumerate() {
         tell(screen, name, curves)?;
         append(&mut table, name, curves)?;
-        for plot in plots(name, curves) {
+        for plot in plots(name, &file_stem(name, index), curves) {
             folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
         }
     }
@@ -104,6 +104,15 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
 fn name_of(setup: &Setup, index: usize) -> String {
     let group = setup.materials[index].group.clone();
     group.unwrap_or_else(|| "body".to_owned())
+}
+
+/// The part of a file's name that tells its material: the name where it is plain, else the number, as a name with `/` leads elsewhere.
+fn file_stem(name: &str, index: usize) -> String {
+    let is_plain = |it: char| it.is_ascii_alphanumeric() || matches!(it, '-' | '_');
+    match name.chars().all(is_plain) {
+        true => name.to_owned(),
+        false => format!("material-{}", index + 1),
+    }
 }
 
 /// The quantities that have a curve.
@@ -165,8 +174,8 @@ fn append(table: &mut Table, name: &str, curves: &[InDirection]) -> anyhow::Resu
 }
 
 /// Diagrams of k_n and of k_t with the off-axis moduli of the continuum, each over its largest value, so that the shapes can be
-/// compared; radii of negative stiffness are dashed.
-pub fn plots(name: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
+/// compared; radii of negative stiffness are dashed. The names of the files end in `stem`.
+pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
     let pairs: [[Quantity; 2]; 2] = [
         [STIFFNESSES[0], ("C_xx", |it| it.normal_modulus)],
         [STIFFNESSES[1], ("C_ss", |it| it.shear_modulus)],
@@ -184,7 +193,7 @@ pub fn plots(name: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
         ];
         series.retain(|it| it.points().iter().any(|point| point[1].is_finite()));
         PolarPlot {
-            name: format!("k-{}-{name}", &stiffness[2..]),
+            name: format!("k-{}-{stem}", &stiffness[2..]),
             title: format!("{stiffness} over the direction of the bond: {name}"),
             radius: "over the largest value".to_owned(),
             series,

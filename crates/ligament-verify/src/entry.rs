@@ -34,7 +34,7 @@ pub enum Standing {
         /// The evidence for the error.
         reason: String,
     },
-    /// The set-up of the table does not lead to the value.
+    /// The set-up of the table does not lead to the value, for no known reason.
     Open {
         /// What an independent calculation gives, and is compared with.
         instead: Printed,
@@ -53,14 +53,16 @@ pub enum Standing {
 /// The outcome of comparing an entry with what was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// The computed value is the known one to its last digit.
-    Met,
+    /// The computed value, rounded, is the known one to its last digit.
+    Rounded,
+    /// The computed value, cut off, is the known one to its last digit.
+    Truncated,
     /// The computed value is as near as it should be.
     Within,
     /// The known value is a misprint, and the computed one is what should stand there.
     Misprint,
-    /// The known value is not met, and the computed one is that of an independent calculation.
-    NotReproduced,
+    /// The known value is not met for no known reason, and the computed one is that of an independent calculation.
+    Differs,
     /// The known value is right and is not met, for a known reason.
     Missed,
     /// The entry is shown, not judged.
@@ -82,12 +84,12 @@ impl Entry {
             },
             Standing::Sound if !agrees(&self.known) => Verdict::Failed,
             Standing::Sound | Standing::Missed { .. } if self.known.is_rounded_from(computed) => {
-                Verdict::Met
+                Verdict::Rounded
             }
             Standing::Sound | Standing::Missed { .. } => Verdict::Within,
-            Standing::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Met,
+            Standing::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Truncated,
             Standing::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
-            Standing::Open { instead, .. } if agrees(instead) => Verdict::NotReproduced,
+            Standing::Open { instead, .. } if agrees(instead) => Verdict::Differs,
             _ => Verdict::Failed,
         }
     }
@@ -118,11 +120,12 @@ impl Standing {
 
 impl Verdict {
     /// All verdicts, the best first.
-    pub const ALL: [Self; 7] = [
-        Self::Met,
+    pub const ALL: [Self; 8] = [
+        Self::Rounded,
+        Self::Truncated,
         Self::Within,
         Self::Misprint,
-        Self::NotReproduced,
+        Self::Differs,
         Self::Missed,
         Self::Shown,
         Self::Failed,
@@ -131,10 +134,11 @@ impl Verdict {
     /// In words.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Met => "met",
+            Self::Rounded => "rounded",
+            Self::Truncated => "truncated",
             Self::Within => "within tolerance",
             Self::Misprint => "misprint",
-            Self::NotReproduced => "not reproduced",
+            Self::Differs => "differs, cause unknown",
             Self::Missed => "missed",
             Self::Shown => "not judged",
             Self::Failed => "FAILED",
@@ -163,20 +167,20 @@ mod tests {
 
     #[test]
     fn a_sound_value_is_met_nearly_met_or_missed() {
-        use Verdict::{Failed, Met, Shown, Within};
+        use Verdict::{Failed, Rounded, Shown, Within};
         let printed = entry("2294.9", Allowed::Digits, Standing::Sound);
         assert_eq!(
             verdicts(&printed, &[2294.94, 2294.86, 2294.96]),
-            [Met, Met, Failed]
+            [Rounded, Rounded, Failed]
         );
         let near = entry("2294.9", Allowed::Relative(0.01), Standing::Sound);
         assert_eq!(
             verdicts(&near, &[2294.9, 2310.0, 2272.0, 2318.0]),
-            [Met, Within, Within, Failed]
+            [Rounded, Within, Within, Failed]
         );
         // Half a unit of the only digit of 0 is no excuse for missing the tolerance.
         let zero = entry("0", Allowed::Absolute(0.01), Standing::Sound);
-        assert_eq!(verdicts(&zero, &[-0.005, 0.3]), [Met, Failed]);
+        assert_eq!(verdicts(&zero, &[-0.005, 0.3]), [Rounded, Failed]);
         let shown = entry("0.1", Allowed::Any, Standing::Sound);
         assert_eq!(verdicts(&shown, &[0.1, 7.0]), [Shown, Shown]);
         for it in [printed, near, zero, shown] {
@@ -186,19 +190,14 @@ mod tests {
 
     #[test]
     fn a_truncated_value_is_met_by_what_was_cut() {
+        use Verdict::{Failed, Truncated};
         let reason = String::from("cut");
         let cut = entry("0.01085", Allowed::Digits, Standing::Truncated { reason });
         let found = verdicts(&cut, &[0.010856, 0.01085, 0.010849, 0.010861]);
-        assert_eq!(
-            found,
-            [Verdict::Met, Verdict::Met, Verdict::Failed, Verdict::Failed]
-        );
+        assert_eq!(found, [Truncated, Truncated, Failed, Failed]);
         let reason = String::from("cut");
         let negative = entry("-0.5", Allowed::Digits, Standing::Truncated { reason });
-        assert_eq!(
-            verdicts(&negative, &[-0.58, -0.48]),
-            [Verdict::Met, Verdict::Failed]
-        );
+        assert_eq!(verdicts(&negative, &[-0.58, -0.48]), [Truncated, Failed]);
     }
 
     #[test]
@@ -223,7 +222,7 @@ mod tests {
             Standing::Open { instead, reason },
         );
         let found = verdicts(&open, &[2054.0, 2025.5]);
-        assert_eq!(found, [Verdict::NotReproduced, Verdict::Failed]);
+        assert_eq!(found, [Verdict::Differs, Verdict::Failed]);
     }
 
     #[test]
@@ -235,7 +234,7 @@ mod tests {
             Standing::Missed { instead, reason },
         );
         let found = verdicts(&missed, &[0.7, 1.2, 0.2, 0.01]);
-        use Verdict::{Failed, Met, Missed, Within};
-        assert_eq!(found, [Missed, Failed, Within, Met]);
+        use Verdict::{Failed, Missed, Rounded, Within};
+        assert_eq!(found, [Missed, Failed, Within, Rounded]);
     }
 }

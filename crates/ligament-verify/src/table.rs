@@ -102,10 +102,7 @@ impl Known {
     ) -> anyhow::Result<Table> {
         let mut rows = Vec::new();
         for entry in (self.entries.iter()).filter(|entry| entry.is_fast || extent == Extent::Full) {
-            let labels = Labels {
-                keys: &self.heading.keys,
-                labels: &entry.labels,
-            };
+            let labels = Labels::new(&self.heading.keys, &entry.labels);
             let computed =
                 compute(labels).with_context(|| format!("{}, {labels}", self.heading.name))?;
             rows.push(Row {
@@ -121,15 +118,14 @@ impl Known {
     }
 }
 
-impl Table {
-    /// Number of rows with a verdict.
-    pub(super) fn count(&self, verdict: Verdict) -> usize {
-        self.rows
-            .iter()
-            .filter(|row| row.verdict == verdict)
-            .count()
+impl Heading {
+    /// Whether the known values are those of a paper: printed, fitted or stated there.
+    pub(super) fn is_of_a_paper(&self) -> bool {
+        ["printed", "stated", "statement", "eq. 22"].contains(&&*self.known)
     }
+}
 
+impl Table {
     /// Computed values over the numbers of a key, from the rows with all the labels of `of` (`law=pds, of=lattice`; none for
     /// all rows), shape (n, 2).
     pub(super) fn computed(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
@@ -150,11 +146,7 @@ impl Table {
         let mut points = Vec::new();
         for row in &self.rows {
             let labels = self.labels(row);
-            let mut belongs = true;
-            for (key, label) in of.split(", ").filter_map(|it| it.split_once('=')) {
-                belongs &= labels.text(key)? == label;
-            }
-            if belongs {
+            if labels.are(of)? {
                 points.push([labels.number(x)?, y(row)]);
             }
         }
@@ -181,14 +173,25 @@ impl Table {
 
     /// The labels of a row.
     pub fn labels<'a>(&'a self, row: &'a Row) -> Labels<'a> {
-        Labels {
-            keys: &self.heading.keys,
-            labels: &row.entry.labels,
-        }
+        Labels::new(&self.heading.keys, &row.entry.labels)
     }
 }
 
 impl<'a> Labels<'a> {
+    /// Labels by the keys of their table.
+    pub(super) fn new(keys: &'a [String], labels: &'a [String]) -> Self {
+        Self { keys, labels }
+    }
+
+    /// Whether these labels are among them: `law=pds, of=lattice`; nothing asks for nothing.
+    pub(super) fn are(&self, of: &str) -> Result<bool, LabelError> {
+        let mut belongs = true;
+        for (key, label) in of.split(", ").filter_map(|it| it.split_once('=')) {
+            belongs &= self.text(key)? == label;
+        }
+        Ok(belongs)
+    }
+
     /// The label of a key.
     pub(super) fn text(&self, key: &str) -> Result<&'a str, LabelError> {
         let place = self.keys.iter().position(|name| name == key);

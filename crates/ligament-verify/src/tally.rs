@@ -13,14 +13,13 @@ pub struct Tally([usize; Verdict::ALL.len()]);
 impl Tally {
     /// The verdicts of an experiment.
     pub fn from_findings(findings: &Findings) -> Self {
-        let count = |verdict: Verdict| {
-            findings
-                .tables
-                .iter()
-                .map(|table| table.count(verdict))
-                .sum()
-        };
-        Self(Verdict::ALL.map(count))
+        let rows = findings.tables.iter().flat_map(|table| &table.rows);
+        Self::from_verdicts(rows.map(|row| row.verdict))
+    }
+
+    /// So many of each.
+    pub(super) fn from_verdicts(verdicts: impl Iterator<Item = Verdict> + Clone) -> Self {
+        Self(Verdict::ALL.map(|verdict| verdicts.clone().filter(|it| *it == verdict).count()))
     }
 
     /// Entries with a verdict.

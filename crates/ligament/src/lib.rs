@@ -10,9 +10,9 @@
 //! | solve | [`Solution`](run::Solution): history, last state, why it ended; or natural modes | [`run`] |
 //!
 //! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
-//! into stiffness ([`direction`] shows it over the direction of a bond), [`loading`] supports and loads into what acts on the points, and [`patch_test`] tells how stiff the body has
-//! become. What is wrong with a setup is a
-//! [`SetupError`] that names the field, and what a user should know of a model is a [`Warning`].
+//! into stiffness ([`direction`] shows it over the direction of a bond), [`loading`] supports and loads into what acts on
+//! the points, and [`patch_test`] tells how stiff the body has become. What is wrong with a setup is a [`SetupError`] that
+//! names the field, and what a user should know of a model is a [`Warning`].
 //!
 //! ```
 //! use ligament::prelude::*;

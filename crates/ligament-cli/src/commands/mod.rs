@@ -69,7 +69,8 @@ Examples:
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
-Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal (`ligament resume` goes on), 5 `ligament repeat` found other results.";
+Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal \
+(`ligament resume` goes on), 5 `ligament repeat` found other results.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]

@@ -10,6 +10,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use ligament_output::remove_if_there;
+
 mod error;
 pub mod gmsh_program;
 pub mod via_meshio;
@@ -63,10 +65,8 @@ impl Unfinished {
         name.push(format!("-unfinished-{}.msh", std::process::id()));
         let path = out.with_file_name(name);
         // What is written there goes to no file that a link in its place leads to.
-        match std::fs::remove_file(&path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-            _ => Ok(Self(path)),
-        }
+        remove_if_there(&path)?;
+        Ok(Self(path))
     }
 
     fn path(&self) -> &Path {

@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use ligament_output::remove_if_there;
 use ligament_run::memory;
 
 use super::estimate::Estimates;
@@ -204,12 +205,8 @@ impl Launcher<'_> {
 
     fn spawn(&self, run: &Run, place: &Path, threads: usize) -> io::Result<Child> {
         let log = self.folder.log(run);
-        if let Err(error) = fs::remove_file(&log)
-            && error.kind() != io::ErrorKind::NotFound
-        {
-            return Err(error);
-        }
         // A new file, never one that a link in its place leads to.
+        remove_if_there(&log)?;
         let log = File::create_new(log)?;
         let mut command = Command::new(&self.program);
         command.args(["run", "--force", "--quiet"]);

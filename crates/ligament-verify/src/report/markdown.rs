@@ -1,19 +1,16 @@
-//! The report as Markdown.
+//! The long report.
 
 use std::fmt::Write as _;
 
 use super::Printable;
 use crate::entry::Verdict;
 use crate::experiment::{Experiment, Findings};
-use crate::table::{Extent, Table};
+use crate::table::Table;
 use crate::tally::Tally;
 
-/// The report as Markdown.
-pub(crate) fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
+/// The long report: every table with all its entries, and the curves.
+pub(crate) fn text(done: &[(&Experiment, Findings)]) -> String {
     let mut text = String::from(INTRODUCTION);
-    if extent == Extent::Fast {
-        text.push_str("\nThis is the fast subset (`--fast`).\n");
-    }
     let words = Verdict::ALL.map(Verdict::words).join(" | ");
     let dashes = "---|".repeat(3 + Verdict::ALL.len());
     let _ = write!(
@@ -54,18 +51,11 @@ pub(crate) fn text(done: &[(&Experiment, Findings)], extent: Extent) -> String {
 }
 
 const INTRODUCTION: &str = "\
-# Verification
+# The long report
 
-Written by `ligament verify`: published values, and what this version of the program computes for them by the functions
-of `ligament run`. Each table is also a CSV file here, with all digits. The cases named below can be run by themselves;
-what an entry changes in them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
-
-- **met**: the computed value, rounded, is the known one. **within tolerance**: it is as near as *allowed*.
-- **misprint**: the known value is a misprint, and the computed one is what should stand there. **not reproduced**: the
-  set-up of the table does not lead to the known value, and the computed one is that of an independent calculation. Notes
-  give the reasons; an entry that misses what it is compared with instead fails as any other.
-- **missed**: the known value is right, and the method does not come near enough to it, for the reason in the note.
-- **not judged**: shown for comparison. **FAILED**: should be near, and is not.
+Every table of `ligament verify`, entry by entry; [README.md](README.md) has the short one, and what the verdicts mean. Each
+table is also a CSV file here, with all digits. The cases named below can be run by themselves; what an entry changes in
+them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
 ";
 
 fn push_table(text: &mut String, table: &Table) {

@@ -8,6 +8,7 @@ use super::table::{Row, Table};
 pub mod console;
 pub(super) mod files;
 pub(super) mod markdown;
+pub(super) mod page;
 
 /// A table as words.
 struct Printable {
@@ -137,7 +138,7 @@ nu,known,allowed,subset,standing,instead,reason
         let expected = "
   First mode, f, Hz
     nu    printed  computed  difference  allowed  verdict
-    0     2294.9   2294.86   0.00 %      digits   met
+    0     2294.9   2294.86   0.00 %      digits   rounded
     0.1   2025.5   2053.20   +1.37 %     digits   misprint for 2053 [1]
     0.25  1565.9   1500.00   -4.21 %     1 %      FAILED
     [1] digits exchanged, as ...
@@ -148,9 +149,9 @@ nu,known,allowed,subset,standing,instead,reason
 
     #[test]
     fn markdown_has_counts_tables_and_notes() {
-        let text = markdown::text(&[(&EXPERIMENT, findings().unwrap())], Extent::Full);
+        let text = markdown::text(&[(&EXPERIMENT, findings().unwrap())]);
         for line in [
-            "| [modes](#modes) | Author 2019 | 3 | 1 | 0 | 1 | 0 | 0 | 0 | 1 |",
+            "| [modes](#modes) | Author 2019 | 3 | 1 | 0 | 0 | 1 | 0 | 0 | 0 | 1 |",
             "| nu | printed | computed | difference | allowed | verdict |",
             "| 0.1 | 2025.5 | 2053.20 | +1.37 % | digits | misprint for 2053 [1] |",
             "[1] digits exchanged, as ...",
@@ -159,7 +160,19 @@ nu,known,allowed,subset,standing,instead,reason
         ] {
             assert!(text.lines().any(|it| it == line), "{line}\n{text}");
         }
-        assert!(!text.contains("--fast"));
+    }
+
+    /// A table that no paper has stands below them, with counts and the largest difference.
+    #[test]
+    fn the_page_has_a_line_a_table() {
+        let done = [(&EXPERIMENT, findings().unwrap())];
+        let text = page::text(&done, Extent::Fast).unwrap();
+        for line in [
+            "This is the fast subset (`--fast`).",
+            "| [modes](report.md#modes) | First mode | printed | 1 to the digit; 1 misprint; 1 FAILED |",
+        ] {
+            assert!(text.lines().any(|it| it == line), "{line}\n{text}");
+        }
     }
 
     #[test]
@@ -167,7 +180,10 @@ nu,known,allowed,subset,standing,instead,reason
         let tally = Tally::from_findings(&findings().unwrap());
         let sum: Tally = [tally, tally].into_iter().sum();
         assert_eq!((sum.entries(), sum.count(Verdict::Failed)), (6, 2));
-        assert_eq!(tally.to_string(), "3 entries: 1 met, 1 misprint, 1 FAILED");
+        assert_eq!(
+            tally.to_string(),
+            "3 entries: 1 rounded, 1 misprint, 1 FAILED"
+        );
     }
 
     #[test]
@@ -187,7 +203,7 @@ nu,known,allowed,subset,standing,instead,reason
         assert!(text.lines().any(|line| line == row), "{text}");
         let text = std::fs::read_to_string(folder.file(SUMMARY)).unwrap();
         assert!(
-            text.ends_with("modes,Author 2019,3,1,0,1,0,0,0,1\n"),
+            text.ends_with("modes,Author 2019,3,1,0,0,1,0,0,0,1\n"),
             "{text}"
         );
     }

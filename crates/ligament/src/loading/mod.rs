@@ -38,7 +38,8 @@ impl Loading {
     ///
     /// # Errors
     ///
-    /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict each other, or a couple acts on nothing.
+    /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
+    /// each other, or a couple acts on nothing.
     pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
         let boundary = boundary(setup, &system.cloud)?;
         couples_have_stiffness(setup, &boundary, system)?;

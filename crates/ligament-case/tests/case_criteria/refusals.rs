@@ -1,0 +1,114 @@
+//! Criteria with wrong names, numbers and keys.
+
+use super::{error_of, error_with, with};
+
+#[test]
+fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
+    assert_eq!(
+        error_with("kind = \"compresion\""),
+        "60:8: fracture.criterion.0.kind: unknown value \"compresion\"; did you mean \"compression\"? valid values: \
+         \"strength\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\""
+    );
+    assert_eq!(
+        error_with("kind = \"tension\"\nlimits = 1e-3"),
+        "61:1: fracture.criterion.0.limits: unknown key `limits` in [[fracture.criterion]]; did you mean `limit`? valid keys: \
+         `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `friction_angle`, `fibre_distance`, `after`, `end`, `scale`"
+    );
+    assert_eq!(
+        error_with("kind = \"tension\"\nafter = \"bilinaer\""),
+        "61:9: fracture.criterion.0.after: unknown value \"bilinaer\"; did you mean \"bilinear\"? valid values: \"brittle\", \
+         \"bilinear\", \"exponential\", \"plastic\""
+    );
+    assert_eq!(
+        error_with("kind = \"frictional\"\ncalibration = \"exact\""),
+        "61:15: fracture.criterion.0.calibration: unknown value \"exact\"; valid values: \"printed\", \"two-point\""
+    );
+    assert_eq!(
+        error_with("limit = 1e-3"),
+        "59:1: fracture.criterion.0.kind: missing key `kind` in [[fracture.criterion]]"
+    );
+    assert_eq!(
+        error_of(with("[fracture.criterion]\nkind = \"tension\"\n")),
+        "59:1: fracture.criterion: this section may be repeated, so its name stands in double brackets: write \
+         [[fracture.criterion]] instead of [fracture.criterion]"
+    );
+    assert_eq!(
+        error_of(with("criterion = []\n")),
+        "59:13: fracture.criterion: must be one criterion or more (without the key it is kind = \"strength\"), found []"
+    );
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let cases = [
+        (
+            "kind = \"compression\"\nlimit = -1e-3",
+            "61:9: fracture.criterion.0.limit: must be greater than 0, found -0.001",
+        ),
+        (
+            "kind = \"tension\"\nafter = \"bilinear\"\nend = 1",
+            "62:7: fracture.criterion.0.end: must be greater than 1, found 1.0",
+        ),
+        (
+            "kind = \"tension\"\nafter = \"exponential\"\nscale = 0.0",
+            "62:9: fracture.criterion.0.scale: must be greater than 0, found 0.0",
+        ),
+    ];
+    for (lines, message) in cases {
+        assert_eq!(error_with(lines), message);
+    }
+    let text = with("").replace(
+        "compressive_strength = 40e6",
+        "compressive_strength = -40e6",
+    );
+    let message = "11:24: material.compressive_strength: must be greater than 0, found -40000000.0";
+    assert_eq!(error_of(text), message);
+    let text = with("").replace("fracture_energy = 30.0", "fracture_energy = \"30 J/m2\"");
+    let message = "12:19: material.fracture_energy: expected a number, found the string \"30 J/m2\"; values are plain numbers in \
+                   SI units, here J/m^2";
+    assert_eq!(error_of(text), message);
+}
+
+#[test]
+fn keys_that_a_kind_does_not_take_are_refused() {
+    let cases = [
+        (
+            "kind = \"strength\"\nlimit = 1e-3",
+            "61:9: fracture.criterion.0.limit: `limit` does not apply with kind = \"strength\": its limits come from the \
+             material; \"tension\", \"compression\", \"sliding\", \"frictional\", \"fibre\" and \"bond-energy\" take one; remove it",
+        ),
+        (
+            "kind = \"sliding\"\ncalibration = \"two-point\"",
+            "61:15: fracture.criterion.0.calibration: `calibration` does not apply with kind = \"sliding\": only the limit of \
+             \"frictional\" can come from the strengths in two ways; remove it",
+        ),
+        (
+            "kind = \"tension\"\nend = 3.0",
+            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in a \
+             straight line, after = \"bilinear\", has an end; remove it",
+        ),
+        (
+            "kind = \"tension\"\nafter = \"bilinear\"\nscale = 3.0",
+            "62:9: fracture.criterion.0.scale: `scale` does not apply with after = \"bilinear\": only a force that falls \
+             exponentially, after = \"exponential\", has a scale; remove it",
+        ),
+        (
+            "kind = \"compression\"\nafter = \"plastic\"",
+            "61:9: fracture.criterion.0.after: `after = \"plastic\"` does not apply with kind = \"compression\": only bonds that \
+             slide, kind = \"sliding\", keep their force; remove it",
+        ),
+        (
+            "kind = \"frictional\"\nafter = \"exponential\"",
+            "61:9: fracture.criterion.0.after: `after = \"exponential\"` does not apply with kind = \"frictional\": its limit \
+             moves with the stretch, so that there is no one deformation at which softening begins; remove it",
+        ),
+        (
+            "kind = \"critical-stretch\"\nafter = \"bilinear\"",
+            "59:1: fracture.criterion.0.end: missing key `end`: it is required with kind = \"critical-stretch\": up to the limit \
+             a bond takes all of the fracture energy",
+        ),
+    ];
+    for (lines, message) in cases {
+        assert_eq!(error_with(lines), message);
+    }
+}
