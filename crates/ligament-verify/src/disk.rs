@@ -17,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     title: "Brazilian disk: strength and horizon factor",
     source: "Zhang, Yang and Zhuang (NHPD), section 3.1, eq. 22, Figs 7 to 12",
     setup: "Disk of diameter 0.1 m, t = 1 m, F_t = 3.81 MPa, plane stress, NHPD. Assumed, because the text does not say: E = 15 GPa, nu = \
-            0.21; for the three meshes of the paper (Fig. 6) triangles of 4 mm (914 points), 3 mm (1,440) and 2 mm (2,948); platens that \
+            0.21; for the three meshes of the paper (Fig. 6) triangles of 4 mm (913 points), 3 mm (1,440) and 2 mm (2,948); platens that \
             are the nodes of the rim with |x| <= 1.5 mm, moved together in steps of 4 um; five bonds an iteration, first those most beyond \
             their limit. `domain` is the correction of the paper, `patch` the one under which uniform strains are equilibria. The peak \
             is the largest load before the load first falls by 2 %; a test ends when it has fallen by 3 %. Points with a damage \
