@@ -240,7 +240,7 @@ fn plots(tests: &mut Memory<PlateTest>) -> anyhow::Result<Vec<Plot>> {
         let title = format!("Plate with an inclined slot, correction `{correction}`");
         let axes = ["theta, degrees", "largest load, kN (t = 5 mm)"];
         plots.push(Plot::new(
-            &format!("inclined-peaks-{correction}"),
+            format!("inclined-peaks-{correction}"),
             &title,
             axes,
             peaks,

@@ -257,7 +257,7 @@ fn plots(tests: &mut Memory<SlottedTest>) -> anyhow::Result<Vec<Plot>> {
             "peak load / 598.47 kN",
         ];
         plots.push(Plot::new(
-            &format!("slots-peaks-{correction}"),
+            format!("slots-peaks-{correction}"),
             &title,
             axes,
             peaks,
@@ -282,7 +282,7 @@ fn plots(tests: &mut Memory<SlottedTest>) -> anyhow::Result<Vec<Plot>> {
             let title = format!("Disk with {what}, correction `{correction}`");
             let axes = ["displacement, mm", "load / 598.47 kN"];
             plots.push(Plot::new(
-                &format!("slots-{slots}-{correction}"),
+                format!("slots-{slots}-{correction}"),
                 &title,
                 axes,
                 curves,
