@@ -61,6 +61,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
             "ligament",
             "ligament-analysis",
             "ligament-case",
+            "ligament-linalg",
             "ligament-mesh",
             "ligament-model",
             "ligament-output",

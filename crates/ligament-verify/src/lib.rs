@@ -6,6 +6,7 @@
 //! | [`table`], [`entry`], `printed` | a table, the verdict on an entry, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, a file each |
+//! | [`finite_elements`] | classical elasticity, which the papers compare their lattices with |
 //! | `papers` | the papers' tables and figures, and which table of ours compares each |
 //! | [`report`], [`tally`] | console, the page of the papers, the long report, CSV and SVG |
 #![cfg_attr(
@@ -31,6 +32,7 @@ mod disk_modes;
 mod disk_test;
 pub mod entry;
 mod experiment;
+pub mod finite_elements;
 mod frequencies;
 mod griffith;
 mod hole;
@@ -44,11 +46,13 @@ mod plates;
 mod poisson;
 mod printed;
 mod published;
+mod readings;
 pub mod report;
 mod ring;
 mod slots;
 mod softening;
 mod spread;
+mod square_elements;
 mod statics;
 pub mod table;
 pub mod tally;
@@ -65,9 +69,10 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 22] = [
+pub static EXPERIMENTS: [Experiment; 23] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
+    readings::EXPERIMENT,
     lamina::EXPERIMENT,
     tension::EXPERIMENT,
     directions::EXPERIMENT,

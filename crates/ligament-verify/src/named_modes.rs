@@ -5,7 +5,7 @@ use ligament_analysis::modal::Mode;
 
 use super::published::Published;
 use super::table::{Extent, Labels, Table};
-use super::trial::{Memory, Trial};
+use super::trial::Trial;
 
 /// The modes of the three tables in the papers.
 const MODES: [fn(Frequencies) -> f64; 3] =
@@ -23,42 +23,48 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
+    /// No frequencies: of an entry that is not computed.
+    pub(super) const NONE: Self = Self {
+        flexural: f64::NAN,
+        axial: f64::NAN,
+        second_flexural: f64::NAN,
+    };
+
     /// The named frequencies of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
     /// The axial mode has the largest effective mass along the cantilever, wherever it stands among the three:
     /// with PDS it is below the first flexural one for nu < 0, and equal to it for nu = 0.
     pub(super) fn from_trial(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
         let modes = trial.modes()?;
+        let named = |mode: &Mode| (mode.frequency(), mode.participation[axis]);
+        Self::from_modes(modes.iter().map(named))
+    }
+
+    /// The named frequencies of three modes, each a frequency and its share in a motion along the cantilever.
+    pub(super) fn from_modes(modes: impl Iterator<Item = (f64, f64)>) -> anyhow::Result<Self> {
+        let modes: Vec<(f64, f64)> = modes.collect();
         ensure!(modes.len() == 3, "{} modes, expected 3", modes.len());
-        let along = |mode: &Mode| mode.participation[axis].powi(2);
+        let along = |mode: &(f64, f64)| mode.1.powi(2);
         let largest = modes.iter().map(along).fold(0.0, f64::max);
-        let (axial, flexural): (Vec<&Mode>, Vec<&Mode>) =
+        let (axial, flexural): (Vec<(f64, f64)>, Vec<_>) =
             modes.iter().partition(|mode| along(mode) == largest);
         ensure!(axial.len() == 1, "no mode is the axial one");
         Ok(Self {
-            flexural: flexural[0].frequency(),
-            axial: axial[0].frequency(),
-            second_flexural: flexural[1].frequency(),
+            flexural: flexural[0].0,
+            axial: axial[0].0,
+            second_flexural: flexural[1].0,
         })
     }
 }
 
-/// Tables of the first flexural, the axial and the second flexural mode: the frequencies of the trial that an entry asks for,
-/// whose cantilever lies along the component `axis`.
+/// Tables of the first flexural, the axial and the second flexural mode, of the frequencies that an entry asks for.
 pub(super) fn tables(
     published: [Published; 3],
     extent: Extent,
-    memory: &mut Memory<Frequencies>,
-    axis: usize,
-    trial: impl Fn(Labels<'_>) -> anyhow::Result<Trial>,
+    mut frequencies: impl FnMut(Labels<'_>) -> anyhow::Result<Frequencies>,
 ) -> anyhow::Result<Vec<Table>> {
     let table = |(table, frequency): (Published, fn(Frequencies) -> f64)| {
-        table.judge(extent, |labels| {
-            let trial = trial(labels)?;
-            memory
-                .result(trial.command(), || Frequencies::from_trial(&trial, axis))
-                .map(frequency)
-        })
+        table.judge(extent, |labels| frequencies(labels).map(frequency))
     };
     published.into_iter().zip(MODES).map(table).collect()
 }

@@ -25,6 +25,22 @@ pub(super) struct Body {
 }
 
 impl Body {
+    /// Cells with corners at these positions (m) and their displacements (m), and what points of the model are, which have no tags.
+    pub(super) fn new(
+        reference: Vec<[f64; 2]>,
+        displacement: Vec<[f64; 2]>,
+        cells: Vec<Cell>,
+        tagged: FieldLocation,
+    ) -> Self {
+        Self {
+            reference,
+            displacement,
+            cells,
+            tagged,
+            places: HashMap::new(),
+        }
+    }
+
     /// Reads it from an output.
     pub(super) fn read(file: &VtuFile) -> Result<Self, Error> {
         let moved = file.finite_numbers(FieldLocation::Point, "displacement")?;

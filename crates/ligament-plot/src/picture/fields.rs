@@ -12,7 +12,6 @@ use super::colour_bar::ColourBar;
 use super::colour_map::ColourMap;
 use super::crack::{self, Crack};
 use super::field::{Field, NONE};
-use super::levels::{Levels, Rule, has_both_signs};
 use super::panel::{Panel, Scale};
 use super::select::{Choice, Moment, chosen, moments};
 use super::strip::{Entry, Strip};
@@ -25,7 +24,7 @@ use crate::stored_loading::stored_loading;
 const WIDTHS: [f64; 2] = [90.0, 180.0];
 
 /// Share of the body's size that the largest displacement of a mode is drawn with.
-const MODE_SHARE: f64 = 0.1;
+pub(super) const MODE_SHARE: f64 = 0.1;
 
 /// Quantile of a mode's field that is drawn as its largest value: the corners of a clamp outshine all else.
 const MODE_QUANTILE: f64 = 0.995;
@@ -308,7 +307,7 @@ fn default_name(field: &str, has_modes: bool) -> String {
     }
 }
 
-fn magnification_words(magnification: Option<f64>) -> String {
+pub(super) fn magnification_words(magnification: Option<f64>) -> String {
     match magnification {
         Some(0.0) => "undeformed".to_owned(),
         Some(factor) => format!("deformation × {factor}"),
@@ -317,7 +316,7 @@ fn magnification_words(magnification: Option<f64>) -> String {
 }
 
 /// The quantile of the absolute values becomes 1: a mode has no size of its own.
-fn relate_to_largest(field: &mut Field) {
+pub(super) fn relate_to_largest(field: &mut Field) {
     let mut sizes: Vec<f64> = field
         .values
         .iter()
@@ -354,20 +353,8 @@ fn scale(
     // Modes are relative to their largest values.
     let of_modes = has_modes.then_some([range[0].signum().min(0.0), 1.0]);
     let asked = request.range.or(of_modes);
-    let drawn = asked.unwrap_or(range);
-    let map = request.map.unwrap_or(if has_both_signs(drawn) {
-        ColourMap::Diverging
-    } else {
-        ColourMap::Viridis
-    });
-    let rule = Rule {
-        bands: request.bands,
-        range: asked,
-        centred: map == ColourMap::Diverging,
-    };
-    let levels = Levels::new(range, rule);
-    let colours = map.bands(levels.n_bands());
-    Ok(Some((Scale { levels, colours }, range)))
+    let scale = Scale::new(range, asked, request.bands, request.map);
+    Ok(Some((scale, range)))
 }
 
 /// The criteria by which bonds of any panel broke, each once, with the number in the last panel.

@@ -2,7 +2,8 @@
 //!
 //! Outputs are chosen ([`select`]), read (`body`, `field`, `crack`), moved by the displacement, cut into bands of colour
 //! (`levels`, `contour`, `joined`) and arranged (`strip`) in one SVG document (`svg`), from which a PNG is made
-//! ([`plots::png`](crate::plots::png)). Force-displacement curves are plots ([`curve`]).
+//! ([`plots::png`](crate::plots::png)). Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in
+//! memory.
 
 mod body;
 mod colour_bar;
@@ -14,6 +15,7 @@ mod field;
 mod fields;
 mod joined;
 mod levels;
+pub mod maps;
 mod panel;
 pub mod select;
 mod strip;

@@ -4,10 +4,11 @@ use ligament_output::FieldLocation;
 use ligament_output::vtu::Cell;
 
 use super::body::{Body, bounds};
+use super::colour_map::ColourMap;
 use super::contour::{Surface, halves, oriented};
 use super::field::Field;
 use super::joined::Joined;
-use super::levels::Levels;
+use super::levels::{Levels, Rule, has_both_signs};
 use super::svg::{Document, Paint, PathData};
 
 /// Colour of a body without a field, and of what has no value.
@@ -44,6 +45,32 @@ pub(super) struct Scale {
     pub(super) levels: Levels,
     /// Colours of the bands.
     pub(super) colours: Vec<String>,
+}
+
+impl Scale {
+    /// Colours for values in `range`, between the levels that are asked for, in so many bands of a map; what is not asked for
+    /// follows from the values.
+    pub(super) fn new(
+        range: [f64; 2],
+        asked: Option<[f64; 2]>,
+        bands: Option<usize>,
+        map: Option<ColourMap>,
+    ) -> Self {
+        let map = map.unwrap_or(if has_both_signs(asked.unwrap_or(range)) {
+            ColourMap::Diverging
+        } else {
+            ColourMap::Viridis
+        });
+        let centred = map == ColourMap::Diverging;
+        let rule = Rule {
+            bands,
+            range: asked,
+            centred,
+        };
+        let levels = Levels::new(range, rule);
+        let colours = map.bands(levels.n_bands());
+        Self { levels, colours }
+    }
 }
 
 /// Where a part of the plane lies in a document, at one scale along both axes and y upwards.

@@ -1,0 +1,193 @@
+//! What MPPD leaves open, read in many ways: how many of its micropolar values each reading meets (Tables 1 to 6).
+
+use anyhow::ensure;
+
+use super::experiment::{Experiment, Findings};
+use super::frequencies;
+use super::named_modes::{self, Frequencies};
+use super::published::published;
+use super::square_elements::SquareLoad;
+use super::statics::{self, Reading, case_of};
+use super::table::{Extent, Labels, Row, Table};
+use super::trial::{Memory, Trial};
+
+/// The experiment.
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "readings",
+    title: "Readings of the micropolar tables",
+    source: "Diana and Casolo (MPPD), Tables 1 to 6",
+    setup: "The plates of `statics` and `frequencies` with the micropolar model, nu = -0.5, 0, 0.1 and 0.25 (at 1/3 k_t is \
+            0, and PDS the same). Readings: k_t constant or of beams, constants from integrals or from sums over each \
+            point's family, k_theta over that of the law, the surface correction, the 10 MPa spread over so many rows \
+            of points or so many rows held, and displacements that are the largest of all points or those in the \
+            middles of the sides. A reading is judged by the printed values it meets to the digits, and by the median \
+            and the largest difference from them.",
+    cases: &[
+        &statics::TRACTION,
+        &statics::SHEAR,
+        &statics::BENDING,
+        &frequencies::CASE,
+    ],
+    compute,
+};
+
+/// Rows of points along a side of the static plates.
+const POINTS: u32 = 61;
+
+/// Spacing of the points, m, and the half-width of the plate with the cells of its outermost points.
+const SPACING: f64 = 0.01;
+const HALF_WIDTH: f64 = 0.305;
+
+/// Force on a point where the load is on one row, N.
+const FORCE: f64 = 100.0;
+
+fn compute(extent: Extent) -> anyhow::Result<Findings> {
+    let mut memory = Memory::default();
+    let statics = published!("mppd-readings-statics").judge(extent, |labels| {
+        score(labels, &mut memory, || static_tables(labels))
+    })?;
+    let mut memory = Memory::default();
+    let frequencies = published!("mppd-readings-frequencies").judge(extent, |labels| {
+        score(labels, &mut memory, || modal_tables(labels))
+    })?;
+    Ok(Findings {
+        tables: vec![statics, frequencies],
+        plots: Vec::new(),
+    })
+}
+
+/// How well a reading meets the printed values.
+#[derive(Debug, Clone, Copy)]
+struct Score {
+    /// Values met to the digits.
+    met: usize,
+    /// Median and largest difference, %.
+    median: f64,
+    largest: f64,
+}
+
+/// The statistic `of` which an entry is, of the tables that its reading leads to.
+fn score(
+    labels: Labels<'_>,
+    memory: &mut Memory<Score>,
+    tables: impl FnOnce() -> anyhow::Result<Vec<Table>>,
+) -> anyhow::Result<f64> {
+    let of = labels.text("of")?;
+    let shown = labels.to_string();
+    let reading = shown.trim_end_matches(of).to_owned();
+    let score = memory.result(reading, || Score::from_tables(&tables()?))?;
+    Ok(match of {
+        "met" => score.met as f64,
+        "median" => score.median,
+        _ => score.largest,
+    })
+}
+
+impl Score {
+    /// The score of tables in which the values that do not count are not computed.
+    fn from_tables(tables: &[Table]) -> anyhow::Result<Self> {
+        let counts = |row: &&Row| row.computed.is_finite() && row.entry.known.value() != 0.0;
+        let rows = || tables.iter().flat_map(|table| &table.rows).filter(counts);
+        let off = |row: &Row| 100.0 * (row.computed / row.entry.known.value() - 1.0).abs();
+        let mut differences: Vec<f64> = rows().map(off).collect();
+        differences.sort_by(f64::total_cmp);
+        ensure!(!differences.is_empty(), "no printed value counts");
+        Ok(Self {
+            met: rows()
+                .filter(|row| row.entry.known.is_rounded_from(row.computed))
+                .count(),
+            median: differences[differences.len() / 2],
+            largest: differences[differences.len() - 1],
+        })
+    }
+}
+
+/// Whether an entry of the paper's tables is one of the micropolar lattice with a k_t.
+fn is_micropolar(printed: Labels<'_>) -> anyhow::Result<bool> {
+    Ok(printed.text("model")? == "MPPD" && printed.text("nu")? != "1/3")
+}
+
+/// Tables 1 to 3 under a reading.
+fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
+    let rows: u32 = reading.text("rows")?.parse()?;
+    let is_largest = reading.text("point")? == "largest";
+    let mut memory = Memory::default();
+    let mut table = |table: super::published::Published, load: SquareLoad| {
+        table.judge(Extent::Full, |printed| {
+            if !is_micropolar(printed)? {
+                return Ok(f64::NAN);
+            }
+            let trial = loaded_on(case_of(load).trial(), load, rows);
+            let trial = with_law(trial, reading)?.set("material.poisson", printed.number("nu")?);
+            let found = memory.reading(&trial, Reading::from_solution)?;
+            let [x, y] = match load {
+                SquareLoad::Shear => found.of_sides,
+                SquareLoad::Traction if !is_largest => found.middle,
+                SquareLoad::Traction | SquareLoad::Bending => found.largest,
+            };
+            Ok(1e3
+                * if printed.text("component")? == "u_x" {
+                    x
+                } else {
+                    y
+                })
+        })
+    };
+    Ok(vec![
+        table(published!("mppd-table-1"), SquareLoad::Traction)?,
+        table(published!("mppd-table-2"), SquareLoad::Shear)?,
+        table(published!("mppd-table-3"), SquareLoad::Bending)?,
+    ])
+}
+
+/// Tables 4 to 6 under a reading.
+fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
+    let rows: u32 = reading.text("rows")?.parse()?;
+    let none = Frequencies::NONE;
+    let mut memory = Memory::default();
+    named_modes::tables(frequencies::TABLES, Extent::Full, |printed| {
+        if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
+            return Ok(none);
+        }
+        let trial = with_law(frequencies::CASE.trial(), reading)?
+            .set("lattice.set.base.bottom", rows)
+            .set("material.poisson", printed.number("nu")?);
+        memory.result(trial.command(), || {
+            Frequencies::from_trial(&trial, frequencies::ALONG)
+        })
+    })
+}
+
+/// A trial with the model of a reading.
+fn with_law(trial: Trial, reading: Labels<'_>) -> anyhow::Result<Trial> {
+    Ok(trial
+        .set("model.law", reading.text("law")?)
+        .set("model.calibration", reading.text("calibration")?)
+        .set("model.rotational_factor", reading.number("k_theta")?)
+        .set("correction.surface", reading.text("surface")?))
+}
+
+/// A trial whose load is spread over so many outermost rows of points.
+fn loaded_on(trial: Trial, load: SquareLoad, rows: u32) -> Trial {
+    match load {
+        SquareLoad::Traction => trial
+            .set("lattice.set.top.top", rows)
+            .set("lattice.set.bottom.bottom", rows),
+        SquareLoad::Bending => trial
+            .set("lattice.set.left.left", rows)
+            .set("lattice.set.right.right", rows),
+        SquareLoad::Shear => {
+            let (far, near) = (HALF_WIDTH, HALF_WIDTH - SPACING * f64::from(rows));
+            let total = FORCE * f64::from(POINTS - 2 * rows);
+            trial
+                .set("lattice.set.top.box", [[-near, near], [near, far]])
+                .set("lattice.set.bottom.box", [[-near, -far], [near, -near]])
+                .set("lattice.set.left.box", [[-far, -near], [-near, near]])
+                .set("lattice.set.right.box", [[near, -near], [far, near]])
+                .set("load.0.force.x", total)
+                .set("load.1.force.x", -total)
+                .set("load.2.force.y", total)
+                .set("load.3.force.y", -total)
+        }
+    }
+}
