@@ -1,4 +1,4 @@
-//! MBB-PD on square lattices: numbers of an independent calculation, energy and equilibrium of uniform strains, moduli of the infinite
+//! MBB-PD on lattices: numbers of an independent calculation, energy and equilibrium of uniform strains, moduli of the infinite
 //! lattice, and stability.
 #![allow(clippy::unwrap_used)]
 
@@ -291,5 +291,67 @@ fn free_plates_are_stable() {
         let zeros = eigenvalues.iter().filter(|it| it.abs() < small).count();
         let negative = eigenvalues.iter().filter(|it| **it <= -small).count();
         assert_eq!((zeros, negative), (3, 0), "{name}");
+    }
+}
+
+/// Rectangular cells (dx and dy of eq. 19): at every point of a plate with a hole the energy of a uniform strain is that of the continuum,
+/// and the strains of all bonds are the uniform ones; more than 2 m rows inside no force is left. All to rounding.
+#[test]
+fn uniform_strains_are_exact_on_rectangular_cells() {
+    for [dx, dy] in [[0.001_f64, 0.0015], [0.0021, 0.001]] {
+        for (form, horizon) in [("full", "3.0"), ("full", "4.0"), ("rows", "3.0")] {
+            let spacing = format!("lattice.spacing=[{dx}, {dy}]");
+            let corner = format!("lattice.corner=[{}, {}]", -20.5 * dx, -20.5 * dy);
+            let [form, horizon] = [
+                format!("model.form={form}"),
+                format!("model.horizon_factor={horizon}"),
+            ];
+            let settings = [
+                &spacing,
+                &form,
+                &horizon,
+                &corner,
+                "lattice.cells=[41, 41]",
+                ANISOTROPIC,
+            ];
+            let hole = "lattice.remove=[{ circle = { centre = [0.01, 0.005], radius = 0.0041 } }]";
+            let bench = Bench::new(PLATE, &[settings.as_slice(), &[hole]].concat());
+            let swept = sweep(&bench, &whole(&bench), linear);
+            let off = swept.deformations.iter().flat_map(|deformation| {
+                let found = deformation.strain();
+                [0, 1, 2].map(|place| (found[place] - STRAIN[place]).abs())
+            });
+            assert!(off.fold(0.0, f64::max) < 1e-12, "{spacing} {form}");
+            let strain = Vector3::from(STRAIN);
+            let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
+            let expected = 0.5 * strain.dot(&(plane_stiffness(&bench) * strain)) * volume;
+            assert!(
+                relative_error(swept.stored_energy, expected) < 1e-12,
+                "{spacing} {form}"
+            );
+            let solid = Bench::new(PLATE, &settings);
+            let swept = sweep(&solid, &whole(&solid), linear);
+            let reach = 2.0 * 4.0 * dx.min(dy);
+            let largest = |inside: bool| {
+                let points = solid.positions().iter().enumerate();
+                let is_inside =
+                    |[x, y]: [f64; 2]| x.abs() < 20.0 * dx - reach && y.abs() < 20.0 * dy - reach;
+                points
+                    .filter(|(_, at)| is_inside(**at) == inside)
+                    .flat_map(|(point, _)| {
+                        let range = solid.model.system.layout().range(point as u32);
+                        &swept.internal.values[range]
+                    })
+                    .fold(0.0_f64, |largest, force| largest.max(force.abs()))
+            };
+            assert!(
+                largest(true) < 1e-12 * swept.internal.force_scale,
+                "{spacing} {form}"
+            );
+            assert!(
+                largest(false) > 1e-2 * swept.internal.force_scale,
+                "{spacing} {form}"
+            );
+        }
     }
 }

@@ -97,6 +97,7 @@ macro_rules! experiments {
 experiments!(
     frequencies,
     statics,
+    readings,
     lamina,
     tension,
     directions,
@@ -110,6 +111,7 @@ experiments!(
     plates,
     cylinder,
     cracks,
+    cost,
     patch_test,
     bars,
     ring,

@@ -14,7 +14,7 @@ Bonds that a pre-crack cuts, or touches with an end, are broken from the start. 
     pip install -r tools/requirements-reference.txt
     python tools/reference_mbb_pd.py [DIRECTORY]        # default: tests/reference beside this script's folder
 
-writes DIRECTORY/mbb-pd-*.csv and prints what it finds (three minutes).  SI units, thickness 1 mm.  Unknowns of a point: u_x, u_y.  Points are the centres of square
+writes DIRECTORY/mbb-pd-*.csv and prints what it finds (ten minutes).  SI units, thickness 1 mm.  Unknowns of a point: u_x, u_y.  Points are the centres of square
 cells, numbered along x first, from 1 in the files; the origin is in the middle of the grid.
 """
 import sys
@@ -206,8 +206,38 @@ def demand(lattice, S, s_I, g_II):
     return np.hypot(np.maximum(normal, 0) / s_I, xy / g_II)
 
 
-def exact_path(lattice, held, value, nu, safe, events, fold=None, stop=0.0, tie=TIE):
-    """The exact path: a row an event (load factor, force work-conjugate to `value`, energy, bonds, gap to the next bond).
+def printed_stretches(lattice, nu, mode, G_c=FRACTURE_ENERGY):
+    """s_c of the points as printed (C.4 in mode "I", C.9 in mode "M"): half the sum over the bonds that a point has left.
+
+    The micro-modulus of a bond has the mean psi of its ends; cot(90 degrees) is 0.
+    """
+    K_1, K_2, K_6 = lattice.c.sum(axis=1)
+    x, y = np.abs(lattice.p) * lattice.d, np.abs(lattice.q) * lattice.d
+    shear, sine = (lattice.p != 0) & (lattice.q != 0), y / np.hypot(x, y)
+    tan, cot = np.divide(y, x, out=np.zeros(len(x)), where=shear), np.divide(x, y, out=np.zeros(len(x)), where=shear)
+    of_1, of_6, of_V = (nu**2, sine**2, K_2) if mode == "I" else ((tan - nu)**2, (1 + sine)**2, K_1)
+    sums = np.where(shear, (of_1 * K_1 + 0.5 * tan * of_6 * K_6) * x + (K_2 + 0.5 * cot * of_6 * K_6) * y, of_V * y)
+    sums = sums * np.abs(lattice.q) * lattice.intact * 0.5 * (lattice.psi[lattice.j] + lattice.psi[lattice.k])
+    of_points = 0.5 * (np.bincount(lattice.j, sums, lattice.n) + np.bincount(lattice.k, sums, lattice.n))
+    with np.errstate(divide="ignore"):
+        return np.sqrt(2 * G_c * lattice.d * THICKNESS / lattice.V**2 / of_points)
+
+
+def printed_demand(lattice, S, nu, mode):
+    """r of each bond as printed: own stretch of H and V bonds, angle (A.6) of S bonds over s_c sin(t) or s_c (1 +- sin(t))."""
+    xx, yy, xy = S.reshape(3, -1)
+    s_c = printed_stretches(lattice, nu, mode)
+    s_c = np.minimum(s_c[lattice.j], s_c[lattice.k])
+    shear = (lattice.p != 0) & (lattice.q != 0)
+    tan = np.divide(lattice.q, lattice.p, out=np.ones(len(xx)), where=shear)
+    angle, sine = (xy + xx / tan + yy * tan) * np.sign(tan), np.abs(lattice.q) / np.hypot(lattice.p, lattice.q)
+    sine = np.where(shear, sine, 0.5)
+    of_angle = angle / sine if mode == "I" else np.abs(angle) / (1 + np.where(angle * yy < 0, -1, 1) * sine)
+    return np.maximum(np.where(lattice.q == 0, xx, np.where(lattice.p == 0, yy, of_angle)) / s_c, 0)
+
+
+def exact_path(lattice, held, value, nu, safe, events, fold=None, stop=0.0, tie=TIE, mode=None):
+    """The exact path, with the criterion as printed in a `mode`, "I" or "M", if one is given: a row an event (load factor, force work-conjugate to `value`, energy, bonds, gap to the next bond).
 
     `safe` points keep their bonds.  With `fold` (2n, unknowns) displacements are those of a symmetric body.
     """
@@ -221,7 +251,9 @@ def exact_path(lattice, held, value, nu, safe, events, fold=None, stop=0.0, tie=
         start = start or force
         if force < max(1e-3 * start, 0.0):                      # it is in parts
             break
-        r = demand(lattice, body.B @ (u if fold is None else fold @ u), *limit) * (breakable & (body.w > 0))
+        S = body.B @ (u if fold is None else fold @ u)
+        r = demand(lattice, S, *limit) if mode is None else printed_demand(lattice, S, nu, mode)
+        r = r * (breakable & (body.w > 0))
         largest = r.max()
         bonds = np.flatnonzero(r >= largest * (1 - tie))
         rest = np.delete(r, bonds).max()
@@ -310,8 +342,8 @@ CRACKS = {"central": [[(-0.005, 0.0), (0.005, 0.0)]], "hole": [],
           "three": [[(-0.06, 0.0), (-0.04, 0.0)], [(0.04, 0.0), (0.06, 0.0)], [(0.0, 0.04), (0.0, 0.06)]]}
 
 
-def fracture(case, d, stop=0.8, tie=TIE):
-    """Section 4.3: the exact path of a plate.  The central crack and the square hole by quarters."""
+def fracture(case, d, stop=0.8, tie=TIE, mode=None):
+    """Section 4.3: the exact path of a plate, with the criterion as printed in a `mode` if one is given.  The central crack and the square hole by quarters."""
     hole = 0.005
     parts = {} if case != "hole" else {"keep": lambda x: np.abs(x).max(axis=1) > hole, "across": through_square(hole)}
     plate = square(d, **parts)
@@ -320,11 +352,11 @@ def fracture(case, d, stop=0.8, tie=TIE):
     if case == "three":
         held, value = held_rows(plate, [(plate.row == 0, (None, 0.0)), (plate.row == last, (None, 1.0))])
         held[0] = True                                          # the whole may move along x
-        return plate, exact_path(plate, held, value, 0.3, safe, 10**6, None, stop, tie)
+        return plate, exact_path(plate, held, value, 0.3, safe, 10**6, None, stop, tie, mode)
     fold, part = quarter(plate)
     top = plate.row[part] == last
     held, value = np.r_[np.zeros(len(part), bool), top], np.r_[np.zeros(len(part)), 0.5 * top]
-    return plate, exact_path(plate, held, value, 0.3, safe, 10**6, fold, stop, tie)
+    return plate, exact_path(plate, held, value, 0.3, safe, 10**6, fold, stop, tie, mode)
 
 
 # 14 x 11 points 2 mm apart: lower row held, upper row moved by (10, 20) um where a set says nothing else.
@@ -398,12 +430,22 @@ def peaks(folder):
     write(folder / "mbb-pd-peaks.csv", "case,d,first,first_strain,peak,peak_strain,broken", rows)
 
 
+def printed(_):
+    """Prints first breakage and peak of the plates with the criterion as printed, and the bonds broken beside the line y = 0."""
+    for case in ("central", "three", "hole"):
+        for mode in "IM":
+            plate, path = fracture(case, 2e-3, 0.5, TIE, mode)
+            stress, broken = [row[1] / (SIDE * THICKNESS) for row in path], np.concatenate([row[3] for row in path[:-1]])
+            beside = (plate.x[plate.j[broken], 1] * plate.x[plate.k[broken], 1] > 0).sum()
+            print(case, "as printed,", mode, stress[0], max(stress), f"{beside} of {len(broken)} beside")
+
+
 def units(folder):
     write(folder / "mbb-pd-units.csv", "name,value", unit_values())
 
 
 def main(folder):
-    for part in units, small_plates, small_breaks, peaks:
+    for part in units, small_plates, small_breaks, peaks, printed:
         part(folder)
 
 

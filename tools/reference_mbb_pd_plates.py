@@ -8,7 +8,7 @@ how far from it the model should be.  The bodies of the elements end where the p
     pip install -r tools/requirements-reference.txt
     python tools/reference_mbb_pd_plates.py [DIRECTORY]     # default: tests/reference beside this script's folder
 
-writes DIRECTORY/mbb-pd-elements.csv (mm and um) and mbb-pd-lattice.csv (SI); four minutes.
+writes DIRECTORY/mbb-pd-elements.csv (mm and um) and mbb-pd-lattice.csv (SI), and prints the sheared plate at all ratios; six minutes.
 """
 import sys
 from pathlib import Path
@@ -30,14 +30,14 @@ def conditions(problem, x, y, bottom, top, left):
     return [(bottom | top | (left if problem == "thermal-left" else False), (0.0, 0.0))]
 
 
-def material(problem):
-    """Plane stress, nu = 0.3 in shear, 0.4 in the thermal problems; and the strain that the temperature gives."""
+def material(problem, nu=0.3):
+    """Plane stress, `nu` in shear, 0.4 in the thermal problems; and the strain that the temperature gives."""
     if problem == "shear":
-        return isotropic_tensor(YOUNG, 0.3), np.zeros(3)
+        return isotropic_tensor(YOUNG, nu), np.zeros(3)
     return isotropic_tensor(YOUNG, 0.4), EXPANSION * 50.0 * np.array([1.0, 1.0, 0.0])
 
 
-def finite_elements(problem, d, n):
+def finite_elements(problem, d, n, nu=0.3):
     """Displacements (n, 2) of the continuum at points, and the force along x on the top, as a function.
 
     The body ends where the prescribed points of the lattice stand, d/2 inside of its sides; n x n biquadratic elements,
@@ -46,7 +46,7 @@ def finite_elements(problem, d, n):
     half, graded = SIDE / 2, 0.5 * (1 - np.cos(np.pi * np.linspace(0, 1, n + 1)))
     low_x, low_y, high_y = -half + (d / 2 if problem == "thermal-left" else 0.0), -half + d / 2, half - d / 2
     axes = low_x + (half - low_x) * graded, low_y + (high_y - low_y) * graded
-    C, expansion = material(problem)
+    C, expansion = material(problem, nu)
     body = Continuum(CurvedMesh.from_mesh(MeshQuad.init_tensor(*axes)), C)
     stress = C @ expansion
 
@@ -66,9 +66,9 @@ def finite_elements(problem, d, n):
     return lambda points: body.at(points, u), force
 
 
-def lattice_solution(problem, d):
+def lattice_solution(problem, d, nu=0.3):
     """The same on the lattice: (n, 2) and the force along x on the top row."""
-    C, expansion = material(problem)
+    C, expansion = material(problem, nu)
     plate = square(d, c=C)
     last = plate.ny - 1
     held, value = held_rows(plate, conditions(problem, *plate.x.T, plate.row == 0, plate.row == last, plate.column == 0))
@@ -77,6 +77,13 @@ def lattice_solution(problem, d):
     u = body.solve(held, value, thermal=thermal)
     force = body.K @ u - body.B.T @ (body.C @ thermal)
     return plate, u.reshape(2, -1).T, force[:plate.n][plate.row == last].sum()
+
+
+def shear(d, nu):
+    """Force on the top, N, and u_y at the right end of the row above the middle, um: by finite elements, then of the lattice."""
+    (at, force), (plate, u, lattice_force) = finite_elements("shear", d, 60, nu), lattice_solution("shear", d, nu)
+    side = np.flatnonzero((plate.column == plate.nx - 1) & (plate.row == plate.ny // 2))
+    return force, 1e6 * at(plate.x[side])[0, 1], lattice_force, 1e6 * u[side[0], 1]
 
 
 def tension(d, nu, axis, stress=200e6):
@@ -174,6 +181,9 @@ def plates(folder):
     write(folder / "mbb-pd-lattice.csv", "problem,d,nu,quantity,value", lattice)
     for row in lattice:
         print(*row)
+    for d in (2e-3, 1e-3, 5e-4):
+        for nu in (-0.4, -0.2, 0.0, 0.2, 0.4):
+            print("shear", d, nu, *shear(d, nu))
 
 
 if __name__ == "__main__":

@@ -79,7 +79,7 @@ impl Kinematics {
             ElementKind::Pairwise => Kinematics::Pairwise(PairwiseElements {
                 lattice: lattice(),
                 row_factors: mbb_pd::pairwise::row_factors(bonds, cloud),
-                spacing: cloud.spacing.clone(),
+                spacing: cloud.cell_size(0),
             }),
         }
     }

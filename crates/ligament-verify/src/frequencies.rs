@@ -50,6 +50,14 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
     })?;
     let plots = tables.iter().map(plot).collect::<Result<_, _>>()?;
+    let errors = named_modes::errors(published!("mppd-errors"), extent, &tables, |labels| {
+        let (nu, model) = (labels.text("nu")?, labels.text("model")?);
+        Ok([
+            format!("nu={nu}, model={model}, of=lattice"),
+            format!("nu={nu}, model=MPPD, of=finite elements"),
+        ])
+    })?;
+    let tables = tables.into_iter().chain([errors]).collect();
     Ok(Findings { tables, plots })
 }
 

@@ -44,9 +44,13 @@ const FINE: u32 = 160;
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
     let middle = tables(extent, &mut memory, MIDDLE)?;
+    let errors = named_modes::errors(published!("omppd-errors"), extent, &middle, |labels| {
+        let angle = labels.text("angle")?;
+        Ok(["lattice", "finite elements"].map(|of| format!("angle={angle}, of={of}")))
+    })?;
     let mut findings = Findings {
         plots: middle.iter().map(of_angle).collect::<Result<_, _>>()?,
-        tables: middle.clone(),
+        tables: middle.iter().cloned().chain([errors]).collect(),
     };
     if extent == Extent::Full {
         let coarse = tables(extent, &mut memory, COARSE)?;

@@ -23,6 +23,7 @@ use ligament::suggestion::hint;
 
 mod anisotropy;
 mod bars;
+mod cost;
 mod crack_path;
 mod cracks;
 mod cylinder;
@@ -69,7 +70,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 23] = [
+pub static EXPERIMENTS: [Experiment; 24] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -88,6 +89,7 @@ pub static EXPERIMENTS: [Experiment; 23] = [
     plates::EXPERIMENT,
     cylinder::EXPERIMENT,
     cracks::EXPERIMENT,
+    cost::EXPERIMENT,
     patch_test::EXPERIMENT,
     bars::EXPERIMENT,
     ring::EXPERIMENT,

@@ -1,10 +1,10 @@
 //! The modes of a cantilever by their names.
 
-use anyhow::ensure;
+use anyhow::{Context, ensure};
 use ligament_analysis::modal::Mode;
 
 use super::published::Published;
-use super::table::{Extent, Labels, Table};
+use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::Trial;
 
 /// The modes of the three tables in the papers.
@@ -67,4 +67,26 @@ pub(super) fn tables(
         table.judge(extent, |labels| frequencies(labels).map(frequency))
     };
     published.into_iter().zip(MODES).map(table).collect()
+}
+
+/// A table of the distances of the lattice from the finite elements, %: of an entry for the table of a number, from the rows
+/// of that table with the labels of the lattice and of the elements.
+pub(super) fn errors(
+    published: Published,
+    extent: Extent,
+    tables: &[Table],
+    rows: impl Fn(Labels<'_>) -> Result<[String; 2], LabelError>,
+) -> anyhow::Result<Table> {
+    published.judge(extent, |labels| {
+        let name = format!("-table-{}", labels.text("table")?);
+        let table = (tables.iter())
+            .find(|table| table.heading.name.ends_with(&name))
+            .context("no such table")?;
+        let frequency = |of: &str| {
+            let found = table.computed(&table.heading.keys[0], of)?;
+            found.first().map(|it| it[1]).context("no such frequency")
+        };
+        let [lattice, elements] = rows(labels)?;
+        Ok(100.0 * (frequency(&lattice)? / frequency(&elements)? - 1.0).abs())
+    })
 }

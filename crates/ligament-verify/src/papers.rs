@@ -50,7 +50,7 @@ pub(super) struct Item {
 /// What compares an item.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Comparison {
-    /// Nothing to compare: a sketch, a mesh.
+    /// No result: a sketch, a mesh.
     NoResult,
     /// Nothing, though it is a result.
     NotComputed,

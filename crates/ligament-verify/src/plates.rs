@@ -16,7 +16,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     title: "Plates of imaginary elements",
     source: "closed form, finite elements, independent calculation; Masoumi, Ravandi and Salehi (MBB-PD), section 4.1",
     setup: "Plate 100 x 100 x 1 mm, E = 65.8 GPa, plane stress, m = 3. Tension: 200 MPa on the outer rows of points along y, or \
-            columns along x. Shear: u_x = 1 mm and u_y = 0 on the upper row, the lower one held, nu = 0.3. Heated by 50 K: nu = 0.4, \
+            columns along x. Shear: u_x = 1 mm and u_y = 0 on the upper row, the lower one held, nu = 0.3 and the five ratios of the paper, \
+            which does not name them for shear. A is taken as the middle of the right side, at the row above it. Heated by 50 K: nu = 0.4, \
             23e-6 1/K, upper and lower row held (thermal), and the left column too (thermal-left). The elements end at the rows \
             that are prescribed.",
     cases: &[&TENSION_Y, &TENSION_X, &SHEAR, &THERMAL, &THERMAL_LEFT],
@@ -71,6 +72,24 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             _ => MICROMETRES * compared.middle,
         })
     })?);
+    let mut sheared = Memory::default();
+    let mut shear = |labels: Labels<'_>| -> anyhow::Result<f64> {
+        let trial = on_lattice(SHEAR.trial(), spacing(labels)?);
+        let trial = trial.set("material.poisson", labels.number("nu")?);
+        let d = spacing(labels)?;
+        let [force, across] = sheared.reading(&trial, |it| {
+            let last = it.outcome.history.last().context("the run has no state")?;
+            let at_side = displacement_at(it, [0.5 * (SIDE - d), 0.5 * d]);
+            Ok([last.reaction, MICROMETRES * at_side[1]])
+        })?;
+        match labels.text("of")? {
+            "force" => Ok(force),
+            "u_y" => Ok(across),
+            other => bail!("of is `force` or `u_y`, not `{other}`"),
+        }
+    };
+    tables.push(published!("mbb-shear").judge(extent, &mut shear)?);
+    tables.push(published!("mbb-shear-lattice").judge(extent, &mut shear)?);
     let plots = vec![plot(&tables[0])?];
     Ok(Findings { tables, plots })
 }

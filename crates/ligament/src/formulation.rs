@@ -212,7 +212,7 @@ pub fn criteria(
             .collect(),
         materials: &materials,
         lattice: Lattice {
-            spacing,
+            spacing: system.cloud.cell_size(0),
             horizon: setup.horizon.at_spacing(spacing),
             thickness: system.cloud.thickness,
             components: if own_rows {

@@ -244,7 +244,7 @@ fn what_does_not_go_together_is_refused_with_a_remedy() {
                 }
             }),
             "law:",
-            "lattice of square cells",
+            "rows and columns of a lattice",
         ),
     ] {
         assert!(

@@ -239,7 +239,7 @@ impl Following<'_> {
         let FirstToBreak { ratio, bonds } = first_to_break(
             self.settings.tie_tolerance,
             &line.deformations,
-            &self.path.problem.criteria,
+            &self.path.criteria(line),
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);

@@ -3,7 +3,10 @@
 //! Equilibria with their energies, the breaking of bonds and the holding of what comes loose, records, and the rules
 //! that end a run.
 
+use std::borrow::Cow;
 use std::time::Instant;
+
+use ligament_model::failure::Criteria;
 
 use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
@@ -240,7 +243,7 @@ impl<'a> Path<'a> {
     ) -> Result<Breakage, SetupError> {
         let load_factor = self.state.load_factor;
         let (displacement, reaction) = self.control(balanced);
-        let criteria = &self.problem.criteria;
+        let criteria = self.criteria(balanced);
         let of_bond = |(place, &bond): (usize, &u32)| {
             let deformation = balanced.deformations[bond as usize];
             let verdict = criteria.breaking(bond as usize, &deformation)?;
@@ -268,6 +271,12 @@ impl<'a> Path<'a> {
         let fragments = self.equilibrium.fragments();
         report_loose(step, fragments, &breakage.holds, self.observer)?;
         Ok(breakage)
+    }
+
+    /// The criteria with the limits of the bonds that are left in an equilibrium.
+    pub(super) fn criteria(&self, balanced: &Balanced) -> Cow<'_, Criteria> {
+        let criteria = &self.problem.criteria;
+        criteria.in_state(&self.state.intact, &balanced.deformations)
     }
 
     fn load_came_loose(&self, holds: &[Hold]) -> bool {
@@ -381,12 +390,13 @@ impl<'a> Path<'a> {
             counters,
         );
         self.course.peak = self.course.peak.max(record.reaction);
+        let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
             system: &*self.problem.system,
             state: &self.state,
             balanced,
             loads: &*self.problem.loads,
-            criteria: &self.problem.criteria,
+            criteria: &criteria,
             fragments: self.equilibrium.fragments(),
             costs: self.equilibrium.costs(),
             is_last,

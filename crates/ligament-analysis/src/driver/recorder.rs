@@ -231,6 +231,7 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
 
 /// Largest utilisation of the intact bonds; 0 without criteria.
 pub(super) fn largest_ratio(state: &State, balanced: &Balanced, criteria: &Criteria) -> f64 {
+    let criteria = criteria.in_state(&state.intact, &balanced.deformations);
     (&state.intact, &balanced.deformations)
         .into_par_iter()
         .enumerate()

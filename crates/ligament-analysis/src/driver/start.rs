@@ -91,7 +91,8 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
 }
 
 impl Start {
-    /// Stiffness and first breakage from the elastic answer: everything is proportional to the load factor.
+    /// Stiffness and first breakage from the elastic answer: everything is proportional to the load factor, but for true strains, which
+    /// foretell no breakage.
     fn read_off(
         &mut self,
         problem: &Problem,
@@ -109,7 +110,8 @@ impl Start {
         );
         self.elastic.stiffness = record.reaction / record.displacement;
         let ratio = largest_ratio(at_one, balanced, &problem.criteria);
-        self.elastic.first_break = (ratio > 0.0).then(|| LoadPoint {
+        let is_foretold = ratio > 0.0 && problem.system.is_linear();
+        self.elastic.first_break = is_foretold.then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,
             reaction: record.reaction / ratio,

@@ -229,7 +229,7 @@ impl Stepping<'_> {
         let next = next_to_break(
             &self.settings.rule,
             &balanced.deformations,
-            &self.path.problem.criteria,
+            &self.path.criteria(balanced),
             &self.path.state.intact,
         );
         self.path.equilibrium.count_bond_work(start);

@@ -47,7 +47,7 @@ pub enum StarterError {
     #[error(transparent)]
     Mesh(#[from] MeshFileError),
     /// The law is for lattices alone.
-    #[error("\"{}\" is a law for square lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
+    #[error("\"{}\" is a law for lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
     NeedsLattice(Law),
 }
 

@@ -7,7 +7,7 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
     assert_eq!(
         error_with("kind = \"compresion\""),
         "60:8: fracture.criterion.0.kind: unknown value \"compresion\"; did you mean \"compression\"? valid values: \
-         \"strength\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\""
+         \"strength\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\", \"printed-opening\", \"printed-sliding\", \"printed-mixed\""
     );
     assert_eq!(
         error_with("kind = \"tension\"\nlimits = 1e-3"),

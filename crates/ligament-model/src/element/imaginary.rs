@@ -1,4 +1,4 @@
-//! The element of MBB-PD: a small imaginary rectangle around a bond of a square lattice, and the strains in it.
+//! The element of MBB-PD: a small imaginary rectangle around a bond of a lattice, and the strains in it.
 //!
 //! | class | bond | rectangle | eqs |
 //! |---|---|---|---|
@@ -63,7 +63,7 @@ pub struct ImaginaryElements {
 }
 
 impl ImaginaryElements {
-    /// The elements of bonds on a square lattice, with stiffnesses D (n_bonds) and positions (n_points).
+    /// The elements of bonds on a lattice, with stiffnesses D (n_bonds) and positions (n_points).
     pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>, stiffness: Vec<StrainStiffness>) -> Self {
         let surroundings = Surroundings::from_bonds(bonds);
         let whole = vec![true; bonds.len()];

@@ -24,8 +24,8 @@ pub struct PairwiseElements {
     pub lattice: ImaginaryElements,
     /// Factors of the rows (xx, yy, xy) of D in the printed forces of each bond, shape (n_bonds).
     pub row_factors: Vec<[f64; 3]>,
-    /// Distance of each point from its nearest one, shape (n_points), m.
-    pub spacing: Vec<f64>,
+    /// Distances of the columns and of the rows of the lattice, m.
+    pub spacing: [f64; 2],
 }
 
 impl Elements<2> for PairwiseElements {
@@ -41,7 +41,6 @@ impl Elements<2> for PairwiseElements {
         bond: usize,
     ) -> PairwiseElement {
         let offset = bonds.direction[bond].map(|cosine| cosine * bonds.length[bond]);
-        let spacing = self.spacing[bonds.ends[bond][0] as usize];
         PairwiseElement {
             strains: self.lattice.element(bonds, rigidities, intact, bond),
             ends: bonds.ends[bond],
@@ -49,7 +48,7 @@ impl Elements<2> for PairwiseElements {
             row_factors: self.row_factors[bond],
             of_rows: of_rows(
                 offset,
-                spacing,
+                self.spacing,
                 BondClass::from_direction(bonds.direction[bond]),
             ),
         }
@@ -117,14 +116,14 @@ impl PairwiseElement {
 }
 
 /// What the rows (xx, yy, xy) give along x and y, without volumes and densities, 1/m.
-fn of_rows(offset: [f64; 2], spacing: f64, class: BondClass) -> [[f64; 3]; 2] {
+fn of_rows(offset: [f64; 2], spacing: [f64; 2], class: BondClass) -> [[f64; 3]; 2] {
     let length = offset[0].hypot(offset[1]);
     let [to_x, to_y] = offset.map(|it| it.signum() / length);
     match class {
         BondClass::Horizontal => [[to_x, 0.0, 0.0], [0.0; 3]],
         BondClass::Vertical => [[0.0; 3], [0.0, to_y, 0.0]],
         BondClass::Shear => {
-            let [p, q] = offset.map(|it| (it.abs() / spacing).round() as u32);
+            let [p, q] = [0, 1].map(|axis| (offset[axis].abs() / spacing[axis]).round() as u32);
             let multiple = f64::from(greatest_common_divisor(p, q));
             let tan = (offset[1] / offset[0]).abs();
             [
@@ -218,7 +217,7 @@ mod tests {
     #[test]
     fn shear_pulls_along_both_axes() {
         let length = 8.0_f64.sqrt();
-        let found = of_rows([2.0, 2.0], 1.0, BondClass::Shear);
+        let found = of_rows([2.0, 2.0], [1.0; 2], BondClass::Shear);
         assert_eq!(
             found,
             [
@@ -227,7 +226,7 @@ mod tests {
             ]
         );
         let length = 5.0_f64.sqrt();
-        let found = of_rows([-2.0, 1.0], 1.0, BondClass::Shear);
+        let found = of_rows([-2.0, 1.0], [1.0; 2], BondClass::Shear);
         assert_eq!(
             found,
             [

@@ -140,7 +140,7 @@ fn for_every_element(mut check: impl Check) {
     let pairwise = |bonds: &BondSet, positions: &[[f64; 2]]| PairwiseElements {
         lattice: lattice(bonds, positions),
         row_factors: vec![[1.2, 0.9, 1.1]; bonds.len()],
-        spacing: vec![0.35; positions.len()],
+        spacing: [0.35; 2],
     };
     let promise = Promise {
         energy: false,

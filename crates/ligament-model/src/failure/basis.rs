@@ -17,7 +17,7 @@ pub struct Basis<'a> {
     pub materials: &'a [Material],
     /// The elastic constants that the law makes of those of each material; none with axes, shape (n_materials).
     pub constants: Vec<Option<Isotropic>>,
-    /// The bonds as a square lattice far from its edges, for those with strains of their own.
+    /// The bonds as a lattice far from its edges, for those with strains of their own.
     pub lattice: Lattice,
 }
 

@@ -31,6 +31,7 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
                 after: after(&choice.after, &limits.limit, basis).map_err(at_place)?,
                 limit: limits.limit,
                 coefficient: limits.coefficient,
+                crack_at_points: limits.crack_at_points,
             });
         }
     }

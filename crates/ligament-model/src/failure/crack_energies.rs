@@ -1,7 +1,8 @@
-//! Critical stretch and critical angle of the bonds of a square lattice with strains of their own, from the fracture energies
+//! Critical stretch and critical angle of the bonds of a lattice with strains of their own, from the fracture energies
 //! (MBB-PD: Masoumi, Ravandi and Salehi, section 2.4 and appendix C).
 //!
-//! A crack along a row, as long as a cell is wide, cuts q bonds of each offset (p, q) with q > 0, to either side p and -p (Fig. 8);
+//! A crack along a row, as long as a cell is wide, cuts q bonds of each offset (p, q) with q > 0, to either side p and -p (Fig. 8; the
+//! offset is (p dx, q dy) where cells are rectangles);
 //! that is what the printed 12 and 32 for m = 3 stand for, each counted once: 6 vertical bonds and 12 others. The weight of a bond
 //! is that far from all edges, and its strain energy 1/2 psi V^2 abs(xi) S^T c S.
 
@@ -18,11 +19,11 @@ pub enum Components {
     OwnRows,
 }
 
-/// A square lattice far from its edges.
+/// A lattice far from its edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lattice {
-    /// Distance of the rows, m.
-    pub spacing: f64,
+    /// Distances of the columns and of the rows, m.
+    pub spacing: [f64; 2],
     /// Horizon, m.
     pub horizon: f64,
     /// Thickness of the body, m.
@@ -45,8 +46,8 @@ pub struct Toughness {
 pub struct Limits {
     /// Critical stretches of mode I s_I for a crack that opens along x, and along y.
     pub stretch: [f64; 2],
-    /// Critical angle of mode II gamma_II, rad.
-    pub angle: f64,
+    /// Critical angles of mode II gamma_II for a crack that lies across x, and across y, rad.
+    pub angle: [f64; 2],
 }
 
 /// Sums over the bonds of a lattice that a crack cuts. The energy of the crack per area is the sum, J/m^2, times the square
@@ -55,21 +56,31 @@ pub struct Limits {
 pub struct CrackEnergies {
     /// Sums for a crack that opens along x, and along y, times the square of the stretch.
     pub opening: [f64; 2],
-    /// Sum for a crack that slides, times the square of the angle.
-    pub sliding: f64,
+    /// Sums for a crack that lies across x, and across y, and slides, times the square of the angle.
+    pub sliding: [f64; 2],
 }
 
 impl Lattice {
     /// Offsets (p, q) of the bonds of a point in spacings, half of them: q > 0, or q = 0 and p > 0.
     pub fn offsets(&self) -> Vec<[i32; 2]> {
-        let ratio = self.horizon / self.spacing * (1.0 + INCLUSION_TOLERANCE);
-        let reach = ratio as i32;
-        let is_inside = |[p, q]: &[i32; 2]| f64::from(*p).hypot(f64::from(*q)) <= ratio;
-        (0..=reach)
-            .flat_map(|q| (-reach..=reach).map(move |p| [p, q]))
+        let horizon = self.horizon / self.spacing[0] * (1.0 + INCLUSION_TOLERANCE);
+        let [columns, rows] = [horizon, horizon / self.height()].map(|reach| reach as i32);
+        let is_inside = |offset: &[i32; 2]| self.length(*offset) <= horizon;
+        (0..=rows)
+            .flat_map(|q| (-columns..=columns).map(move |p| [p, q]))
             .filter(|[p, q]| *q > 0 || *p > 0)
             .filter(is_inside)
             .collect()
+    }
+
+    /// Height of a cell over its width.
+    fn height(&self) -> f64 {
+        self.spacing[1] / self.spacing[0]
+    }
+
+    /// Length of the bond with an offset in spacings, in widths of a cell.
+    fn length(&self, [p, q]: [i32; 2]) -> f64 {
+        f64::from(p).hypot(f64::from(q) * self.height())
     }
 
     /// Energies of cracks along the rows for the stiffness c of the plane (Pa).
@@ -77,7 +88,7 @@ impl Lattice {
     /// Opening along y (C.4), with the sums K_i = psi_i (c_i1 + c_i2) of the rows of the stiffness, K_6 = psi_6 c_66, the effective
     /// Poisson's ratio nu, and the angle theta of a bond to the crack, 0 to 90 degrees:
     ///
-    /// G = s^2 V^2/(2 d h) sum q [vertical: K_2 abs(xi_y); others: (nu^2 K_1 + 1/2 K_6 tan(theta) sin^2(theta)) abs(xi_x) +
+    /// G = s^2 V^2/(2 dx h) sum q [vertical: K_2 abs(xi_y); others: (nu^2 K_1 + 1/2 K_6 tan(theta) sin^2(theta)) abs(xi_x) +
     ///     (K_2 + 1/2 K_6 cot(theta) sin^2(theta)) abs(xi_y)].
     ///
     /// nu is the contraction of the body along the crack under stress across it, -S_12/S_22 of the compliance: nu itself in plane
@@ -86,14 +97,25 @@ impl Lattice {
     ///
     /// Sliding, from (C.1) with the strain (0, 0, gamma) of all bonds that resist it, in place of (C.7):
     ///
-    /// G = gamma^2 V^2/(2 d h) psi_6 c_66 sum q abs(xi).
+    /// G = gamma^2 V^2/(2 dx h) psi_6 c_66 sum q abs(xi).
     pub fn crack_energies(&self, stiffness: &Matrix3<f64>) -> CrackEnergies {
-        let offsets = self.offsets();
         let exchange = Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
         let exchanged = exchange * stiffness * exchange;
+        let [dx, dy] = self.spacing;
+        let upright = Self {
+            spacing: [dy, dx],
+            ..*self
+        };
+        let (offsets, of_upright) = (self.offsets(), upright.offsets());
         CrackEnergies {
-            opening: [exchanged, *stiffness].map(|c| self.opening(&offsets, &c)),
-            sliding: self.sliding(&offsets, stiffness),
+            opening: [
+                upright.opening(&of_upright, &exchanged),
+                self.opening(&offsets, stiffness),
+            ],
+            sliding: [
+                upright.sliding(&of_upright, &exchanged),
+                self.sliding(&offsets, stiffness),
+            ],
         }
     }
 
@@ -128,18 +150,18 @@ impl Lattice {
         })
     }
 
-    /// V^2/(2 d h) times the sum over the bonds that a crack along x cuts, as wide as a cell, of a function of (abs(xi_x), xi_y)
+    /// V^2/(2 dx h) times the sum over the bonds that a crack along x cuts, as wide as a cell, of a function of (abs(xi_x), xi_y)
     /// and abs(xi).
     fn over_crack(&self, offsets: &[[i32; 2]], of_bond: impl Fn([f64; 2], f64) -> f64) -> f64 {
-        let (d, h) = (self.spacing, self.thickness);
+        let ([dx, dy], h) = (self.spacing, self.thickness);
         let crossing = offsets.iter().filter(|[_, q]| *q > 0);
         let sum: f64 = crossing
             .map(|&[p, q]| {
-                let [x, y] = [p.abs(), q].map(|it| f64::from(it) * d);
+                let [x, y] = [f64::from(p.abs()) * dx, f64::from(q) * dy];
                 f64::from(q) * of_bond([x, y], x.hypot(y))
             })
             .sum();
-        self.cell_volume().powi(2) / (2.0 * d * h) * sum
+        self.cell_volume().powi(2) / (2.0 * dx * h) * sum
     }
 
     /// psi_1 = psi_2 and psi_6 of a point with all its neighbours, 1/m^4: 2 over the volume times the lengths of the bonds that
@@ -147,10 +169,7 @@ impl Lattice {
     fn densities(&self, offsets: &[[i32; 2]]) -> [f64; 2] {
         let lengths = |resists: &dyn Fn(&[i32; 2]) -> bool| -> f64 {
             let resisting = offsets.iter().filter(|it| resists(it));
-            2.0 * self.spacing
-                * resisting
-                    .map(|&[p, q]| f64::from(p).hypot(f64::from(q)))
-                    .sum::<f64>()
+            2.0 * self.spacing[0] * resisting.map(|&it| self.length(it)).sum::<f64>()
         };
         let of_sum = |sum: f64| 2.0 / (self.cell_volume() * sum);
         match self.components {
@@ -163,7 +182,7 @@ impl Lattice {
     }
 
     fn cell_volume(&self) -> f64 {
-        self.spacing * self.spacing * self.thickness
+        self.spacing[0] * self.spacing[1] * self.thickness
     }
 }
 
@@ -172,7 +191,7 @@ impl CrackEnergies {
     pub fn limits(&self, toughness: &Toughness) -> Limits {
         Limits {
             stretch: self.opening.map(|it| (toughness.opening / it).sqrt()),
-            angle: (toughness.sliding / self.sliding).sqrt(),
+            angle: self.sliding.map(|it| (toughness.sliding / it).sqrt()),
         }
     }
 }
@@ -193,7 +212,7 @@ mod tests {
 
     fn lattice(ratio: f64, spacing: f64) -> Lattice {
         Lattice {
-            spacing,
+            spacing: [spacing; 2],
             horizon: ratio * spacing,
             thickness: 1e-3,
             components: Components::All,
@@ -228,10 +247,12 @@ mod tests {
                     "{ratio} {spacing}: {found:?}"
                 );
             }
-            assert!(
-                (found.angle - angle).abs() < 5.1e-7,
-                "{ratio} {spacing}: {found:?}"
-            );
+            for of_axis in found.angle {
+                assert!(
+                    (of_axis - angle).abs() < 5.1e-7,
+                    "{ratio} {spacing}: {found:?}"
+                );
+            }
         }
         let rows = Lattice {
             components: Components::OwnRows,
@@ -239,7 +260,7 @@ mod tests {
         };
         let found = limits(&rows);
         assert!((found.stretch[1] - 0.008814).abs() < 5.1e-7, "{found:?}");
-        assert!((found.angle - 0.017514).abs() < 5.1e-7, "{found:?}");
+        assert!((found.angle[1] - 0.017514).abs() < 5.1e-7, "{found:?}");
     }
 
     /// Families of m = 2, 3, 3.015 and 4: 12, 28, 28 and 48 neighbours.
@@ -252,6 +273,39 @@ mod tests {
                 "{ratio}"
             );
         }
+    }
+
+    /// Cells twice as high as wide, m = 3: by hand (p, q) = (1, 0), (2, 0), (3, 0), (0, 1) and (+-1, 1), (+-2, 1), of which those with q > 0
+    /// cross a row. The energy of sliding in closed form; lying cells exchange both axes.
+    #[test]
+    fn rectangular_cells_have_a_value_for_each_axis() {
+        let upright = Lattice {
+            spacing: [1e-3, 2e-3],
+            horizon: 3e-3,
+            ..lattice(3.0, 1e-3)
+        };
+        assert_eq!(upright.offsets().len(), 8);
+        let c = MATERIAL.plane_stiffness(Plane::Stress);
+        let energies = upright.crack_energies(&c);
+        // In widths of a cell: 1 + 2 + 3 along x, 2 + 2 sqrt(5) + 2 sqrt(8) across the row.
+        let across = 2.0 + 2.0 * (5.0_f64.sqrt() + 8.0_f64.sqrt());
+        let (all, volume) = (2.0 * (6.0 + across) * 1e-3, 2e-9);
+        let psi = 2.0 / (volume * all);
+        let expected = volume * volume / (2.0 * 1e-3 * 1e-3) * psi * c[(2, 2)] * across * 1e-3;
+        assert!((energies.sliding[1] / expected - 1.0).abs() < 1e-12);
+        let lying = Lattice {
+            spacing: [2e-3, 1e-3],
+            ..upright
+        };
+        let exchanged = lying.crack_energies(&c);
+        for axis in 0..2 {
+            assert!((exchanged.sliding[1 - axis] / energies.sliding[axis] - 1.0).abs() < 1e-12);
+            assert!((exchanged.opening[1 - axis] / energies.opening[axis] - 1.0).abs() < 1e-12);
+        }
+        assert!(
+            energies.sliding[0] > 1.2 * energies.sliding[1]
+                || energies.sliding[1] > 1.2 * energies.sliding[0]
+        );
     }
 
     /// Of a lamina the stiffer direction opens at the smaller stretch, and turning it by a right angle exchanges both; c_16 does
@@ -275,7 +329,7 @@ mod tests {
         let is_same = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-12;
         assert!(is_same(along.stretch[0], across.stretch[1]));
         assert!(is_same(along.stretch[1], across.stretch[0]));
-        assert!(is_same(along.angle, across.angle));
+        assert!(is_same(along.angle[0], across.angle[0]));
         let [left, right] = [0.5, -0.5].map(lamina);
         assert!(is_same(left.stretch[1], right.stretch[1]));
         assert!(is_same(left.stretch[0], right.stretch[0]));

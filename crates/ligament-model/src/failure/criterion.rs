@@ -1,5 +1,9 @@
 //! Criteria with the limits of their bonds.
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
 use super::softening::{AfterLimit, brittle};
 use crate::element::BondDeformation;
@@ -17,6 +21,8 @@ pub struct Criterion {
     pub coefficient: Vec<f64>,
     /// What happens after the limit.
     pub after: AfterLimit,
+    /// What the limits follow while bonds break; None where they stay.
+    pub crack_at_points: Option<Arc<CrackAtPoints>>,
 }
 
 impl Criterion {
@@ -28,6 +34,7 @@ impl Criterion {
             limit,
             coefficient: Vec::new(),
             after: AfterLimit::new(brittle::LAW, Vec::new()),
+            crack_at_points: None,
         }
     }
 
@@ -97,6 +104,20 @@ impl Criteria {
     /// Whether bonds may do anything but break at once.
     pub fn soften(&self) -> bool {
         self.list.iter().any(|it| !it.after.is_brittle())
+    }
+
+    /// The criteria with the limits that they have while the bonds marked in `intact` (n_bonds) are left, at deformations (n_bonds).
+    pub fn in_state(&self, intact: &[bool], deformations: &[BondDeformation]) -> Cow<'_, Self> {
+        if self.list.iter().all(|it| it.crack_at_points.is_none()) {
+            return Cow::Borrowed(self);
+        }
+        let mut criteria = self.clone();
+        for criterion in &mut criteria.list {
+            if let Some(crack) = &criterion.crack_at_points {
+                criterion.limit = crack.limits(&criterion.limit, intact, deformations);
+            }
+        }
+        Cow::Owned(criteria)
     }
 
     /// Largest utilisation of a bond over the criteria; 0 without any.

@@ -47,5 +47,5 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
     let distance = choice.fibre_distance.unwrap_or_default();
     let lengths = basis.system.bonds.length.iter();
     let coefficient = lengths.map(|length| distance / length).collect();
-    Ok(vec![Limits { limit, coefficient }])
+    Ok(vec![Limits::new(limit, coefficient)])
 }

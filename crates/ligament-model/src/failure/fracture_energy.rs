@@ -34,7 +34,7 @@ pub const BOND_ENERGY: Kind = Kind {
                 None => critical_stretches(basis),
             };
             let coefficient = shear_ratios(basis.system);
-            Ok(vec![Limits { limit, coefficient }])
+            Ok(vec![Limits::new(limit, coefficient)])
         },
     )
 };

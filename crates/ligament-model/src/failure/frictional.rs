@@ -114,7 +114,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
         }
     };
     let coefficient = limit.iter().zip(materials).map(slope_of).collect();
-    Ok(vec![Limits { limit, coefficient }])
+    Ok(vec![Limits::new(limit, coefficient)])
 }
 
 /// Condition of a bond: |gamma| + s tan(beta) <= a (MPPD eq. 58).

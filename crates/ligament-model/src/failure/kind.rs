@@ -1,6 +1,9 @@
 //! What a kind of failure criterion is, and the choice of one.
 
+use std::sync::Arc;
+
 use super::basis::Basis;
+use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
 use super::softening::{Law, brittle};
 use super::unfit::{NoLimit, Unfit};
@@ -68,14 +71,22 @@ pub struct Limits {
     pub limit: Vec<f64>,
     /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Vec<f64>,
+    /// What the limits follow while bonds break; None where they stay.
+    pub crack_at_points: Option<Arc<CrackAtPoints>>,
 }
 
 impl Limits {
     /// Limits (n_bonds) of a measure without a coefficient.
     pub fn without_coefficient(limit: Vec<f64>) -> Self {
+        Self::new(limit, Vec::new())
+    }
+
+    /// Limits (n_bonds) that stay as they are, with the coefficients of the measure (n_bonds, n).
+    pub fn new(limit: Vec<f64>, coefficient: Vec<f64>) -> Self {
         Self {
             limit,
-            coefficient: Vec::new(),
+            coefficient,
+            crack_at_points: None,
         }
     }
 }

@@ -34,6 +34,13 @@ pub enum Measure {
     MixedModeX,
     /// Opening S_yy and shear S_xy of a bond with strains of its own, as along x.
     MixedModeY,
+    /// Stretch S_xx of a bond along x, S_yy of one along y, and of others the critical stretch to which the angle belongs that they open by
+    /// in mode I, phi sgn(tan(theta))/sin(theta), with phi = S_xy + S_xx cot(theta) + S_yy tan(theta) (MBB-PD eqs A.6, C.3).
+    PrintedOpening,
+    /// Stretch or angle in mode II: as in mode I, but of others abs(phi) (eq. C.6).
+    PrintedSliding,
+    /// Stretch or angle in both modes: as in mode I, but of others abs(phi)/(1 +- sin(theta)) (eqs 24, C.10), with the plus where phi has the sign that opening gives it.
+    PrintedMixed,
 }
 
 /// Resistance that a criterion weakens in a bond once its limit is passed and before it breaks.
@@ -49,7 +56,7 @@ pub enum Weakened {
 
 impl Measure {
     /// All measures.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Tension,
         Self::Compression,
         Self::Fibre,
@@ -58,6 +65,9 @@ impl Measure {
         Self::Energy,
         Self::MixedModeX,
         Self::MixedModeY,
+        Self::PrintedOpening,
+        Self::PrintedSliding,
+        Self::PrintedMixed,
     ];
 
     /// The word for the measure in results.
@@ -71,12 +81,23 @@ impl Measure {
             Self::Energy => "energy",
             Self::MixedModeX => "mixed-mode-x",
             Self::MixedModeY => "mixed-mode-y",
+            Self::PrintedOpening => "printed-opening",
+            Self::PrintedSliding => "printed-sliding",
+            Self::PrintedMixed => "printed-mixed",
         }
     }
 
     /// Whether the measure looks at strains of the bond's own, and not at the relative motion of its ends.
     pub fn takes_strains(self) -> bool {
-        matches!(self, Self::MixedModeX | Self::MixedModeY)
+        matches!(self, Self::MixedModeX | Self::MixedModeY) || self.is_printed()
+    }
+
+    /// Whether the class of the bond decides which of its strains counts.
+    fn is_printed(self) -> bool {
+        matches!(
+            self,
+            Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed
+        )
     }
 
     /// The noun for the measure; empty where the formula says enough.
@@ -86,6 +107,7 @@ impl Measure {
             Self::Compression => "shortening",
             Self::Fibre => "fibre stretch",
             Self::Sliding => "sliding",
+            Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => "stretch or angle",
             Self::Friction | Self::Energy | Self::MixedModeX | Self::MixedModeY => "",
         }
     }
@@ -101,6 +123,9 @@ impl Measure {
             Self::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
             Self::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
             Self::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
+            Self::PrintedOpening => "S_xx, S_yy or phi/sin(theta)",
+            Self::PrintedSliding => "S_xx, S_yy or |phi|",
+            Self::PrintedMixed => "S_xx, S_yy or |phi|/(1 +- sin(theta))",
         }
     }
 
@@ -112,6 +137,7 @@ impl Measure {
             Self::Friction => &["tan(beta)"],
             Self::Energy => &["k_t/k_n"],
             Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
+            Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => &["tan(theta)"],
         }
     }
 
@@ -138,6 +164,29 @@ impl Measure {
                 let [_, yy, xy] = deformation.strain();
                 mixed_mode(yy, xy, coefficients)
             }
+            Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => {
+                self.printed(deformation.strain(), coefficient())
+            }
+        }
+    }
+
+    /// The value of a printed measure for strains (S_xx, S_yy, S_xy) of a bond with the tangent of its angle.
+    #[inline]
+    fn printed(self, [xx, yy, xy]: [f64; 3], tangent: f64) -> f64 {
+        if tangent == 0.0 {
+            return xx;
+        }
+        if tangent.is_infinite() {
+            return yy;
+        }
+        // Positive where the bond turns as opening turns it.
+        let angle = (xy + xx / tangent + yy * tangent) * tangent.signum();
+        let sine = tangent.abs() / tangent.hypot(1.0);
+        match self {
+            Self::PrintedOpening => angle / sine,
+            Self::PrintedSliding => angle.abs(),
+            _ if angle * yy < 0.0 => angle.abs() / (1.0 - sine),
+            _ => angle.abs() / (1.0 + sine),
         }
     }
 
@@ -149,9 +198,14 @@ impl Measure {
     /// What a criterion of this measure weakens.
     pub fn weakens(self) -> Weakened {
         match self {
-            Self::Tension | Self::Fibre | Self::Energy | Self::MixedModeX | Self::MixedModeY => {
-                Weakened::Opening
-            }
+            Self::Tension
+            | Self::Fibre
+            | Self::Energy
+            | Self::MixedModeX
+            | Self::MixedModeY
+            | Self::PrintedOpening
+            | Self::PrintedSliding
+            | Self::PrintedMixed => Weakened::Opening,
             Self::Compression => Weakened::Crushing,
             Self::Sliding | Self::Friction => Weakened::Sliding,
         }
@@ -187,7 +241,7 @@ impl Measure {
                 -mean / deviator,
                 mean / (deviator * (coefficient - 1.0)),
             ],
-            Self::MixedModeX | Self::MixedModeY => panic!("{NO_DIRECTION}"),
+            _ => panic!("{NO_DIRECTION}"),
         }
     }
 
@@ -202,7 +256,7 @@ impl Measure {
             Self::Tension | Self::Compression | Self::Fibre | Self::Sliding => 1.0,
             Self::Friction => (1.0 + coefficient * coefficient).sqrt(),
             Self::Energy => coefficient.max(1.0).sqrt(),
-            Self::MixedModeX | Self::MixedModeY => panic!("{NO_DIRECTION}"),
+            _ => panic!("{NO_DIRECTION}"),
         }
     }
 }
@@ -242,18 +296,52 @@ mod tests {
     #[test]
     fn values_by_hand() {
         let of = |stretch, shear| {
-            let value = |it: Measure| it.value(&deformation(it, stretch, shear), &[0.25]);
-            Measure::ALL.map(value)
+            let value = |it: &Measure| it.value(&deformation(*it, stretch, shear), &[0.25]);
+            let measures = Measure::ALL.iter().filter(|it| !it.is_printed());
+            measures.map(value).collect::<Vec<f64>>()
         };
         let along_y = |shear: f64| (0.3_f64.powi(2) + 0.25 * shear.powi(2)).sqrt();
         assert_eq!(
             of(3.0, -8.0),
-            [3.0, -3.0, 3.075, 8.0, 8.75, 5.0, 5.0, along_y(8.0)]
+            vec![3.0, -3.0, 3.075, 8.0, 8.75, 5.0, 5.0, along_y(8.0)]
         );
         assert_eq!(
             of(-4.0, 2.0),
-            [-4.0, 4.0, -3.925, 2.0, 1.0, 1.0, 1.0, along_y(2.0)]
+            vec![-4.0, 4.0, -3.925, 2.0, 1.0, 1.0, 1.0, along_y(2.0)]
         );
+    }
+
+    /// Bonds along the axes look at their own strains. One at tan = 3/4, sin = 3/5, in the strains (0.3, 0.4, 0.1) turns by 0.1 + 0.3/(3/4) +
+    /// 0.4 (3/4) = 0.8; its mirror image in mirrored strains does the same the other way round. A bond that closes is let off in mode I, and turned
+    /// back by shear it breaks sooner in both modes (1 - 3/5).
+    #[test]
+    fn printed_measures_by_hand() {
+        use Measure::{PrintedMixed, PrintedOpening, PrintedSliding};
+        let of = |strain: [f64; 3], tangent: f64| {
+            let deformation = BondDeformation::of_strain(strain);
+            let value = |it: Measure| it.value(&deformation, &[tangent]);
+            [PrintedOpening, PrintedSliding, PrintedMixed].map(value)
+        };
+        let close = |found: [f64; 3], expected: [f64; 3]| {
+            let mut both = found.iter().zip(&expected);
+            assert!(
+                both.all(|(one, other)| (one - other).abs() < 1e-15),
+                "{found:?}"
+            );
+        };
+        close(of([0.3, 0.4, 0.1], 0.0), [0.3; 3]);
+        close(of([0.3, 0.4, 0.1], f64::NEG_INFINITY), [0.4; 3]);
+        for side in [1.0, -1.0] {
+            close(
+                of([0.3, 0.4, side * 0.1], side * 0.75),
+                [0.8 / 0.6, 0.8, 0.5],
+            );
+            close(of([0.0, -0.4, 0.0], side * 0.75), [-0.5, 0.3, 0.3 / 1.6]);
+            close(
+                of([0.0, 0.4, -side * 0.7], side * 0.75),
+                [-0.4 / 0.6, 0.4, 0.4 / 0.4],
+            );
+        }
     }
 
     #[test]

@@ -33,7 +33,7 @@ struct OfMaterial {
 }
 
 /// Between two fracture energies the exponent says what a mixture of both modes takes.
-fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
+pub(super) fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     let differ =
         (material.fracture_energy_sliding).is_some_and(|it| Some(it) != material.fracture_energy);
     if choice.takes().is_empty() || !differ || material.mixed_mode_exponent.is_some() {
@@ -53,7 +53,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
         (Some(stretch), Some(angle)) => {
             let limits = OfModes {
                 stretch: [stretch; 2],
-                angle,
+                angle: [angle; 2],
             };
             let each = basis.materials.iter();
             each.map(|_| of_material(&limits, 1.0, 1.0)).collect()
@@ -83,10 +83,7 @@ fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limit
     let coefficient = materials.iter();
     let coefficient =
         coefficient.flat_map(|&material| &of_materials[material].coefficients[axis][..count]);
-    Limits {
-        limit,
-        coefficient: coefficient.copied().collect(),
-    }
+    Limits::new(limit, coefficient.copied().collect())
 }
 
 /// From the fracture energies of a material; none means that it never fails.
@@ -107,9 +104,12 @@ fn of_energies(material: &Material, basis: &Basis<'_>) -> OfMaterial {
 
 /// From the limits of modes that are equally tough.
 fn of_material(limits: &OfModes, ratio: f64, exponent: f64) -> OfMaterial {
-    let of_axis = |stretch: f64| [(stretch / limits.angle).powi(2), ratio, exponent];
+    let of_axis = |axis: usize| {
+        let share = (limits.stretch[axis] / limits.angle[axis]).powi(2);
+        [share, ratio, exponent]
+    };
     OfMaterial {
         stretch: limits.stretch,
-        coefficients: limits.stretch.map(of_axis),
+        coefficients: [0, 1].map(of_axis),
     }
 }

@@ -13,9 +13,11 @@
 //! | [`frictional`] | friction | a, tan(beta) (MPPD eqs 52 to 58) |
 //! | [`fracture_energy`] | tension, energy | from G_c, the elastic moduli and the mean length of the bonds (Silling and Askari 2005) |
 //! | [`mixed_mode`] | mixed mode, along x or y | from G_Ic, G_IIc and the bonds that a crack cuts (MBB-PD appendix C) |
+//! | [`printed`] | stretch or angle by the class of the bond | the same as printed, and from the bonds that are left (MBB-PD eqs 22 to 24) |
 
 mod basis;
 mod choosing;
+pub mod crack_at_points;
 pub mod crack_energies;
 mod criterion;
 pub mod fibre;
@@ -24,6 +26,7 @@ pub mod frictional;
 mod kind;
 mod measure;
 pub mod mixed_mode;
+pub mod printed;
 pub mod sliding;
 pub mod softening;
 pub mod strength;
@@ -39,7 +42,7 @@ pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
 
 /// All kinds of criteria.
-pub const KINDS: [&Kind; 9] = [
+pub const KINDS: [&Kind; 12] = [
     &strength::STRENGTH,
     &stretch::TENSION,
     &stretch::COMPRESSION,
@@ -49,4 +52,7 @@ pub const KINDS: [&Kind; 9] = [
     &fracture_energy::CRITICAL_STRETCH,
     &fracture_energy::BOND_ENERGY,
     &mixed_mode::MIXED_MODE,
+    &printed::OPENING,
+    &printed::SLIDING,
+    &printed::MIXED,
 ];

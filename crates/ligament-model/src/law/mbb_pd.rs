@@ -1,4 +1,4 @@
-//! Bonds of three classes on a square lattice, with all strains of a small imaginary rectangle around each (MBB-PD), in the
+//! Bonds of three classes on a lattice, with all strains of a small imaginary rectangle around each (MBB-PD), in the
 //! form that conserves energy.
 //!
 //! As printed the factors psi (eq. 19) are calibrated with other strains (eq. A.6) than the bonds have (eqs 12 to 15), and the forces (eq. 17)

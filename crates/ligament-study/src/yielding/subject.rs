@@ -85,8 +85,9 @@ impl Subject {
         let criterion = |it: &Criterion| Criterion {
             limit: of_family(&it.limit),
             coefficient: of_family(&it.coefficient),
-            // Only the limit matters for first yield.
+            // Only the limit of the sound body matters for first yield.
             after: AfterLimit::new(brittle::LAW, Vec::new()),
+            crack_at_points: None,
             ..*it
         };
         Self {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 
 use ligament_model::correction::patch;
+use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
 
 use super::{
@@ -233,13 +234,21 @@ impl Setup {
         };
         let law = Field::whole("law");
         let Origin::Lattice(lattice) = self.body.origin() else {
-            let reason = "`Law::MbbPd` classes bonds by the rows and columns of a lattice of square cells: give `LatticeBody`, or take \
+            let reason = "`Law::MbbPd` classes bonds by the rows and columns of a lattice: give `LatticeBody`, or take \
                           another law";
             return contradiction(law, reason);
         };
-        if lattice.spacing[0] != lattice.spacing[1] {
-            let reason = "the cells must be square for `Law::MbbPd`";
-            return contradiction(Field::whole("body").part("spacing"), reason);
+        let [shorter, longer] = {
+            let [dx, dy] = lattice.spacing;
+            [dx.min(dy), dx.max(dy)]
+        };
+        let horizon = self.horizon.at_spacing(shorter);
+        if horizon * (1.0 + INCLUSION_TOLERANCE) < longer {
+            let reason = format!(
+                "`Law::MbbPd` takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
+                 of the cells (it is {horizon:?} m)"
+            );
+            return contradiction(Field::whole("horizon"), reason);
         }
         let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
         if form == Form::Pairwise {
@@ -255,9 +264,10 @@ impl Setup {
             };
             return contradiction(law.part("form"), reason);
         }
-        if strains == Strains::True && !is_elastic {
-            let reason = "true strains are not proportional to the load, as the paths of fracture and modes are: they are for elastic \
-                          analyses; take `Strains::Small`";
+        let has_steps = matches!(self.analysis, Analysis::Stepped(_));
+        if strains == Strains::True && !is_elastic && !has_steps {
+            let reason = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
+                          load steps; take `Strains::Small`";
             return contradiction(law.part("strains"), reason);
         }
         Ok(())

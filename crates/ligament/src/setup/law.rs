@@ -40,7 +40,7 @@ pub enum Law {
         /// Stiffness against relative rotation.
         rotational_stiffness: RotationalStiffness,
     },
-    /// All strains of a small rectangle around each bond of a square lattice.
+    /// All strains of a small rectangle around each bond of a lattice.
     MbbPd {
         /// Strains that the bonds resist.
         form: Form,
@@ -158,7 +158,7 @@ impl Law {
             ],
             Self::MbbPd { .. } => [
                 "mbb-pd",
-                "All strains of a small rectangle around each bond of a square lattice.",
+                "All strains of a small rectangle around each bond of a lattice.",
             ],
         }
     }

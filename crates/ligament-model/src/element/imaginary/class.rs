@@ -1,4 +1,4 @@
-//! The classes of the bonds of a square lattice.
+//! The classes of the bonds of a lattice.
 
 /// The class of a bond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,11 +1,12 @@
 //! Which bonds of a lattice support which: the neighbours of the points and the corners of the rectangles.
 
+use super::BondClass;
 use crate::bonds::{BondSet, Incidence};
 
 /// No bond.
 const NONE: u32 = u32::MAX;
 
-/// The bonds around each point and each bond of a square lattice.
+/// The bonds around each point and each bond of a lattice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
     /// Neighbours of each point on its left and right, below and above, with the bonds of one spacing to them, shape (n_points, 2, 2).
@@ -36,9 +37,10 @@ impl Link {
 }
 
 impl Surroundings {
-    /// The surroundings in a set of bonds between the points of a square lattice.
+    /// The surroundings in a set of bonds between the points of a lattice, whose cells may be rectangles: the shortest bonds along x and
+    /// along y are its spacings.
     pub fn from_bonds(bonds: &BondSet) -> Self {
-        let spacing = bonds.length.iter().copied().fold(f64::INFINITY, f64::min);
+        let spacing = spacings(bonds);
         let steps = |bond: u32, from: u32| {
             let bond = bond as usize;
             let sign = if bonds.ends[bond][0] == from {
@@ -46,8 +48,10 @@ impl Surroundings {
             } else {
                 -1.0
             };
-            bonds.direction[bond]
-                .map(|cosine| (sign * cosine * bonds.length[bond] / spacing).round() as i32)
+            [0, 1].map(|axis| {
+                let along = sign * bonds.direction[bond][axis] * bonds.length[bond];
+                (along / spacing[axis]).round() as i32
+            })
         };
         let link = |from: u32, wanted: [i32; 2]| {
             let family = bonds.incidence.at(from).iter();
@@ -116,6 +120,17 @@ impl Surroundings {
     pub fn dependents(&self, bond: u32) -> &[u32] {
         self.dependents.at(bond)
     }
+}
+
+/// Distances of the columns and of the rows of a lattice, from the shortest bonds along x and along y, m.
+fn spacings(bonds: &BondSet) -> [f64; 2] {
+    let along = |class: BondClass| {
+        let of_bonds = bonds.direction.iter().zip(&bonds.length);
+        let of_class =
+            of_bonds.filter(|(direction, _)| BondClass::from_direction(**direction) == class);
+        of_class.fold(f64::INFINITY, |least, (_, &length)| least.min(length))
+    };
+    [along(BondClass::Horizontal), along(BondClass::Vertical)]
 }
 
 /// Of each bond those that it supports: H bonds at the ends of a V bond of one spacing, V bonds at those of such an H bond, and
