@@ -24,17 +24,20 @@ use ligament::suggestion::hint;
 mod anisotropy;
 mod bars;
 mod cost;
+mod crack_path;
 mod cracks;
 mod cylinder;
 mod directions;
 mod disk;
 mod disk_modes;
+mod disk_test;
 pub mod entry;
 mod experiment;
 pub mod finite_elements;
 mod frequencies;
 mod griffith;
 mod hole;
+mod inclined;
 mod lamina;
 mod moduli;
 mod named_modes;
@@ -47,7 +50,9 @@ mod published;
 mod readings;
 pub mod report;
 mod ring;
+mod slots;
 mod softening;
+mod spread;
 mod square_elements;
 mod statics;
 pub mod table;
@@ -65,7 +70,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 22] = [
+pub static EXPERIMENTS: [Experiment; 24] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -77,6 +82,8 @@ pub static EXPERIMENTS: [Experiment; 22] = [
     yielding::EXPERIMENT,
     anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
+    slots::EXPERIMENT,
+    inclined::EXPERIMENT,
     griffith::EXPERIMENT,
     softening::EXPERIMENT,
     plates::EXPERIMENT,
