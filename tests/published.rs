@@ -97,6 +97,7 @@ macro_rules! experiments {
 experiments!(
     frequencies,
     statics,
+    readings,
     lamina,
     tension,
     maps,
@@ -111,6 +112,7 @@ experiments!(
     plates,
     cylinder,
     cracks,
+    cost,
     patch_test,
     bars,
     ring,

@@ -62,6 +62,7 @@ fn the_table_tells_the_counts_of_every_mesh() {
 fn disks_are_round_and_their_platens_end_where_they_should() {
     for (name, size, platen) in [
         ("disk-4mm.msh", 0.004, 0.003),
+        ("disk-4mm-platen-1.5mm.msh", 0.004, 0.0015),
         ("disk-3mm.msh", 0.003, 0.003),
         ("disk-3mm-platen-1.5mm.msh", 0.003, 0.0015),
         ("disk-2mm.msh", 0.002, 0.003),

@@ -16,7 +16,7 @@
 
 pub mod bond_stiffness;
 pub mod calibrate;
-mod line_fit;
+pub mod line_fit;
 pub mod meshing;
 mod quantities;
 pub mod sweep;

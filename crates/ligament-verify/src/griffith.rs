@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use anyhow::{Context, ensure};
 
+use super::crack_path::ends;
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
@@ -234,7 +235,7 @@ fn crossing_energy(labels: Labels<'_>) -> anyhow::Result<f64> {
     let solution = central_crack(labels, true)?;
     let half = 0.5 * HALF_WIDTH;
     let crosses = |bond: usize| {
-        let [[x, y], [other_x, other_y]] = ends(&solution, bond);
+        let [[x, y], [other_x, other_y]] = ends(&solution.model, bond);
         let at = x + (other_x - x) * y / (y - other_y);
         y * other_y < 0.0 && (at - ASIDE).abs() < half
     };
@@ -252,22 +253,12 @@ fn energy_at_limits(solution: &Solution, bonds: impl Iterator<Item = usize>) -> 
         .sum()
 }
 
-/// Places of the ends of a bond, m.
-fn ends(solution: &Solution, bond: usize) -> [[f64; 2]; 2] {
-    let system = &solution.model.system;
-    let [x, y] = system.cloud.origin;
-    system.bonds.ends[bond].map(|end| {
-        let place = system.cloud.positions[end as usize];
-        [place[0] + x, place[1] + y]
-    })
-}
-
 impl Separation {
     fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
         let intact = &solution.outcome.state.intact;
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
         let reached = broken.iter().map(|&bond| {
-            let [[x, _], [other_x, _]] = ends(solution, bond);
+            let [[x, _], [other_x, _]] = ends(&solution.model, bond);
             0.5 * (x + other_x)
         });
         let far = reached.fold(EDGE_TIP, f64::max);
@@ -279,7 +270,7 @@ impl Separation {
         let last = solution.outcome.history.last();
         let horizons = &solution.model.system.bonds.horizon;
         let deviations = broken.iter().map(|&bond| {
-            let [[_, y], [_, other_y]] = ends(solution, bond);
+            let [[_, y], [_, other_y]] = ends(&solution.model, bond);
             0.5 * (y + other_y).abs() / horizons[bond]
         });
         Ok(Self {

@@ -24,17 +24,20 @@ use ligament::suggestion::hint;
 mod anisotropy;
 mod bars;
 mod cost;
+mod crack_path;
 mod cracks;
 mod cylinder;
 mod directions;
 mod disk;
 mod disk_modes;
+mod disk_test;
 pub mod entry;
 mod experiment;
 pub mod finite_elements;
 mod frequencies;
 mod griffith;
 mod hole;
+mod inclined;
 mod lamina;
 mod lamina_elements;
 mod maps;
@@ -49,7 +52,9 @@ mod published;
 mod readings;
 pub mod report;
 mod ring;
+mod slots;
 mod softening;
+mod spread;
 mod square_elements;
 mod statics;
 pub mod table;
@@ -67,7 +72,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 23] = [
+pub static EXPERIMENTS: [Experiment; 25] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -80,6 +85,8 @@ pub static EXPERIMENTS: [Experiment; 23] = [
     yielding::EXPERIMENT,
     anisotropy::EXPERIMENT,
     disk::EXPERIMENT,
+    slots::EXPERIMENT,
+    inclined::EXPERIMENT,
     griffith::EXPERIMENT,
     softening::EXPERIMENT,
     plates::EXPERIMENT,

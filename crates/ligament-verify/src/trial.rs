@@ -8,11 +8,14 @@ use anyhow::Context;
 use ligament::body::MeshBody;
 use ligament::run::{Solution, Unobserved};
 use ligament::{Model, Setup};
+use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;
-use ligament_analysis::{Bonds, Component, Termination};
+use ligament_analysis::{Bonds, Component, Observer, Termination};
 use ligament_mesh::gmsh;
 
 use ligament_case::case::CaseFile;
+
+use super::crack_path::Breakages;
 
 /// A case file of the repository, as it was when the program was built.
 #[derive(Debug)]
@@ -94,7 +97,14 @@ impl Trial {
 
     /// Runs the case, as `ligament run` does.
     pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        self.with_setup(run)
+        self.with_setup(|case, setup| run(case, setup, &mut Unobserved))
+    }
+
+    /// Runs the case, and keeps all breakages in their order.
+    pub(super) fn solve_with_breakages(&self) -> anyhow::Result<(Solution, Vec<BreakRecord>)> {
+        let mut breakages = Breakages::default();
+        let solution = self.with_setup(|case, setup| run(case, setup, &mut breakages))?;
+        Ok((solution, breakages.records))
     }
 
     /// The discrete model of the case, as `ligament run` builds it.
@@ -149,8 +159,12 @@ impl Trial {
 }
 
 /// What a case comes to, if it gets anywhere.
-fn run(case: &CaseFile, setup: Setup) -> anyhow::Result<Solution> {
-    let solution = setup.solve(&mut Unobserved);
+fn run(
+    case: &CaseFile,
+    setup: Setup,
+    observer: &mut (dyn Observer + Send),
+) -> anyhow::Result<Solution> {
+    let solution = setup.solve(observer);
     let solution = solution.map_err(|error| case.explained(error))?;
     match &solution.outcome.termination {
         Termination::NoEquilibrium { .. } | Termination::NotAtRest { .. } => {

@@ -1,0 +1,274 @@
+//! Where a crack starts, how far it reaches and how it lies, read from the bonds that broke and the damage that they leave.
+
+use ligament::Model;
+use ligament_analysis::Observer;
+use ligament_analysis::fields::damage;
+use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
+
+/// Damage (NHPD eq. 17) above which a point belongs to a crack: a straight cut beside a point takes up to a half of it.
+pub(super) const CRACKED: f64 = 0.3;
+
+/// An observer that keeps all breakages in their order.
+#[derive(Debug, Default)]
+pub(super) struct Breakages {
+    /// The breakages.
+    pub(super) records: Vec<BreakRecord>,
+}
+
+impl Observer for Breakages {
+    fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
+        self.records.extend_from_slice(records);
+        Ok(())
+    }
+
+    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+}
+
+/// A place with the horizon there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Coordinates, m.
+    pub(super) at: [f64; 2],
+    /// Horizon, m.
+    pub(super) horizon: f64,
+}
+
+/// A straight line from one place to another, m.
+pub(super) type Segment = [[f64; 2]; 2];
+
+/// The points of a body that a crack went through.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Crack {
+    /// Points with a damage above [`CRACKED`].
+    pub(super) points: Vec<Place>,
+}
+
+/// How far a crack is from its own image after half a turn about the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct HalfTurn {
+    /// Mean distance of a turned point from the nearest one, m.
+    pub(super) mean: f64,
+    /// Largest such distance, m.
+    pub(super) largest: f64,
+}
+
+/// The middle of a bond.
+pub(super) fn middle(model: &Model, bond: usize) -> Place {
+    let [a, b] = ends(model, bond);
+    Place {
+        at: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
+        horizon: model.system.bonds.horizon[bond],
+    }
+}
+
+/// Places of the ends of a bond, m.
+pub(super) fn ends(model: &Model, bond: usize) -> Segment {
+    model.system.bonds.ends[bond].map(|end| place(model, end as usize))
+}
+
+fn place(model: &Model, point: usize) -> [f64; 2] {
+    let cloud = &model.system.cloud;
+    let [x, y] = cloud.positions[point];
+    [x + cloud.origin[0], y + cloud.origin[1]]
+}
+
+/// Distance of a place from a segment, m.
+pub(super) fn distance([x, y]: [f64; 2], [from, to]: Segment) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let offset = [x - from[0], y - from[1]];
+    let squared = along[0] * along[0] + along[1] * along[1];
+    let share = match squared {
+        0.0 => 0.0,
+        _ => ((offset[0] * along[0] + offset[1] * along[1]) / squared).clamp(0.0, 1.0),
+    };
+    (offset[0] - share * along[0]).hypot(offset[1] - share * along[1])
+}
+
+impl Crack {
+    /// The crack that these breakages leave.
+    pub(super) fn from_breakages(model: &Model, records: &[BreakRecord]) -> Self {
+        let mut intact = vec![true; model.system.bonds.len()];
+        for record in records {
+            intact[record.bond as usize] = false;
+        }
+        let damage = damage(&*model.system, &intact);
+        let cracked = (0..damage.len()).filter(|&point| damage[point] > CRACKED);
+        let points = cracked.map(|point| Place {
+            at: place(model, point),
+            horizon: model.fixed.horizon[point],
+        });
+        Self {
+            points: points.collect(),
+        }
+    }
+
+    /// The place where the breakages first leave a crack: the first point whose damage rises above [`CRACKED`].
+    pub(super) fn first_point(model: &Model, records: &[BreakRecord]) -> Option<Place> {
+        let count = |until: usize| Self::from_breakages(model, &records[..until]).points.len();
+        // Damage only grows, so that the first breakage that leaves a crack is found by halving.
+        let (mut none, mut some) = (0, records.len());
+        if count(some) == 0 {
+            return None;
+        }
+        while some - none > 1 {
+            let half = usize::midpoint(none, some);
+            if count(half) == 0 {
+                none = half;
+            } else {
+                some = half;
+            }
+        }
+        Self::from_breakages(model, &records[..some])
+            .points
+            .first()
+            .copied()
+    }
+
+    /// The part of the crack whose points satisfy a condition.
+    pub(super) fn part(&self, belongs: impl Fn([f64; 2]) -> bool) -> Self {
+        let points = self.points.iter().copied();
+        Self {
+            points: points.filter(|point| belongs(point.at)).collect(),
+        }
+    }
+
+    /// The part of the crack that starts at a segment: a chain of its points leads there, each in the horizon of the one before, and
+    /// the segment is in the horizon of the first.
+    pub(super) fn part_from(&self, segment: Segment) -> Self {
+        let is_at = |point: &Place| distance(point.at, segment) <= point.horizon;
+        let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
+        let mut front: Vec<usize> = (0..reached.len()).filter(|&it| reached[it]).collect();
+        while let Some(last) = front.pop() {
+            let here = self.points[last];
+            for (next, point) in self.points.iter().enumerate() {
+                let reach = here.horizon.max(point.horizon);
+                if !reached[next] && distance(point.at, [here.at; 2]) <= reach {
+                    reached[next] = true;
+                    front.push(next);
+                }
+            }
+        }
+        let points = self.points.iter().zip(reached);
+        Self {
+            points: points
+                .filter(|(_, is_part)| *is_part)
+                .map(|(point, _)| *point)
+                .collect(),
+        }
+    }
+
+    /// Whether the crack joins two segments: the part of it that starts at one has a point with the other in its horizon.
+    pub(super) fn joins(&self, from: Segment, to: Segment) -> bool {
+        let part = self.part_from(from);
+        part.points
+            .iter()
+            .any(|point| distance(point.at, to) <= point.horizon)
+    }
+
+    /// Distance of the nearest of its points from a segment, m; infinite without points.
+    pub(super) fn gap_to(&self, segment: Segment) -> f64 {
+        let distances = self.points.iter().map(|point| distance(point.at, segment));
+        distances.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance between the nearest points of two cracks, m; infinite where one has no points.
+    pub(super) fn gap_between(&self, other: &Self) -> f64 {
+        let gaps = self.points.iter().map(|point| other.gap_to([point.at; 2]));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Mean horizon of its points, m.
+    pub(super) fn mean_horizon(&self) -> f64 {
+        self.points.iter().map(|point| point.horizon).sum::<f64>() / self.points.len() as f64
+    }
+
+    /// The mean place of its points, m; none without points.
+    pub(super) fn centre(&self) -> Option<[f64; 2]> {
+        let mean = |axis: usize| {
+            self.points.iter().map(|point| point.at[axis]).sum::<f64>() / self.points.len() as f64
+        };
+        (!self.points.is_empty()).then(|| [mean(0), mean(1)])
+    }
+
+    /// The points of the crack that are no farther from the origin than its parts on both sides of the line through the origin across
+    /// `along` reach; none where one of them is missing.
+    pub(super) fn common_part(&self, along: [f64; 2]) -> Option<Self> {
+        let reach = |sign: f64| {
+            let side = self.part(|[x, y]| sign * (x * along[0] + y * along[1]) > 0.0);
+            side.tip().map(|tip| radius(tip.at))
+        };
+        let common = reach(1.0)?.min(reach(-1.0)?);
+        Some(self.part(|at| radius(at) <= common))
+    }
+
+    /// The point of the crack farthest from the origin.
+    pub(super) fn tip(&self) -> Option<Place> {
+        let points = self.points.iter().copied();
+        points.max_by(|a, b| radius(a.at).total_cmp(&radius(b.at)))
+    }
+
+    /// Distances of the points of the [common part](Self::common_part), turned by half a turn about the origin, from the nearest point of the
+    /// crack.
+    pub(super) fn half_turn(&self, along: [f64; 2]) -> Option<HalfTurn> {
+        let compared = self.common_part(along)?;
+        let nearest = |at: [f64; 2]| self.gap_to([at; 2]);
+        let turned = compared.points.iter().map(|point| point.at.map(|x| -x));
+        let distances: Vec<f64> = turned.map(nearest).collect();
+        Some(HalfTurn {
+            mean: distances.iter().sum::<f64>() / distances.len() as f64,
+            largest: distances.iter().copied().fold(0.0, f64::max),
+        })
+    }
+}
+
+fn radius([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crack(places: &[[f64; 2]]) -> Crack {
+        let points = places.iter().map(|&at| Place { at, horizon: 1.5 });
+        Crack {
+            points: points.collect(),
+        }
+    }
+
+    #[test]
+    fn a_chain_joins_what_lies_within_a_horizon_of_its_ends() {
+        let row = crack(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [4.0, 0.0]]);
+        let at = |x: f64| [[x, -1.0], [x, 1.0]];
+        assert!(row.joins(at(-1.0), at(3.0)));
+        assert!(!row.joins(at(-1.0), at(4.0)), "there is a gap of 2");
+        assert!(!row.joins(at(-2.0), at(2.0)));
+        let left = row.part_from(at(-1.0));
+        assert_eq!([left.gap_to(at(5.0)), left.points.len() as f64], [3.0, 3.0]);
+        assert_eq!(left.gap_between(&row.part_from(at(5.0))), 2.0);
+        assert_eq!(left.centre(), Some([1.0, 0.0]));
+        assert_eq!(distance([3.0, 4.0], [[0.0, 0.0]; 2]), 5.0);
+        assert_eq!(
+            distance([3.0, 4.0], [[-1.0, 0.0], [1.0, 0.0]]),
+            20f64.sqrt()
+        );
+    }
+
+    #[test]
+    fn a_crack_is_compared_with_its_image_as_far_as_both_sides_reach() {
+        let even = crack(&[[1.0, 1.0], [2.0, 1.0], [-1.0, -1.0], [-2.0, -1.0]]);
+        let found = even.half_turn([1.0, 0.0]).unwrap();
+        assert_eq!([found.mean, found.largest], [0.0, 0.0]);
+        let longer = crack(&[[1.0, 0.0], [2.0, 0.0], [5.0, 0.0], [-1.0, 0.5], [-2.0, 0.0]]);
+        let found = longer.half_turn([1.0, 0.0]).unwrap();
+        assert_eq!(
+            [found.mean, found.largest],
+            [0.25, 0.5],
+            "5.0 is farther than -2.0"
+        );
+        assert_eq!(longer.tip().unwrap().at, [5.0, 0.0]);
+        assert_eq!(crack(&[[1.0, 0.0]]).half_turn([1.0, 0.0]), None);
+    }
+}
