@@ -107,6 +107,8 @@ experiments!(
     yielding,
     anisotropy,
     disk,
+    slots,
+    inclined,
     griffith,
     softening,
     plates,
