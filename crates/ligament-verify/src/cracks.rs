@@ -9,7 +9,7 @@ use ligament_analysis::fields::point_damage;
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
-use super::trial::{Memory, Template, template};
+use super::trial::{Memory, Template, Trial, template};
 use ligament_plot::plots::{Colour, Plot, Series};
 
 /// The experiment.
@@ -145,6 +145,17 @@ fn stress(failure: &Failure, labels: Labels<'_>) -> anyhow::Result<f64> {
     }
 }
 
+/// The plate with a criterion, its points so many millimetres apart.
+pub(super) fn trial(case: &str, d: f64, criterion: &str) -> anyhow::Result<Trial> {
+    let cells = (1e3 * SIDE / d).round() as u32;
+    // The path of the printed criteria dips and rises again.
+    let fraction = if criterion == "mixed-mode" { 0.8 } else { 0.5 };
+    Ok((template(case)?.trial())
+        .on_lattice([cells, cells], 1e-3 * d)
+        .set("fracture.stop.load_fraction", fraction)
+        .set("fracture.criterion.0.kind", criterion))
+}
+
 /// The exact path of a plate with a criterion, of which the curves of new runs are kept.
 fn failure(
     runs: &mut Memory<Failure>,
@@ -153,13 +164,7 @@ fn failure(
     criterion: &str,
 ) -> anyhow::Result<Failure> {
     let (case, d) = (labels.text("case")?, labels.number("d")?);
-    let cells = (1e3 * SIDE / d).round() as u32;
-    // The path of the printed criteria dips and rises again.
-    let fraction = if criterion == "mixed-mode" { 0.8 } else { 0.5 };
-    let trial = (template(case)?.trial())
-        .on_lattice([cells, cells], 1e-3 * d)
-        .set("fracture.stop.load_fraction", fraction)
-        .set("fracture.criterion.0.kind", criterion);
+    let trial = trial(case, d, criterion)?;
     runs.reading(&trial, |it| {
         let failure = Failure::from_solution(it, lines(case))?;
         curves.push((

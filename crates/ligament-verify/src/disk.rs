@@ -82,6 +82,16 @@ impl Case<'_> {
     }
 }
 
+/// The test of the disk on a mesh, under a correction and with a horizon factor.
+pub(super) fn trial(mesh: &str, correction: &str, lambda: f64) -> anyhow::Result<Trial> {
+    let case = Case {
+        mesh,
+        correction,
+        lambda,
+    };
+    case.trial()
+}
+
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut tests = Memory::default();
     let mut equations = Memory::default();

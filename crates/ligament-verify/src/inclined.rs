@@ -141,6 +141,16 @@ impl Case<'_> {
     }
 }
 
+/// The test of the plate with a slot, under a correction and with a horizon factor.
+pub(super) fn trial(theta: &str, correction: &str, lambda: f64) -> anyhow::Result<Trial> {
+    let case = Case {
+        theta,
+        correction,
+        lambda,
+    };
+    case.trial()
+}
+
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut tests = Memory::default();
     let tests = &mut tests;

@@ -182,6 +182,22 @@ impl<'a> Case<'a> {
     }
 }
 
+/// The test of a disk with slots on a mesh, under a correction and with a horizon factor.
+pub(super) fn trial(
+    slots: &str,
+    mesh: &str,
+    correction: &str,
+    lambda: f64,
+) -> anyhow::Result<Trial> {
+    let case = Case {
+        slots,
+        mesh,
+        correction,
+        lambda,
+    };
+    case.trial()
+}
+
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut tests = Memory::default();
     let tests = &mut tests;

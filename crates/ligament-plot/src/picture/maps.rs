@@ -91,7 +91,12 @@ impl Maps {
     ///
     /// If no body has a finite value.
     pub fn to_svg(&self, width: f64) -> Result<String, PictureError> {
-        let common = (!self.are_modes).then(|| common_scale(self.bodies.iter().map(|it| &it.body)));
+        let bodies = || self.bodies.iter().map(|it| &it.body);
+        let common = match bodies().all(|body| body.largest_displacement() == 0.0) {
+            _ if self.are_modes => None,
+            true => Some(0.0),
+            false => Some(common_scale(bodies())),
+        };
         let panel = |it: &MappedBody| {
             let factor = common.unwrap_or_else(|| it.body.scale_for_share(MODE_SHARE));
             let mut field = Field {
@@ -167,6 +172,26 @@ mod tests {
         maps.are_modes = true;
         let svg = maps.to_svg(120.0).unwrap();
         assert!(svg.contains("largest displacement drawn as 0.1"), "{svg}");
+    }
+
+    #[test]
+    fn bodies_that_did_not_move_are_undeformed() {
+        let maps = Maps {
+            name: "damage".to_owned(),
+            title: "A bar".to_owned(),
+            quantity: "damage".to_owned(),
+            unit: "-",
+            bodies: vec![MappedBody::of_lattice(
+                "lattice",
+                &[[0.0, 0.0], [1.0, 0.0]],
+                1.0,
+                &[[0.0; 2]; 2],
+                vec![0.0, 1.0],
+            )],
+            columns: 1,
+            are_modes: false,
+        };
+        assert!(maps.to_svg(90.0).unwrap().contains("A bar; undeformed"));
     }
 
     #[test]

@@ -1,6 +1,8 @@
-//! Maps of displacements, rotations and natural modes: lattices beside finite elements (MPPD Figs 12 to 24, OMPPD Figs 9 to 23).
+//! Maps of displacements, rotations and natural modes: lattices beside finite elements (MPPD Figs 12 to 24, OMPPD Figs 9 to 23); maps of
+//! damage (NHPD Figs 10 to 24, MBB-PD Figs 14 to 17).
 
 mod drawing;
+mod fractures;
 mod laminas;
 mod squares;
 
@@ -14,12 +16,15 @@ use drawing::Motion;
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "maps",
-    title: "Maps of displacements and modes",
-    source: "Diana and Casolo (MPPD), Figs 12 to 24; (OMPPD), Figs 9, 11 to 15, 19 to 23",
+    title: "Maps of displacements, modes and damage",
+    source: "Diana and Casolo (MPPD), Figs 12 to 24; (OMPPD), Figs 9, 11 to 15, 19 to 23; Zhang, Yang and \
+             Zhuang (NHPD), Figs 10 to 12, 15, 16, 18 to 20, 24; Masoumi, Ravandi and Salehi (MBB-PD), Figs 14, 16, 17",
     setup: "The plates of the tables of MPPD and the laminas of the tables of OMPPD, and our own finite elements of the same \
             bodies, drawn with the same colours and the same magnification. Of the plates, the lattice is compared with the \
             elements at all points, both without their rigid motion: displacements by the L2 norm of their difference over \
-            that by finite elements, modes by the square of the cosine between both (the modal assurance criterion).",
+            that by finite elements, modes by the square of the cosine between both (the modal assurance criterion). Damage is drawn \
+            after shares of the breakages of the tests of `disk`, `slots`, `inclined` and `cracks`, on the bodies without their \
+            displacements.",
     cases: &[
         &TRACTION,
         &SHEAR,
@@ -53,6 +58,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     if extent == Extent::Full {
         findings.maps = squares.maps()?;
         findings.maps.extend(laminas::maps()?);
+        findings.maps.extend(fractures::maps()?);
     }
     Ok(findings)
 }

@@ -1,0 +1,141 @@
+//! Damage at stages: disks and plates of NHPD (Figs 10 to 12, 15, 16, 18 to 20 and 24), plates of MBB-PD (Figs 14, 16 and 17).
+
+use anyhow::Context;
+use ligament::run::Solution;
+use ligament_analysis::fields::damage;
+use ligament_analysis::history::BreakRecord;
+use ligament_mesh::Cell as MeshCell;
+use ligament_output::vtu::Cell;
+use ligament_plot::picture::maps::{MappedBody, Maps};
+
+use crate::trial::Trial;
+use crate::{cracks, disk, inclined, slots};
+
+/// The correction of the paper, and the one under which uniform strains are equilibria.
+const CORRECTIONS: [&str; 2] = ["domain", "patch"];
+
+/// Shares of all breakages that are drawn.
+const STAGES: [(&str, usize); 3] = [
+    ("a quarter of the breakages", 4),
+    ("half of them", 2),
+    ("all", 1),
+];
+
+/// Share of the largest load at which the plates of MBB-PD end: their cracks have run far then.
+const END: f64 = 0.1;
+
+/// A case by the name that its experiment gives it, and the number of its figure.
+type Figure = (&'static str, usize);
+
+const DISKS: [Figure; 3] = [("4 mm", 10), ("3 mm", 11), ("2 mm", 12)];
+const SLOTS: [Figure; 5] = [
+    ("30", 15),
+    ("60", 16),
+    ("two", 18),
+    ("three", 19),
+    ("four", 20),
+];
+const PLATES: [Figure; 3] = [("central", 14), ("three", 16), ("hole", 17)];
+
+/// All maps of damage.
+pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
+    let mut maps = Vec::new();
+    for (mesh, figure) in DISKS {
+        let trial = |correction| disk::trial(mesh, correction, 3.0);
+        let title = format!("Brazilian disk, lambda = 3, mesh of {mesh}");
+        maps.push(under_both(figure, title, trial)?);
+    }
+    for (case, figure) in SLOTS {
+        let trial = |correction| slots::trial(case, "2 mm", correction, 3.0);
+        let slots = match case.parse::<u32>() {
+            Ok(angle) => format!("one slot at {angle} degrees"),
+            Err(_) => format!("{case} slots"),
+        };
+        let title = format!("Disk with {slots}, lambda = 3");
+        maps.push(under_both(figure, title, trial)?);
+    }
+    maps.push(under_both(
+        24,
+        "Plate with an inclined slot, theta = 62.5, lambda = 3".to_owned(),
+        |it| inclined::trial("62.5", it, 3.0),
+    )?);
+    for (case, figure) in PLATES {
+        let trial = cracks::trial(case, 1.0, "mixed-mode")?.set("fracture.stop.load_fraction", END);
+        let run = trial.solve_with_breakages()?;
+        maps.push(Maps {
+            name: format!("mbb-figure-{figure}"),
+            title: format!("Plate of MBB-PD, {case}, 1 mm"),
+            bodies: stages("", &run)?,
+            ..damage_maps()
+        });
+    }
+    Ok(maps)
+}
+
+/// Stages of a test under both corrections, a row each.
+fn under_both(
+    figure: usize,
+    title: String,
+    trial: impl Fn(&'static str) -> anyhow::Result<Trial>,
+) -> anyhow::Result<Maps> {
+    let mut bodies = Vec::new();
+    for correction in CORRECTIONS {
+        let run = trial(correction)?.solve_with_breakages()?;
+        bodies.extend(stages(&format!("{correction}: "), &run)?);
+    }
+    Ok(Maps {
+        name: format!("nhpd-figure-{figure}"),
+        title,
+        bodies,
+        ..damage_maps()
+    })
+}
+
+fn damage_maps() -> Maps {
+    Maps {
+        name: String::new(),
+        title: String::new(),
+        quantity: "damage".to_owned(),
+        unit: "-",
+        bodies: Vec::new(),
+        columns: STAGES.len(),
+        are_modes: false,
+    }
+}
+
+/// The damage after shares of the breakages, on the body without its displacement.
+fn stages(
+    label: &str,
+    (solution, breaks): &(Solution, Vec<BreakRecord>),
+) -> anyhow::Result<Vec<MappedBody>> {
+    let model = &solution.model;
+    let (cloud, cells) = (&model.system.cloud, model.setup.body.cells());
+    let unmoved = vec![[0.0; 2]; cloud.len()];
+    let drawn = |(words, part): (&str, usize)| {
+        let mut intact = vec![true; model.system.bonds.len()];
+        for record in &breaks[..breaks.len() / part] {
+            intact[record.bond as usize] = false;
+        }
+        let (title, values) = (format!("{label}{words}"), damage(&*model.system, &intact));
+        let positions = &cloud.positions;
+        if cells.is_empty() {
+            let [spacing, _] = cloud.lattice_cell.context("the body has no cells")?;
+            return Ok(MappedBody::of_lattice(
+                title, positions, spacing, &unmoved, values,
+            ));
+        }
+        let cells = cells.iter().map(|cell| match *cell {
+            MeshCell::Triangle(corners) => Cell::Triangle(corners),
+            MeshCell::Quadrangle(corners) => Cell::Quad(corners),
+        });
+        let (positions, unmoved) = (positions.clone(), unmoved.clone());
+        Ok(MappedBody::of_mesh(
+            title,
+            positions,
+            cells.collect(),
+            unmoved,
+            values,
+        ))
+    };
+    STAGES.into_iter().map(drawn).collect()
+}
