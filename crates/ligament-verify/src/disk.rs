@@ -74,11 +74,7 @@ impl Case<'_> {
     }
 
     fn test(self, tests: &mut Memory<DiskTest>) -> anyhow::Result<DiskTest> {
-        let trial = self.trial()?;
-        tests.result(trial.command(), || {
-            let (solution, breaks) = trial.solve_with_breakages()?;
-            DiskTest::from_run(&solution, &breaks)
-        })
+        tests.reading_with_breakages(&self.trial()?, DiskTest::from_run)
     }
 }
 

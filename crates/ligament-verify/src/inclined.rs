@@ -133,11 +133,7 @@ impl Case<'_> {
     }
 
     fn test(self, tests: &mut Memory<PlateTest>) -> anyhow::Result<PlateTest> {
-        let trial = self.trial()?;
-        tests.result(trial.command(), || {
-            let (solution, breaks) = trial.solve_with_breakages()?;
-            PlateTest::from_run(&solution, &breaks)
-        })
+        tests.reading_with_breakages(&self.trial()?, PlateTest::from_run)
     }
 }
 

@@ -174,11 +174,7 @@ impl<'a> Case<'a> {
     }
 
     fn test(self, tests: &mut Memory<SlottedTest>) -> anyhow::Result<SlottedTest> {
-        let trial = self.trial()?;
-        tests.result(trial.command(), || {
-            let (solution, breaks) = trial.solve_with_breakages()?;
-            SlottedTest::from_run(&solution, &breaks)
-        })
+        tests.reading_with_breakages(&self.trial()?, SlottedTest::from_run)
     }
 }
 

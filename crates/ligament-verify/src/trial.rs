@@ -238,6 +238,18 @@ impl<T: Clone> Memory<T> {
     ) -> anyhow::Result<T> {
         self.result(trial.command(), || read(&trial.solve()?))
     }
+
+    /// What is read in the run of a trial and in its breakages, which is done if it was not yet.
+    pub(super) fn reading_with_breakages(
+        &mut self,
+        trial: &Trial,
+        read: impl FnOnce(&Solution, &[BreakRecord]) -> anyhow::Result<T>,
+    ) -> anyhow::Result<T> {
+        self.result(trial.command(), || {
+            let (solution, breaks) = trial.solve_with_breakages()?;
+            read(&solution, &breaks)
+        })
+    }
 }
 
 impl<T> Default for Memory<T> {
