@@ -175,6 +175,20 @@ nu,known,allowed,subset,standing,instead,reason
         }
     }
 
+    /// Statements hold or do not; their numbers are bounds of ours.
+    #[test]
+    fn the_page_says_of_statements_that_they_hold() {
+        let known = known_values("t4", &TABLE.replace("known: printed", "known: statement"));
+        let table = known.unwrap().judge(Extent::Full, |_| Ok(2053.2));
+        let findings = Findings {
+            tables: vec![table.unwrap()],
+            ..Findings::default()
+        };
+        let text = page::text(&[(&EXPERIMENT, findings)], Extent::Full).unwrap();
+        let outcome = "stated: 1 refuted; stated: 2 FAILED |";
+        assert!(text.contains(outcome), "{text}");
+    }
+
     #[test]
     fn tallies_add_up_and_are_told() {
         let tally = Tally::from_findings(&findings().unwrap());

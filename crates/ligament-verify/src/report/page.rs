@@ -71,6 +71,8 @@ to run.
 - **differs, cause unknown**: the set-up of the paper, as far as it is told, does not lead to the printed value, and the
   computed one is that of an independent calculation.
 - **missed**: the known value is right, and the method does not come near enough to it, for the reason in the note.
+- **stated**: what the paper says in words, with a bound of ours that stands under the table in the long report: it holds, or
+  does not.
 - **not judged**: shown for comparison. **FAILED**: should be near, and is not.
 ";
 
@@ -165,16 +167,30 @@ fn outcome(item: &Item, rows: &[Compared<'_>]) -> String {
     }
 }
 
-/// How many rows got which verdict, and by how much they differ.
+/// How many values are met how nearly, and how many statements hold.
 fn words(rows: &[Compared<'_>]) -> String {
-    let mut parts = Vec::new();
-    for verdict in Verdict::ALL {
-        let those = || rows.iter().filter(|(_, row)| row.verdict == verdict);
-        let (count, largest) = (those().count(), largest(those().copied()));
-        if count == 0 {
-            continue;
-        }
-        parts.push(match verdict {
+    let is_statement = |row: &&Compared<'_>| row.0.heading.known == "statement";
+    let (statements, values): (Vec<Compared<'_>>, Vec<_>) = rows.iter().partition(is_statement);
+    let mut parts = words_of_values(&values);
+    parts.extend(words_of_statements(&statements));
+    parts.join("; ")
+}
+
+/// The rows of each verdict, the best first.
+fn by_verdict<'a>(
+    rows: &'a [Compared<'a>],
+) -> impl Iterator<Item = (Verdict, Vec<Compared<'a>>)> + 'a {
+    let of_verdict = |verdict: Verdict| {
+        let those = rows.iter().filter(|(_, row)| row.verdict == verdict);
+        (verdict, those.copied().collect::<Vec<_>>())
+    };
+    (Verdict::ALL.into_iter().map(of_verdict)).filter(|(_, those)| !those.is_empty())
+}
+
+fn words_of_values(rows: &[Compared<'_>]) -> Vec<String> {
+    let part = |(verdict, those): (Verdict, Vec<Compared<'_>>)| {
+        let (count, largest) = (those.len(), largest(those.iter().copied()));
+        match verdict {
             Verdict::Rounded => format!("{count} to the digit"),
             Verdict::Truncated => format!("{count} to the digit, truncated"),
             Verdict::Within => format!("{count} within {largest}"),
@@ -183,9 +199,25 @@ fn words(rows: &[Compared<'_>]) -> String {
             Verdict::Misprint | Verdict::Shown | Verdict::Failed => {
                 format!("{count} {}", verdict.words())
             }
-        });
-    }
-    parts.join("; ")
+        }
+    };
+    by_verdict(rows).map(part).collect()
+}
+
+/// Statements are no numbers: what is compared are the bounds that stand for their words.
+fn words_of_statements(rows: &[Compared<'_>]) -> Vec<String> {
+    let part = |(verdict, those): (Verdict, Vec<Compared<'_>>)| {
+        let count = those.len();
+        match verdict {
+            Verdict::Rounded | Verdict::Truncated => format!("stated: {count} hold"),
+            Verdict::Within => format!("stated: {count} hold within their bounds"),
+            Verdict::Misprint => format!("stated: {count} refuted"),
+            Verdict::Differs => format!("stated: {count} do not hold, cause unknown"),
+            Verdict::Missed => format!("stated: {count} do not hold"),
+            Verdict::Shown | Verdict::Failed => format!("stated: {count} {}", verdict.words()),
+        }
+    };
+    by_verdict(rows).map(part).collect()
 }
 
 /// The largest difference from the known values, as a share and, in tables of amounts, as an amount.
