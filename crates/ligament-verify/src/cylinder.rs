@@ -3,7 +3,7 @@
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
-use super::trial::{Template, displacements, template};
+use super::trial::{Template, Trial, displacements, template};
 use ligament::run::Solution;
 
 /// The experiment.
@@ -30,11 +30,7 @@ const PRESSURE: f64 = 400e6;
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let table = published!("mbb-cylinder").judge(extent, |labels| {
         let (spacing, nu) = (1e-3 * labels.number("d")?, labels.number("nu")?);
-        let cells = 2 * (OUTER / spacing).round() as u32;
-        let trial = (RING.trial())
-            .on_lattice([cells, cells], spacing)
-            .set("material.poisson", nu);
-        Ok(100.0 * difference(&trial.solve()?, nu))
+        Ok(100.0 * difference(&trial(spacing, nu).solve()?, nu))
     })?;
     Ok(Findings {
         tables: vec![table],
@@ -43,10 +39,36 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// L2 norm over the points of the difference from Lame's u_r over that of u_r, where
+/// The cylinder on a lattice of a spacing (m).
+pub(super) fn trial(spacing: f64, nu: f64) -> Trial {
+    let cells = 2 * (OUTER / spacing).round() as u32;
+    (RING.trial())
+        .on_lattice([cells, cells], spacing)
+        .set("material.poisson", nu)
+}
+
+/// The radial displacement of a point, m.
+pub(super) struct Radial {
+    /// Place of the point, m.
+    pub(super) place: [f64; 2],
+    /// By the lattice.
+    pub(super) found: f64,
+    /// By Lame.
+    pub(super) exact: f64,
+}
+
+/// L2 norm over the points of the difference from Lame's u_r over that of u_r.
+fn difference(solution: &Solution, nu: f64) -> f64 {
+    let points = radial(solution, nu);
+    let apart: f64 = points.iter().map(|it| (it.found - it.exact).powi(2)).sum();
+    let size: f64 = points.iter().map(|it| it.exact.powi(2)).sum();
+    (apart / size).sqrt()
+}
+
+/// The radial displacements of all points, beside
 ///
 /// u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2).
-fn difference(solution: &Solution, nu: f64) -> f64 {
+pub(super) fn radial(solution: &Solution, nu: f64) -> Vec<Radial> {
     let cloud = &solution.model.system.cloud;
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
@@ -56,13 +78,14 @@ fn difference(solution: &Solution, nu: f64) -> f64 {
     let count = points.len() as f64;
     let mean = [0, 1].map(|axis| points.iter().map(|(_, u)| u[axis]).sum::<f64>() / count);
     let constant = PRESSURE * INNER.powi(2) / (OUTER.powi(2) - INNER.powi(2));
-    let (mut apart, mut size) = (0.0, 0.0);
-    for ([x, y], [u, v]) in points {
+    let of_point = |(place, [u, v]): ([f64; 2], [f64; 2])| {
+        let [x, y] = place;
         let r = x.hypot(y);
-        let found = ((u - mean[0]) * x + (v - mean[1]) * y) / r;
-        let exact = (1.0 + nu) / YOUNG * constant * ((1.0 - 2.0 * nu) * r + OUTER.powi(2) / r);
-        apart += (found - exact).powi(2);
-        size += exact.powi(2);
-    }
-    (apart / size).sqrt()
+        Radial {
+            place,
+            found: ((u - mean[0]) * x + (v - mean[1]) * y) / r,
+            exact: (1.0 + nu) / YOUNG * constant * ((1.0 - 2.0 * nu) * r + OUTER.powi(2) / r),
+        }
+    };
+    points.into_iter().map(of_point).collect()
 }

@@ -24,11 +24,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-static TENSION_Y: Template = template!("mbb-plate/tension.toml");
-static TENSION_X: Template = template!("mbb-plate/tension-x.toml");
-static SHEAR: Template = template!("mbb-plate/shear.toml");
-static THERMAL: Template = template!("thermal-plates/case.toml");
-static THERMAL_LEFT: Template = template!("thermal-plates/three-edges.toml");
+pub(super) static TENSION_Y: Template = template!("mbb-plate/tension.toml");
+pub(super) static TENSION_X: Template = template!("mbb-plate/tension-x.toml");
+pub(super) static SHEAR: Template = template!("mbb-plate/shear.toml");
+pub(super) static THERMAL: Template = template!("thermal-plates/case.toml");
+pub(super) static THERMAL_LEFT: Template = template!("thermal-plates/three-edges.toml");
 
 /// Problem, d, x, y (mm), u_x, u_y (um) by finite elements.
 const ELEMENTS: &str = include_str!("../../../tests/reference/mbb-pd-elements.csv");

@@ -80,6 +80,14 @@ impl Motion {
         self
     }
 
+    /// Adds a uniform expansion about the origin.
+    pub(super) fn expand(&mut self, strain: f64) {
+        let points = self.points().to_vec();
+        for (place, moved) in points.iter().zip(&mut self.displacements) {
+            *moved = [0, 1].map(|axis| moved[axis] + strain * place[axis]);
+        }
+    }
+
     fn points(&self) -> &[[f64; 2]] {
         match &self.body {
             Discretisation::Lattice(points, _) => points,

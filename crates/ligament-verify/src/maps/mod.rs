@@ -3,6 +3,7 @@
 
 mod drawing;
 mod fractures;
+mod intact;
 mod laminas;
 mod squares;
 
@@ -18,7 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "maps",
     title: "Maps of displacements, modes and damage",
     source: "Diana and Casolo (MPPD), Figs 12 to 24; (OMPPD), Figs 9, 11 to 15, 19 to 23; Zhang, Yang and \
-             Zhuang (NHPD), Figs 10 to 12, 15, 16, 18 to 20, 24; Masoumi, Ravandi and Salehi (MBB-PD), Figs 14, 16, 17",
+             Zhuang (NHPD), Figs 10 to 12, 15, 16, 18 to 20, 24; Masoumi, Ravandi and Salehi (MBB-PD), Figs 9 to 11, 14, 16, 17",
     setup: "The plates of the tables of MPPD and the laminas of the tables of OMPPD, and our own finite elements of the same \
             bodies, drawn with the same colours and the same magnification. Of the plates, the lattice is compared with the \
             elements at all points, both without their rigid motion: displacements by the L2 norm of their difference over \
@@ -58,6 +59,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     if extent == Extent::Full {
         findings.maps = squares.maps()?;
         findings.maps.extend(laminas::maps()?);
+        findings.maps.extend(intact::maps()?);
         findings.maps.extend(fractures::maps()?);
     }
     Ok(findings)

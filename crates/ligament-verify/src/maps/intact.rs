@@ -1,0 +1,182 @@
+//! Intact bodies of MBB-PD (Figs 9 to 11): plates that are pulled, sheared and heated, and a thick cylinder.
+
+use anyhow::Context;
+use ligament_model::material::{Elasticity, Isotropic};
+use ligament_plot::picture::maps::{MappedBody, Maps};
+
+use super::Motion;
+use super::drawing::maps_of_component;
+use crate::finite_elements::{Body, Degree, Mesh};
+use crate::trial::Template;
+use crate::{cylinder, plates};
+
+const YOUNG: f64 = 65.8e9;
+
+const THICKNESS: f64 = 1e-3;
+
+/// Distance of the points of the plates, and side of the elements, m.
+const SPACING: f64 = 1e-3;
+
+/// Elements along x and y: their edges above and below lie on the outermost rows of points.
+const ELEMENTS: [usize; 2] = [100, 99];
+
+/// Free strain of the heated plates: 23e-6/K times 50 K.
+const FREE_STRAIN: f64 = 23e-6 * 50.0;
+
+/// Spacing of the cylinder's points, m.
+const COARSE: f64 = 0.05;
+
+/// What the nodes of elements are given, shape (n_nodes, 2), m.
+type Prescribed = Vec<[Option<f64>; 2]>;
+
+/// All maps of intact bodies.
+pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
+    let mut maps = Vec::new();
+    for (axis, name, template) in [(1, "y", &plates::TENSION_Y), (0, "x", &plates::TENSION_X)] {
+        let motions = beside(pulled(axis)?, template, 0.2)?;
+        let title = format!("Plate in tension along {name}, nu = 0.2");
+        let file = format!("mbb-figure-9-tension-{name}");
+        maps.push(maps_of_component(file, &title, &motions, axis));
+    }
+    let motions = beside(sheared()?, &plates::SHEAR, 0.3)?;
+    let file = "mbb-figure-9-shear".to_owned();
+    maps.push(maps_of_component(
+        file,
+        "Sheared plate, nu = 0.3",
+        &motions,
+        0,
+    ));
+    for (edges, template, title) in [
+        (2, &plates::THERMAL, "Heated plate, two edges clamped"),
+        (
+            3,
+            &plates::THERMAL_LEFT,
+            "Heated plate, three edges clamped",
+        ),
+    ] {
+        let motions = beside(heated(edges)?, template, 0.4)?;
+        for axis in [1, 0] {
+            let file = format!("mbb-figure-10-{edges}-edges");
+            maps.push(maps_of_component(file, title, &motions, axis));
+        }
+    }
+    maps.push(cylinder()?);
+    Ok(maps)
+}
+
+/// The motion of finite elements, and that of the lattice of a case.
+fn beside(
+    elements: Motion,
+    template: &'static Template,
+    ratio: f64,
+) -> anyhow::Result<[(String, Motion); 2]> {
+    let trial = template.trial().set("material.poisson", ratio);
+    let solution = trial.solve()?;
+    let lattice = Motion::of_lattice(&solution.model.system, &solution.outcome.state.displacement)?;
+    Ok([
+        ("finite elements".to_owned(), elements),
+        ("MBB-PD".to_owned(), lattice),
+    ])
+}
+
+fn plate(ratio: f64) -> Body {
+    let elasticity = Elasticity::Isotropic(Isotropic {
+        young: YOUNG,
+        poisson: ratio,
+    });
+    let mesh = Mesh::rectangle(Degree::Linear, ELEMENTS, SPACING);
+    Body::new(mesh, &elasticity, THICKNESS)
+}
+
+/// Half of the elements' extent along x and y, m.
+fn half() -> [f64; 2] {
+    ELEMENTS.map(|cells| 0.5 * SPACING * cells as f64)
+}
+
+fn solved(body: Body, prescribed: &Prescribed, forces: &[[f64; 2]]) -> anyhow::Result<Motion> {
+    let displacements = body.displacements(prescribed, forces)?;
+    Ok(Motion::of_elements(body.mesh, displacements))
+}
+
+/// 200 MPa on both ends, as a force on the volume of the outermost elements; the middle is at rest.
+fn pulled(axis: usize) -> anyhow::Result<Motion> {
+    let body = plate(0.2);
+    let outermost = half()[axis] - SPACING;
+    let forces = body.volume_forces(|centre| {
+        let mut force = [0.0; 2];
+        if centre[axis].abs() > outermost {
+            force[axis] = 200e6 / SPACING * centre[axis].signum();
+        }
+        force
+    });
+    let mut prescribed = vec![[None; 2]; body.mesh.nodes.len()];
+    prescribed[body.mesh.nearest_node([0.0, 0.0])] = [Some(0.0); 2];
+    prescribed[body.mesh.nearest_node([0.0, half()[1]])][0] = Some(0.0);
+    Ok(solved(body, &prescribed, &forces)?.without_rigid_motion())
+}
+
+/// The upper edge is moved along x by 1 mm, the lower one held.
+fn sheared() -> anyhow::Result<Motion> {
+    let body = plate(0.3);
+    let edge = half()[1] - 0.1 * SPACING;
+    let given = |[_, y]: &[f64; 2]| match (*y > edge, *y < -edge) {
+        (true, _) => [Some(1e-3), Some(0.0)],
+        (_, true) => [Some(0.0); 2],
+        _ => [None; 2],
+    };
+    let prescribed = body.mesh.nodes.iter().map(given).collect();
+    let forces = vec![[0.0; 2]; body.mesh.nodes.len()];
+    solved(body, &prescribed, &forces)
+}
+
+/// The free expansion about the origin, and what takes it away from the clamped edges: top and bottom, and the left one of three.
+fn heated(edges: usize) -> anyhow::Result<Motion> {
+    let body = plate(0.4);
+    let edge = half().map(|it| it - 0.1 * SPACING);
+    let is_clamped = |[x, y]: [f64; 2]| y.abs() > edge[1] || (edges == 3 && x < -edge[0]);
+    let given = |&node: &[f64; 2]| node.map(|it| is_clamped(node).then_some(-FREE_STRAIN * it));
+    let prescribed = body.mesh.nodes.iter().map(given).collect();
+    let forces = vec![[0.0; 2]; body.mesh.nodes.len()];
+    let mut motion = solved(body, &prescribed, &forces)?;
+    motion.expand(FREE_STRAIN);
+    Ok(motion)
+}
+
+/// The radial displacement of the cylinder, by Lame and by the lattice, at both ratios of the paper.
+fn cylinder() -> anyhow::Result<Maps> {
+    let mut bodies = Vec::new();
+    for ratio in [0.1, -0.1] {
+        let solution = cylinder::trial(COARSE, ratio).solve()?;
+        let cloud = &solution.model.system.cloud;
+        let [spacing, _] = cloud.lattice_cell.context("the cylinder is no lattice")?;
+        let points = cylinder::radial(&solution, ratio);
+        let places: Vec<[f64; 2]> = points.iter().map(|it| it.place).collect();
+        for (title, value) in [
+            ("Lame", (|it| it.exact) as fn(&cylinder::Radial) -> f64),
+            ("MBB-PD", |it| it.found),
+        ] {
+            let values: Vec<f64> = points.iter().map(value).collect();
+            let moved = |(place, value): (&[f64; 2], &f64)| {
+                place.map(|it| value * it / place[0].hypot(place[1]))
+            };
+            let displacements: Vec<[f64; 2]> = places.iter().zip(&values).map(moved).collect();
+            let title = format!("{title}, nu = {ratio}");
+            bodies.push(MappedBody::of_lattice(
+                title,
+                &places,
+                spacing,
+                &displacements,
+                values,
+            ));
+        }
+    }
+    Ok(Maps {
+        name: "mbb-figure-11".to_owned(),
+        title: "Thick cylinder under internal pressure".to_owned(),
+        quantity: "u_r".to_owned(),
+        unit: "m",
+        bodies,
+        columns: 2,
+        are_modes: false,
+    })
+}
