@@ -1,9 +1,8 @@
 //! The cost of imaginary elements beside that of pairs of points (MBB-PD, introduction and conclusion 1).
 
 use anyhow::bail;
-use ligament::Loading;
-use ligament_analysis::equilibrium::Equilibrium;
 
+use super::equations::Equations;
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
@@ -26,16 +25,6 @@ static PLATE: Template = template!("mbb-plate/tension.toml");
 /// Side of the plate, m.
 const SIDE: f64 = 0.1;
 
-/// Numbers that the work of a solution goes with.
-#[derive(Debug, Clone, Copy)]
-struct Cost {
-    unknowns: f64,
-    bonds: f64,
-    entries: f64,
-    factor: f64,
-    multiplications: f64,
-}
-
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut models = Memory::default();
     let mut cost = |labels: Labels<'_>, law: &str| -> anyhow::Result<f64> {
@@ -48,26 +37,19 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
                 "material.poisson",
                 if law == "bbpd" { 1.0 / 3.0 } else { 0.3 },
             );
-        let cost = models.result(trial.command(), || {
+        let (bonds, equations) = models.result(trial.command(), || {
             let model = trial.model()?;
-            let loading = Loading::new(&model.setup, &model.system)?;
-            let problem = loading.problem(&model.system, &model.criteria);
-            let equilibrium = Equilibrium::new(&problem, 1e-4)?;
-            let symbolic = equilibrium.stiffness().symbolic();
-            Ok(Cost {
-                unknowns: equilibrium.unknowns().len() as f64,
-                bonds: model.system.bonds.len() as f64,
-                entries: symbolic.pattern().n_entries() as f64,
-                factor: symbolic.n_factor_values() as f64,
-                multiplications: symbolic.n_multiplications(),
-            })
+            Ok((
+                model.system.bonds.len() as f64,
+                Equations::from_model(&model)?,
+            ))
         })?;
         Ok(match labels.text("of")? {
-            "unknowns" => cost.unknowns,
-            "bonds" => cost.bonds,
-            "entries" => cost.entries,
-            "factor" => cost.factor,
-            "multiplications" => cost.multiplications,
+            "unknowns" => equations.unknowns,
+            "bonds" => bonds,
+            "entries" => equations.matrix,
+            "factor" => equations.factor,
+            "multiplications" => equations.multiplications,
             other => bail!("`{other}` is no cost"),
         })
     };

@@ -209,8 +209,8 @@ impl Crack {
         points.max_by(|a, b| radius(a.at).total_cmp(&radius(b.at)))
     }
 
-    /// Distances of the points of the [common part](Self::common_part), turned by half a turn about the origin, from the nearest point of the
-    /// crack.
+    /// Distances of the points of the [common part](Self::common_part), turned by half a turn about the origin, from the
+    /// nearest point of the crack.
     pub(super) fn half_turn(&self, along: [f64; 2]) -> Option<HalfTurn> {
         let compared = self.common_part(along)?;
         let nearest = |at: [f64; 2]| self.gap_to([at; 2]);

@@ -2,7 +2,8 @@
 
 use anyhow::{Context, bail};
 
-use super::disk_test::{CLOSED_FORM, DiskTest, Equations};
+use super::disk_test::{CLOSED_FORM, DiskTest};
+use super::equations::Equations;
 use super::experiment::{Experiment, Findings};
 use super::published::published;
 use super::spread::spread;

@@ -3,10 +3,7 @@
 use std::f64::consts::PI;
 
 use anyhow::Context;
-use ligament::Loading;
 use ligament::run::Solution;
-use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
-use ligament_analysis::Equilibrium;
 use ligament_analysis::history::BreakRecord;
 use ligament_run::summary::DROP;
 
@@ -63,19 +60,6 @@ pub(super) struct Band {
     pub(super) splits: bool,
 }
 
-/// How large the equations of a disk are.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Equations {
-    /// Unknowns: the order of the stiffness matrix.
-    pub(super) unknowns: f64,
-    /// Entries of its lower triangle.
-    pub(super) matrix: f64,
-    /// Values of its factor.
-    pub(super) factor: f64,
-    /// Multiplications that the factor takes.
-    pub(super) multiplications: f64,
-}
-
 impl DiskTest {
     pub(super) fn from_run(solution: &Solution, breaks: &[BreakRecord]) -> anyhow::Result<Self> {
         let (model, outcome) = (&solution.model, &solution.outcome);
@@ -123,21 +107,5 @@ impl Band {
             above: mean(&|[_, y]| y) / RADIUS,
             splits: crack.joins(platen(RADIUS), platen(-RADIUS)),
         }
-    }
-}
-
-impl Equations {
-    pub(super) fn from_model(model: &ligament::Model) -> anyhow::Result<Self> {
-        let loading = Loading::new(&model.setup, &model.system)?;
-        let problem = loading.problem(&model.system, &model.criteria);
-        let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
-        let stiffness = equilibrium.stiffness();
-        let symbolic = stiffness.symbolic();
-        Ok(Self {
-            unknowns: stiffness.unknowns().len() as f64,
-            matrix: symbolic.pattern().n_entries() as f64,
-            factor: symbolic.n_factor_values() as f64,
-            multiplications: symbolic.n_multiplications(),
-        })
     }
 }

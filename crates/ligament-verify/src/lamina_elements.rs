@@ -26,7 +26,7 @@ const STROKE: f64 = 0.5e-3;
 const NEAR: f64 = 1e-4;
 
 /// The lamina with axis 1 at an angle (rad), and a line of the mesh so far from both ends (m).
-fn lamina(angle: f64, layer: f64) -> Body {
+pub(super) fn lamina(angle: f64, layer: f64) -> Body {
     let elasticity = Elasticity::Orthotropic(Orthotropic {
         young: [15e9, 5e9],
         poisson: 0.25,

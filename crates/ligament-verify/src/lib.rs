@@ -32,6 +32,7 @@ mod disk;
 mod disk_modes;
 mod disk_test;
 pub mod entry;
+mod equations;
 mod experiment;
 pub mod finite_elements;
 mod frequencies;

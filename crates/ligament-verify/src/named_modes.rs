@@ -11,6 +11,9 @@ use super::trial::Trial;
 const MODES: [fn(Frequencies) -> f64; 3] =
     [|it| it.flexural, |it| it.axial, |it| it.second_flexural];
 
+/// Names of these modes, as the papers have them.
+pub(super) const NAMES: [&str; 3] = ["flexural I", "axial I", "flexural II"];
+
 /// Frequencies of the three lowest modes of a cantilever, Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Frequencies {

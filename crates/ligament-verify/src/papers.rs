@@ -24,7 +24,7 @@ pub(super) const PAPERS: [(&str, &str); 5] = [
     ),
     (
         "MBB-PD",
-        "Masoumi, Ravandi and Salehi, the modified bond-based model with normal and shear bonds",
+        "Masoumi, Ravandi and Salehi, \"A modified bond-based peridynamics model without limitations on elastic properties\"",
     ),
     (
         "PDS",

@@ -255,7 +255,8 @@ fn sum(dimension: usize, mut entries: Vec<(usize, usize, f64)>) -> anyhow::Resul
 mod tests {
     use super::super::mesh::Degree;
     use super::*;
-    use ligament_model::material::{Isotropic, Orthotropic};
+    use crate::lamina_elements::lamina;
+    use ligament_model::material::Isotropic;
 
     /// Independent calculations with biquadratic elements.
     const HOLE: &str = include_str!("../../../../tests/reference/fem-hole-frequencies.csv");
@@ -268,19 +269,6 @@ mod tests {
             young: 70e9,
             poisson,
         })
-    }
-
-    /// The lamina of OMPPD, axis 1 at an angle in degrees.
-    fn lamina(angle: f64, layer: f64) -> Body {
-        let elasticity = Elasticity::Orthotropic(Orthotropic {
-            young: [15e9, 5e9],
-            poisson: 0.25,
-            shear_modulus: 4.8e9,
-            out_of_plane: None,
-            angle: angle.to_radians(),
-        });
-        let mesh = Mesh::lamina_with_hole(Degree::Quadratic, 0.2, 0.04, layer, 12);
-        Body::new(mesh, &elasticity, THICKNESS)
     }
 
     fn rows(text: &str) -> impl Iterator<Item = Vec<f64>> {
@@ -367,7 +355,7 @@ mod tests {
     #[test]
     fn the_modes_of_a_lamina_with_a_hole_are_those_of_an_independent_calculation() {
         for row in rows(HOLE) {
-            let body = lamina(row[0], 0.01);
+            let body = lamina(row[0].to_radians(), 0.01);
             let held: Vec<_> = body
                 .mesh
                 .nodes

@@ -7,6 +7,7 @@ use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 
 use crate::finite_elements::Mesh;
+use crate::named_modes::NAMES;
 
 /// Displacements, and rotations of lattices.
 #[derive(Debug, Clone)]
@@ -228,9 +229,8 @@ pub(super) fn maps_of_component(
 
 /// Maps of modes: a row of three for each method.
 pub(super) fn maps_of_modes(name: String, title: &str, methods: &[(&str, Vec<Motion>)]) -> Maps {
-    let named = ["flexural I", "axial I", "flexural II"];
     let of_method = |(method, modes): &(&str, Vec<Motion>)| {
-        let pairs = modes.iter().zip(named);
+        let pairs = modes.iter().zip(NAMES);
         let drawn = |(motion, name): (&Motion, &str)| {
             let motion = motion.clone().with_sign();
             motion.drawn(format!("{method}, {name}"), Quantity::Length)
@@ -243,7 +243,7 @@ pub(super) fn maps_of_modes(name: String, title: &str, methods: &[(&str, Vec<Mot
         quantity: "|u| / its 99.5 % quantile".to_owned(),
         unit: "-",
         bodies: methods.iter().flat_map(of_method).collect(),
-        columns: named.len(),
+        columns: NAMES.len(),
         are_modes: true,
     }
 }

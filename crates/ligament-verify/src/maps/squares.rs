@@ -1,16 +1,15 @@
 //! The square plates of MPPD (Figs 12 to 24).
 
-use std::collections::BTreeMap;
-
 use anyhow::{Context, bail};
 use ligament_plot::picture::maps::Maps;
 
 use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
 use crate::frequencies;
-use crate::named_modes::in_named_order;
+use crate::named_modes::{NAMES, in_named_order};
 use crate::square_elements::{self, SquareLoad};
 use crate::statics::case_of;
+use crate::trial::Memory;
 
 const DENSITY: f64 = 2500.0;
 
@@ -28,16 +27,16 @@ const MODELS: [&str; 2] = ["PDS", "MPPD"];
 /// Motions that were computed, by load, Poisson's ratio and model.
 #[derive(Debug, Default)]
 pub(super) struct Squares {
-    motions: BTreeMap<String, Motion>,
-    modes: BTreeMap<String, Vec<Motion>>,
+    motions: Memory<Motion>,
+    modes: Memory<Vec<Motion>>,
 }
 
 impl Squares {
     /// The plate under a load by finite elements.
     pub(super) fn elements(&mut self, load: &str, ratio: f64) -> anyhow::Result<Motion> {
-        self.motion(format!("elements {load} {ratio}"), || {
+        self.motions.result(format!("elements {load} {ratio}"), || {
             let (mesh, displacements) = square_elements::displacements(load_of(load)?, ratio)?;
-            Ok(Motion::of_elements(mesh, displacements))
+            Ok(Motion::of_elements(mesh, displacements).without_rigid_motion())
         })
     }
 
@@ -48,40 +47,23 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Motion> {
-        self.motion(format!("{model} {load} {ratio}"), || {
-            let trial = (case_of(load_of(load)?).trial())
-                .set("material.poisson", ratio)
-                .set("model.law", model.to_lowercase());
-            let solution = trial.solve()?;
-            Motion::of_lattice(&solution.model.system, &solution.outcome.state.displacement)
+        let trial = (case_of(load_of(load)?).trial())
+            .set("material.poisson", ratio)
+            .set("model.law", model.to_lowercase());
+        self.motions.reading(&trial, |it| {
+            let motion = Motion::of_lattice(&it.model.system, &it.outcome.state.displacement)?;
+            Ok(motion.without_rigid_motion())
         })
-    }
-
-    fn motion(
-        &mut self,
-        key: String,
-        compute: impl FnOnce() -> anyhow::Result<Motion>,
-    ) -> anyhow::Result<Motion> {
-        if let Some(motion) = self.motions.get(&key) {
-            return Ok(motion.clone());
-        }
-        let motion = compute()?.without_rigid_motion();
-        self.motions.insert(key, motion.clone());
-        Ok(motion)
     }
 
     /// The three modes by finite elements, in the order of their names.
     pub(super) fn modes_of_elements(&mut self, ratio: f64) -> anyhow::Result<Vec<Motion>> {
-        let key = format!("elements {ratio}");
-        if let Some(modes) = self.modes.get(&key) {
-            return Ok(modes.clone());
-        }
-        let (mesh, modes) = square_elements::modes(ratio, DENSITY)?;
-        let modes = in_named_order(modes, |it| it.participation[ALONG])?;
-        let motion = |shape| Motion::of_elements(mesh.clone(), shape);
-        let modes: Vec<Motion> = modes.map(|mode| motion(mode.shape)).into();
-        self.modes.insert(key, modes.clone());
-        Ok(modes)
+        self.modes.result(format!("elements {ratio}"), || {
+            let (mesh, modes) = square_elements::modes(ratio, DENSITY)?;
+            let modes = in_named_order(modes, |it| it.participation[ALONG])?;
+            let motion = |shape| Motion::of_elements(mesh.clone(), shape);
+            Ok(modes.map(|mode| motion(mode.shape)).into())
+        })
     }
 
     /// The three modes of a lattice, in the order of their names.
@@ -90,19 +72,15 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Vec<Motion>> {
-        let key = format!("{model} {ratio}");
-        if let Some(modes) = self.modes.get(&key) {
-            return Ok(modes.clone());
-        }
         let trial = (frequencies::CASE.trial())
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
-        let system = trial.model()?.system;
-        let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
-        let modes = modes.map(|mode| Motion::of_lattice(&system, &mode.shape));
-        let modes = modes.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
-        self.modes.insert(key, modes.clone());
-        Ok(modes)
+        self.modes.result(trial.command(), || {
+            let system = trial.model()?.system;
+            let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
+            let modes = modes.map(|mode| Motion::of_lattice(&system, &mode.shape));
+            modes.into_iter().collect()
+        })
     }
 
     /// All maps of the figures.
@@ -158,7 +136,6 @@ fn load_of(name: &str) -> anyhow::Result<SquareLoad> {
 
 /// The place of a mode by its name.
 pub(super) fn place_of_mode(name: &str) -> anyhow::Result<usize> {
-    let names = ["flexural I", "axial I", "flexural II"];
-    let place = names.iter().position(|it| *it == name);
+    let place = NAMES.iter().position(|it| *it == name);
     place.with_context(|| format!("no mode `{name}`"))
 }
