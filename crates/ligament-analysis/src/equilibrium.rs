@@ -1,8 +1,9 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
-mod anderson;
+mod curvature;
 mod equations;
 mod external;
+mod line_search;
 mod newton;
 mod residual;
 mod secant;
@@ -32,7 +33,7 @@ pub(crate) use residual::ROUNDING;
 enum Iteration {
     /// Newton-Raphson, for bonds that are whole or broken.
     Newton,
-    /// Secants with mixing, for bonds that soften.
+    /// Quasi-Newton from secants, for bonds that soften.
     Secants,
 }
 
