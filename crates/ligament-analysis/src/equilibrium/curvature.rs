@@ -91,7 +91,8 @@ mod tests {
         let (mut u, mut force) = (vec![0.0; 3], vec![1.0, -2.0, 0.7]);
         for step in 0..3 {
             assert!(dot(&force, &force) > 1e-4, "too early: {step}");
-            let correction = curvature.correction(&force, |it| vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
+            let correction =
+                curvature.correction(&force, |it| vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
             let change = times_stiffness(&correction);
             let part = dot(&force, &correction) / dot(&correction, &change);
             let scaled = |values: Vec<f64>| values.into_iter().map(|it| part * it).collect();
@@ -103,7 +104,10 @@ mod tests {
         assert!(force.iter().all(|it| it.abs() < 1e-12), "{force:?}");
         let expected = [1.0, -2.0, 0.7];
         let found = times_stiffness(&u);
-        assert!((0..3).all(|i| (found[i] - expected[i]).abs() < 1e-12), "{u:?}");
+        assert!(
+            (0..3).all(|i| (found[i] - expected[i]).abs() < 1e-12),
+            "{u:?}"
+        );
     }
 
     #[test]

@@ -43,8 +43,8 @@ pub(super) fn balance(
         } else {
             RESIDUAL_TOLERANCE
         };
-        let energy_settled = !is_changed
-            && equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
+        let energy_settled =
+            !is_changed && equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
         if equations.is_small(&residual, tolerance) || energy_settled {
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));

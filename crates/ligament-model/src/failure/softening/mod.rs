@@ -179,7 +179,10 @@ mod tests {
             let extreme = law.extreme(0, 2.0 * end);
             assert_eq!(extreme, law.extreme(0, end));
             let left = extreme.map(|kappa| law.at(0, kappa).force);
-            assert!(left.is_some_and(|force| force > 5e-4 && force < 2e-3), "{left:?}");
+            assert!(
+                left.is_some_and(|force| force > 5e-4 && force < 2e-3),
+                "{left:?}"
+            );
             assert_eq!(law.extreme(0, 1.5), Some(1.5));
         }
         assert_eq!(plastic.extreme(0, 1e6), Some(1e6));
