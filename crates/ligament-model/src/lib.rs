@@ -19,6 +19,7 @@
 pub mod bonds;
 pub mod change;
 pub mod cloud;
+pub mod contact;
 pub mod correction;
 mod curve;
 pub mod element;

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
-use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
+use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds, normals};
+use ligament_model::contact::{CutBond, Faces};
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
+use ligament_model::element::Rigidities;
 use ligament_model::failure::Criteria;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, PointCloud,
@@ -69,6 +71,7 @@ impl Model {
             stiffness,
             correction,
             energy_ratios,
+            of_cut,
         } = stage(watcher, "correction", || {
             let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
@@ -88,7 +91,9 @@ impl Model {
             absent,
         };
         let system = stage(watcher, "rigidities", || {
-            bond_system(&setup, cloud, bonds, stiffness, &correction)
+            let faces = faces(&setup, &cloud, &bonds, &fixed.absent, of_cut);
+            let system = bond_system(&setup, cloud, bonds, stiffness, &correction)?;
+            Ok::<_, SetupError>(system.with_faces(faces))
         })?;
         let criteria = stage(watcher, "criteria", || {
             formulation::criteria(&setup, &system, &fixed.no_fail)
@@ -214,6 +219,8 @@ struct Corrected {
     stiffness: BondStiffness,
     correction: Correction,
     energy_ratios: [Vec<f64>; 4],
+    /// Rigidities of the cut bonds, in the order of their ends; none where faces do not close.
+    of_cut: Option<Rigidities>,
 }
 
 /// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
@@ -238,11 +245,21 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
         plane,
     };
     let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
+    let closes = setup.closing && any_is_cut;
+    let of_cut = closes.then(|| {
+        let bonds = bonds.clone().retained(is_cut);
+        let stiffness = stiffness.clone().retained(is_cut);
+        let correction = correction.clone().retained(is_cut);
+        let (alpha, omega) = (correction.length_factor, &correction.domain_factor);
+        let element = setup.law.element();
+        BondSystem::new(cloud.clone(), bonds, element, stiffness, alpha, omega).rigidities
+    });
     let corrected = Corrected {
         bonds,
         stiffness,
         correction,
         energy_ratios,
+        of_cut,
     };
     if cut_first || !any_is_cut {
         return corrected;
@@ -251,7 +268,33 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
         bonds: corrected.bonds.retained(&survives),
         stiffness: corrected.stiffness.retained(&survives),
         correction: corrected.correction.retained(&survives),
-        energy_ratios: corrected.energy_ratios,
+        ..corrected
+    }
+}
+
+/// The faces of the cracks: what pre-cracks cut, with its rigidities where faces carry pressure when they close.
+fn faces(
+    setup: &Setup,
+    cloud: &PointCloud,
+    bonds: &BondSet,
+    absent: &[AbsentBond],
+    of_cut: Option<Rigidities>,
+) -> Faces {
+    let cut = absent.iter().filter(|it| it.absence == Absence::PreCrack);
+    let ends: Vec<[u32; 2]> = cut.map(|it| it.ends).collect();
+    let rigidity = |of: Option<&Vec<f64>>, place: usize| of.map_or(0.0, |of| of[place]);
+    let normals = normals(&setup.precracks, &ends, cloud).into_iter();
+    let numbered = ends.iter().zip(normals).enumerate();
+    let cut = numbered.map(|(place, (&ends, normal))| CutBond {
+        ends,
+        normal,
+        axial: rigidity(of_cut.as_ref().map(|it| &it.axial), place),
+        shear: rigidity(of_cut.as_ref().map(|it| &it.shear), place),
+    });
+    if setup.closing {
+        Faces::closing(cut.collect(), bonds)
+    } else {
+        Faces::open(cut.collect())
     }
 }
 

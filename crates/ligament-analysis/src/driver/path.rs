@@ -228,6 +228,7 @@ impl<'a> Path<'a> {
         self.energies.add_work(self.problem, &self.state, balanced);
         self.energies
             .add_released(self.problem, &self.state, breakage, balanced);
+        (self.energies).add_contact(self.problem, &self.state, breakage, balanced);
         dissipation::soften(self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
@@ -267,7 +268,9 @@ impl<'a> Path<'a> {
             dissipation::break_bond(self.problem, &mut self.state, record);
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
-        self.collapsed |= self.load_came_loose(&breakage.holds);
+        // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
+        let may_press = self.problem.system.faces_close();
+        self.collapsed |= !may_press && self.load_came_loose(&breakage.holds);
         let fragments = self.equilibrium.fragments();
         report_loose(step, fragments, &breakage.holds, self.observer)?;
         Ok(breakage)
@@ -338,7 +341,10 @@ impl<'a> Path<'a> {
             return Some(Termination::DisplacementReached { displacement });
         }
         let carried = self.carried_by_the_damaged(balanced)?;
-        (carried <= NO_LOAD * self.course.peak).then_some(Termination::FellApart)
+        // What fell apart carries again where its faces close.
+        let is_over = !self.problem.system.faces_close();
+        let carries_nothing = carried <= NO_LOAD * self.course.peak;
+        (is_over && carries_nothing).then_some(Termination::FellApart)
     }
 
     /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it

@@ -1,0 +1,133 @@
+//! Equilibrium of linear bonds whose crack faces may close: Newton's method on the pairs that are closed, with an exact line
+//! search (semismooth Newton, or primal-dual active set: Hintermueller, Ito and Kunisch 2002).
+//!
+//! The energy is piecewise quadratic, with a continuous derivative, and convex where that of the bonds is. Each iteration solves with the
+//! stiffness of the pairs that are closed now; where that goes too far, because other pairs close on the way, the step ends where
+//! the energy is lowest along it. So the energy falls from iteration to iteration and no set of closed pairs comes back.
+
+use super::equations::{Equations, Iterate};
+use super::residual::RESIDUAL_TOLERANCE;
+use crate::balanced::Attempt;
+use crate::breakage::Breakage;
+use crate::contact;
+use crate::history::{Observer, ObserverError};
+use crate::state::State;
+
+/// Iterations after which a solve is given up. Faces that close as a whole take some five; a loose part that is pressed away takes all.
+const ITERATION_LIMIT: usize = 60;
+
+/// Slope of the energy at the end of a step, over that at its beginning, up to which the step goes all the way.
+const ACCEPTED_SLOPE: f64 = 0.1;
+
+/// Decrease of the residual, with the same pairs closed, at which a factor that went through changes is worn out.
+const WORN_OUT: f64 = 0.1;
+
+/// Halvings of a step in the search for the lowest energy: as many as a double has bits.
+const HALVINGS: usize = 53;
+
+/// Brings a state into equilibrium at its load factor.
+pub(super) fn balance(
+    equations: &mut Equations,
+    state: &mut State,
+    breakage: &Breakage,
+    observer: &mut dyn Observer,
+) -> Result<Attempt, ObserverError> {
+    equations.prescribe(state);
+    let mut mechanisms = Vec::new();
+    let mut iterations = usize::from(equations.follow(state, breakage));
+    let mut iterate = equations.measure(state);
+    loop {
+        let residual = iterate.residual;
+        if iterations > 0 {
+            observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
+        }
+        let is_over = iterations == ITERATION_LIMIT;
+        let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE);
+        // What a hold carries, faces that close may carry in the end.
+        if is_small && (residual.carried.is_none() || is_over) {
+            equations.remember(iterate.extents);
+            return Ok(equations.settled(iterate, iterations, mechanisms));
+        }
+        if is_over || !residual.relative.is_finite() {
+            return Ok(equations.not_settled(&residual, iterations));
+        }
+        let correction = match equations.correction(state, &iterate, &mut mechanisms) {
+            Ok(correction) => correction,
+            Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
+        };
+        let next = search(equations, state, &iterate, &correction);
+        let (opened, closed) = contact::changes(&iterate.closed, &next.closed);
+        let is_same = opened.is_empty() && closed.is_empty();
+        if is_same && next.residual.relative > WORN_OUT * residual.relative {
+            equations.solver.forget();
+        }
+        iterate = next;
+        iterations += 1;
+    }
+}
+
+/// Goes along a correction to where the energy is lowest, or to its end, and measures the state there.
+fn search(
+    equations: &mut Equations,
+    state: &mut State,
+    iterate: &Iterate,
+    correction: &[f64],
+) -> Iterate {
+    let start = equations.slope(state, iterate, correction);
+    equations.add_correction(state, correction);
+    let next = equations.measure(state);
+    let end = equations.slope(state, &next, correction);
+    if start >= 0.0 || end <= -ACCEPTED_SLOPE * start {
+        return next;
+    }
+    let pairs = equations.contact.pairs().iter();
+    let gaps = iterate.gaps.iter().zip(&next.gaps);
+    let moved: Vec<[f64; 3]> = (pairs.zip(gaps))
+        .map(|(pair, (&from, &to))| [pair.stiffness, from, to - from])
+        .collect();
+    let length = lowest([start, end], &moved);
+    let back: Vec<f64> = correction.iter().map(|it| (length - 1.0) * it).collect();
+    equations.add_correction(state, &back);
+    equations.measure(state)
+}
+
+/// Part of a step at which the slope of the energy is zero, from the slopes at its ends, and stiffness, gap and change of the gap of
+/// each pair.
+fn lowest([start, end]: [f64; 2], moved: &[[f64; 3]]) -> f64 {
+    let of_contact = |part: f64| -> f64 {
+        let slopes = moved.iter();
+        slopes
+            .map(|[stiffness, gap, change]| stiffness * (gap + part * change).min(0.0) * change)
+            .sum()
+    };
+    let of_bonds = [start - of_contact(0.0), end - of_contact(1.0)];
+    let slope = |part: f64| of_bonds[0] + part * (of_bonds[1] - of_bonds[0]) + of_contact(part);
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if slope(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point on a spring of 1 N/m, pulled by 1 N towards a wall 0.25 m away that gives way with 9 N/m: rest at u = 0.325, where
+    /// 1 - u = 9 (u - 0.25). From 0 the step of the spring alone goes to 1, with slopes -1 at 0 and 0 + 9 . 0.75 at 1.
+    #[test]
+    fn the_energy_is_lowest_where_the_pressure_balances_the_pull() {
+        let part = lowest([-1.0, 6.75], &[[9.0, 0.25, -1.0]]);
+        assert!((part - 0.325).abs() < 1e-12, "{part}");
+    }
+
+    #[test]
+    fn without_pairs_the_slope_is_linear() {
+        assert!((lowest([-1.0, 3.0], &[]) - 0.25).abs() < 1e-12);
+    }
+}
