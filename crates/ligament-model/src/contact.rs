@@ -67,6 +67,15 @@ pub struct ClosedPair {
     pub gap: f64,
 }
 
+/// Two points whose faces have passed through each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// How far, along the normal of the crack, m.
+    pub depth: f64,
+    /// The points.
+    pub ends: [u32; 2],
+}
+
 impl ContactPair {
     /// The gap for the motions of all points, shape (n_degrees_of_freedom), m.
     pub fn gap(&self, motions: &[f64], expansion: ThermalStrain<'_>) -> f64 {

@@ -4,7 +4,7 @@
 
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
-use crate::contact::{ClosedPair, ContactPair};
+use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::element::{BondDeformation, Remaining, Term};
 use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
@@ -185,6 +185,17 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// The pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken, in the order of their numbers.
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair>;
+
+    /// The pair across a crack whose faces have passed through each other farthest, beyond a depth (m), of the points that are
+    /// asked for (n_points); for displacements (n_degrees_of_freedom), and none where faces close.
+    fn overlap(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        beyond: f64,
+        asked: &[bool],
+    ) -> Option<Overlap>;
 
     /// Adds the stresses of closed pairs to the stresses of every point in a reading.
     fn add_contact_stresses(

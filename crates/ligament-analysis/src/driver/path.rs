@@ -11,6 +11,7 @@ use ligament_model::failure::Criteria;
 use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
+use super::overlap;
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{Start, begin, report_loose, report_mechanisms};
 use crate::balanced::{Attempt, Balanced};
@@ -19,7 +20,7 @@ use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
+    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
 };
 use crate::load_program::ControlKind;
 use crate::problem::Problem;
@@ -107,6 +108,7 @@ impl<'a> Path<'a> {
                 energy_was_negative: false,
                 solves,
                 negative_eigenvalues: 0,
+                overlap: None,
             },
             collapsed: false,
             stop,
@@ -117,7 +119,9 @@ impl<'a> Path<'a> {
 
     /// Refuses loads that deform nothing; `at_one` is the equilibrium at load factor one, if there is one.
     pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
-        if at_one.is_some() && self.course.elastic.stiffness.is_nan() {
+        // Parts that the full load pulls off each other may be pressed by a part of it.
+        let may_press = self.problem.system.faces_close();
+        if at_one.is_some() && self.course.elastic.stiffness.is_nan() && !may_press {
             return Err(SetupError::NothingResists);
         }
         Ok(())
@@ -404,6 +408,7 @@ impl<'a> Path<'a> {
             counters,
         );
         self.course.peak = self.course.peak.max(record.reaction);
+        self.report_overlap(record.step)?;
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
             system: &*self.problem.system,
@@ -418,6 +423,26 @@ impl<'a> Path<'a> {
         self.observer.step(&record, &view)?;
         self.report_energies(&record)?;
         self.course.history.push(record);
+        Ok(())
+    }
+
+    /// Tells of the first record in which faces of cracks pass through each other, and keeps the largest overlap.
+    fn report_overlap(&mut self, step: usize) -> Result<(), ObserverError> {
+        let fragments = self.equilibrium.fragments();
+        let Some(overlap) = overlap::largest(self.problem, &self.state, fragments) else {
+            return Ok(());
+        };
+        let now = LargestOverlap {
+            depth: overlap.depth,
+            ends: overlap.ends,
+            step,
+        };
+        match self.course.overlap {
+            None => self.observer.notice(&Notice::Overlap(now))?,
+            Some(before) if before.depth >= now.depth => return Ok(()),
+            Some(_) => {}
+        }
+        self.course.overlap = Some(now);
         Ok(())
     }
 
@@ -452,6 +477,7 @@ impl<'a> Path<'a> {
             termination,
             elastic_stiffness: self.course.elastic.stiffness,
             first_break: self.course.elastic.first_break,
+            overlap: self.course.overlap,
             stability: self.course.elastic.stability,
             costs: *self.equilibrium.costs(),
             solver: *self.equilibrium.choice(),

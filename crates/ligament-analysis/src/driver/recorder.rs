@@ -240,6 +240,7 @@ pub(super) fn step_record(
         fragments: fragments.points.len(),
         at_rest: counters.at_rest,
         negative_eigenvalues: counters.negative_eigenvalues,
+        closed_pairs: balanced.closed.len(),
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: problem
             .probes

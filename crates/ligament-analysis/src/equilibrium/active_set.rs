@@ -1,5 +1,5 @@
 //! Equilibrium of linear bonds whose crack faces may close: Newton's method on the pairs that are closed, with an exact line
-//! search (semismooth Newton, or primal-dual active set: Hintermueller, Ito and Kunisch 2002).
+//! search (semismooth Newton, Hintermueller 2002).
 //!
 //! The energy is piecewise quadratic, with a continuous derivative, and convex where that of the bonds is. Each iteration solves with the
 //! stiffness of the pairs that are closed now; where that goes too far, because other pairs close on the way, the step ends where
@@ -19,8 +19,12 @@ const ITERATION_LIMIT: usize = 60;
 /// Slope of the energy at the end of a step, over that at its beginning, up to which the step goes all the way.
 const ACCEPTED_SLOPE: f64 = 0.1;
 
-/// Decrease of the residual, with the same pairs closed, at which a factor that went through changes is worn out.
-const WORN_OUT: f64 = 0.1;
+/// Residual that is sought as long as it falls from iteration to iteration.
+const REFINED: f64 = 1e-12;
+
+/// Residual over the one before below which it falls. Where it does not, with the same pairs closed, a factor that went through
+/// changes is worn out.
+const FALLS: f64 = 0.1;
 
 /// Halvings of a step in the search for the lowest energy: as many as a double has bits.
 const HALVINGS: usize = 53;
@@ -36,13 +40,22 @@ pub(super) fn balance(
     let mut mechanisms = Vec::new();
     let mut iterations = usize::from(equations.follow(state, breakage));
     let mut iterate = equations.measure(state);
+    let mut before = f64::INFINITY;
     loop {
         let residual = iterate.residual;
         if iterations > 0 {
             observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
         let is_over = iterations == ITERATION_LIMIT;
-        let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE);
+        // One more iteration takes off what the soft holds of loose parts leave.
+        let falls = residual.relative < FALLS * before;
+        let tolerance = if falls && !is_over {
+            REFINED
+        } else {
+            RESIDUAL_TOLERANCE
+        };
+        before = residual.relative;
+        let is_small = equations.is_small(&residual, tolerance);
         // What a hold carries, faces that close may carry in the end.
         if is_small && (residual.carried.is_none() || is_over) {
             equations.remember(iterate.extents);
@@ -58,7 +71,7 @@ pub(super) fn balance(
         let next = search(equations, state, &iterate, &correction);
         let (opened, closed) = contact::changes(&iterate.closed, &next.closed);
         let is_same = opened.is_empty() && closed.is_empty();
-        if is_same && next.residual.relative > WORN_OUT * residual.relative {
+        if is_same && next.residual.relative > FALLS * residual.relative {
             equations.solver.forget();
         }
         iterate = next;

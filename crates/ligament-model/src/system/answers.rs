@@ -3,7 +3,7 @@
 use super::{BondSystem, BondsLeft, Kinematics, Typed};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
-use crate::contact::{ClosedPair, ContactPair};
+use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
 use crate::failure::{Criterion, Weakened};
 use crate::interface::{
@@ -301,6 +301,20 @@ impl Bonds for BondSystem {
 
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair> {
         BondSystem::contact_pairs(self, intact)
+    }
+
+    fn overlap(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        beyond: f64,
+        asked: &[bool],
+    ) -> Option<Overlap> {
+        if self.faces_close() {
+            return None;
+        }
+        self.largest_overlap(intact, displacement, expansion, beyond, asked)
     }
 
     fn add_contact_stresses(

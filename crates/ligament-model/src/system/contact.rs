@@ -1,9 +1,10 @@
 //! The pairs across the cracks of a bond system, and the stresses of those that are closed.
 
 use super::BondSystem;
-use crate::contact::{ClosedPair, ContactPair};
+use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::interface::{Bonds, StressReading};
 use crate::layout::Component;
+use crate::thermal::ThermalStrain;
 
 /// Cosine of the angle between a broken bond and the normal of the crack below which the bond is no pair: it lies along the
 /// crack, and on which side of it an end lies is chance. The bonds beyond hold less than 1 % of the traction across.
@@ -24,7 +25,9 @@ impl BondSystem {
             let ends = bonds.ends[bond];
             let [a, b] = ends.map(|end| around[end as usize]);
             let normal = principal([a[0] + b[0], a[1] + b[1]], bonds.direction[bond]);
-            let rigidities = [self.rigidities.axial[bond], self.rigidities.shear[bond]];
+            let of_bond = |all: &[f64]| all.get(bond).copied().unwrap_or_default();
+            let rigidities = [&self.rigidities.axial, &self.rigidities.shear];
+            let rigidities = rigidities.map(|all| of_bond(all));
             let pair = self.contact_pair(bond as u32, ends, normal, rigidities);
             (dot(normal, bonds.direction[bond]) >= ALONG_THE_CRACK).then_some(pair)
         });
@@ -110,6 +113,39 @@ impl BondSystem {
             *place = entry;
         }
         row
+    }
+
+    /// The pair whose faces have passed through each other farthest, beyond a depth (m), of the points that are asked for (n_points).
+    pub(super) fn largest_overlap(
+        &self,
+        intact: &[bool],
+        motions: &[f64],
+        expansion: ThermalStrain<'_>,
+        beyond: f64,
+        asked: &[bool],
+    ) -> Option<Overlap> {
+        let is_asked = |ends: [u32; 2]| ends.iter().all(|&end| asked[end as usize]);
+        let layout = self.layout();
+        let approaches = |bond: usize| {
+            let [a, b] = self.bonds.ends[bond];
+            let along = [Component::X, Component::Y].map(|component| {
+                layout.value(b, component, motions) - layout.value(a, component, motions)
+            });
+            dot(along, self.bonds.direction[bond]) < 0.0 && dot(along, along) > beyond * beyond
+        };
+        let has_cut = !self.faces.cut().is_empty();
+        let broken = || (0..intact.len()).filter(|&bond| !intact[bond]);
+        // Normals of cracks that grew are not worth while where nothing comes nearer.
+        if !has_cut && !broken().any(approaches) {
+            return None;
+        }
+        let pairs = self.contact_pairs(intact).into_iter();
+        let overlaps = pairs.filter(|pair| is_asked(pair.ends)).map(|pair| Overlap {
+            depth: -pair.gap(motions, expansion),
+            ends: pair.ends,
+        });
+        let beyond = overlaps.filter(|it| it.depth > beyond);
+        beyond.reduce(|most, it| if it.depth > most.depth { it } else { most })
     }
 
     /// Adds the stresses of the forces of closed pairs to those of the bonds in a reading, shape (n_points, n_components), Pa.
