@@ -77,6 +77,7 @@ impl Model {
             &setup.correction,
             correction.report.as_ref(),
         ));
+        let scatter = setup.scatter.map(|it| it.factors(setup.body.positions()));
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -85,13 +86,14 @@ impl Model {
             shear_ratio: correction.shear_ratio.clone(),
             patch_residual: correction.patch_residual().to_vec(),
             no_fail: loading::no_fail(&setup, &cloud)?,
+            scatter,
             absent,
         };
         let system = stage(watcher, "rigidities", || {
             bond_system(&setup, cloud, bonds, stiffness, &correction)
         })?;
         let criteria = stage(watcher, "criteria", || {
-            formulation::criteria(&setup, &system, &fixed.no_fail)
+            formulation::criteria(&setup, &system, &fixed)
         })?;
         let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
         let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
