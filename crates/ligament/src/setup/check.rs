@@ -190,7 +190,7 @@ impl Setup {
         }
         let length = scatter.correlation_length;
         let is_length = length >= 0.0 && length.is_finite();
-        let expected = "at least 0 and finite";
+        let expected = "at least 0";
         require(
             is_length,
             field.part("correlation_length"),
