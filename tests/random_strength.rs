@@ -163,7 +163,7 @@ fn points_each_for_themselves_have_the_distribution() {
 }
 
 /// Bits of some factors, as they were on the machine on which they were first made: they do not depend on machine, threads or the other
-/// points, and must not change, or stored cases would be of other specimens. A calculation with NumPy and SciPy has the same to 1e-12.
+/// points, and must not change, or stored cases would be of other specimens. A calculation with NumPy and SciPy has the same to 1e-15.
 #[test]
 fn factors_are_the_same_everywhere() {
     let of = |correlation_length, distribution| Scatter {

@@ -7,6 +7,7 @@ mod correction;
 mod law;
 mod probe;
 mod rotation;
+mod scatter;
 mod temperature;
 
 use std::sync::Arc;
