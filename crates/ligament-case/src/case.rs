@@ -48,6 +48,7 @@ pub use material::Material;
 pub use mesh_section::MeshSection;
 pub use model::ModelSection;
 pub use output::{Output, StressField};
+pub use overrides::unset;
 pub use precrack::Precrack;
 pub use probe::Probe;
 pub use region::{Rectangle, Region};
