@@ -21,7 +21,8 @@ use ligament_case::case::CaseFile;
 
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{
-    CorrectionSummary, ModelSummary, Spread, correction_line, family, formulation_line, heading,
+    CorrectionSummary, ModelSummary, ScatterSummary, Spread, correction_line, family,
+    formulation_line, heading,
 };
 pub use solver::SolverSummary;
 
@@ -193,6 +194,12 @@ impl Summary {
             stages: stages.to_vec(),
             warnings,
         }
+    }
+
+    /// Whether the last state is no answer to its load, though neither the user nor a rule of the case ended the run there.
+    pub fn ends_not_at_rest(&self) -> bool {
+        const ASKED_FOR: [&str; 3] = ["bonds-broken", "wall-time", "stopped"];
+        self.last_state_not_at_rest && !ASKED_FOR.contains(&self.termination)
     }
 
     /// Whether the run was stopped by its user.

@@ -115,6 +115,14 @@ impl<'a> Path<'a> {
         Ok((path, at_one))
     }
 
+    /// Refuses loads that deform nothing; `at_one` is the equilibrium at load factor one, if there is one.
+    pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
+        if at_one.is_some() && self.course.elastic.stiffness.is_nan() {
+            return Err(SetupError::NothingResists);
+        }
+        Ok(())
+    }
+
     /// Goes on from a checkpoint; also gives the equilibrium there.
     pub(super) fn go_on(
         problem: &'a Problem,
