@@ -193,8 +193,16 @@ probe = [{ name = "x", between = [[0.0005, -0.0005], [-0.0005, 0.0005]], compone
     let overlap = open.outcome.overlap.unwrap();
     assert_eq!(told, Some(overlap));
     let at_middle = -(gap_open - gap) * 4.0 * 0.5 * open.last().reaction.abs() / 8e-4 * 0.01 / 15e9;
-    assert!((overlap.depth / at_middle - 1.0).abs() < 0.15, "{overlap:?}");
-    assert!(!closed.notices.iter().any(|it| matches!(it, Notice::Overlap(_))));
+    assert!(
+        (overlap.depth / at_middle - 1.0).abs() < 0.15,
+        "{overlap:?}"
+    );
+    assert!(
+        !closed
+            .notices
+            .iter()
+            .any(|it| matches!(it, Notice::Overlap(_)))
+    );
 }
 
 /// The exact path of a plate that is pressed while wing cracks grow from a closed crack: all is in proportion to the load between two
@@ -214,14 +222,28 @@ fracture = { control = "event", stop = { bonds = 40 }, criterion = [{ kind = "st
 "#;
     let exact = Bench::new(WINGS, &[]).break_up();
     assert!(exact.breaks.len() >= 40, "{}", exact.outcome.termination);
-    assert!(exact.outcome.history.iter().all(|it| it.closed_pairs > 0 || it.step == 0));
+    assert!(
+        exact
+            .outcome
+            .history
+            .iter()
+            .all(|it| it.closed_pairs > 0 || it.step == 0)
+    );
     let first = exact.outcome.first_break.unwrap().load_factor;
     assert!((exact.breaks[0].load_factor / first - 1.0).abs() < 1e-9);
-    let errors = exact.outcome.history.iter().map(|it| it.energy_error().abs());
+    let errors = exact
+        .outcome
+        .history
+        .iter()
+        .map(|it| it.energy_error().abs());
     let worst = errors.fold(0.0, f64::max);
     println!("exact path: energies off by {worst:.1e}");
     assert!(worst < 1e-8, "{worst:e}");
-    let to = exact.breaks.iter().map(|it| it.load_factor).fold(0.0, f64::max);
+    let to = exact
+        .breaks
+        .iter()
+        .map(|it| it.load_factor)
+        .fold(0.0, f64::max);
     let stepped = format!(
         "fracture={{ steps = [{}, {}], bonds_per_iteration = 1, order = \"ratio\", stop = {{ bonds = 4 }}, criterion = [{{ kind = \"strength\" }}] }}",
         0.999 * first,

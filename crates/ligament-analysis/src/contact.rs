@@ -109,7 +109,12 @@ pub(crate) fn force_through(
 }
 
 /// Adds the virial stress of closed pairs to that of a point, Pa.
-pub(crate) fn add_virial(system: &dyn Bonds, closed: &[ClosedPair], point: u32, stress: &mut [f64]) {
+pub(crate) fn add_virial(
+    system: &dyn Bonds,
+    closed: &[ClosedPair],
+    point: u32,
+    stress: &mut [f64],
+) {
     let volume = system.volumes()[point as usize];
     for it in closed.iter().filter(|it| it.pair.ends.contains(&point)) {
         for (stress, part) in stress.iter_mut().zip(it.virial_share(volume)) {
@@ -154,7 +159,9 @@ impl ContactEnergy {
         let (before, now) = (expansion(self.load_factor), expansion(state.load_factor));
         let mutual = |it: &ClosedPair, other_gap: f64| 0.5 * it.force() * other_gap;
         let (opened, newly_closed) = changes(&self.closed, closed);
-        let lost = opened.iter().map(|it| mutual(it, it.pair.gap(motions, now)));
+        let lost = opened
+            .iter()
+            .map(|it| mutual(it, it.pair.gap(motions, now)));
         let lost: f64 = lost.sum();
         let gained = newly_closed.iter();
         let gained = gained.map(|it| mutual(it, it.pair.gap(&self.motions, before)));

@@ -133,7 +133,10 @@ pub fn point_energy_density(
     let volume = system.volumes()[point as usize];
     let of_point = closed.iter().filter(|it| it.pair.ends.contains(&point));
     let of_contact = of_point.map(|it| 0.5 * it.energy() / volume);
-    of_contact.fold(system.energy_density(bonds, deformations, point), |sum, it| sum + it)
+    of_contact.fold(
+        system.energy_density(bonds, deformations, point),
+        |sum, it| sum + it,
+    )
 }
 
 fn gather(system: &dyn Bonds, value: impl Fn(u32) -> f64) -> Vec<f64> {

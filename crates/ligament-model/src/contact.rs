@@ -129,7 +129,13 @@ impl Faces {
 
     /// Faces that carry pressure where they close, of bonds that broke as well.
     pub fn closing(cut: Vec<CutBond>, bonds: &BondSet) -> Self {
-        let all = || bonds.ends.iter().copied().chain(cut.iter().map(|it| it.ends));
+        let all = || {
+            bonds
+                .ends
+                .iter()
+                .copied()
+                .chain(cut.iter().map(|it| it.ends))
+        };
         let n_points = bonds.incidence.n_points();
         let mut others: Vec<(u32, u32)> = all().flat_map(|[a, b]| [(a, b), (b, a)]).collect();
         others.sort_unstable();
@@ -155,4 +161,3 @@ impl Faces {
         self.coupled.as_ref()
     }
 }
-

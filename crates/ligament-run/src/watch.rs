@@ -6,7 +6,7 @@ use ligament::setup::Analysis;
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
 use ligament_analysis::history::{
-    LargestOverlap, BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_output::results::ResultWriter;
 

@@ -29,5 +29,11 @@ pub(super) fn largest(problem: &Problem, state: &State, fragments: &Fragments) -
     let asked: Vec<bool> = fragments.of_point.iter().map(is_held).collect();
     let expansion = problem.loads.thermal_strain(state.load_factor);
     let beyond = LARGEST * displacement;
-    system.overlap(&state.intact, &state.displacement, expansion, beyond, &asked)
+    system.overlap(
+        &state.intact,
+        &state.displacement,
+        expansion,
+        beyond,
+        &asked,
+    )
 }

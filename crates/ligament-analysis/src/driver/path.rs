@@ -20,7 +20,8 @@ use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
+    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord,
+    Termination, View,
 };
 use crate::load_program::ControlKind;
 use crate::problem::Problem;

@@ -66,7 +66,11 @@ impl DirectSolver {
 
     /// What a hold adds to the diagonal, as a share of it.
     fn hold_share(&self) -> f64 {
-        if self.holds_give_way() { SOFT_HOLD } else { 1.0 }
+        if self.holds_give_way() {
+            SOFT_HOLD
+        } else {
+            1.0
+        }
     }
 
     /// Whether holds only keep the tangent definite, because faces that close may carry what they hold.
@@ -92,7 +96,12 @@ impl DirectSolver {
     }
 
     /// Changes the factor in place by some terms; it is made anew where that fails.
-    fn change(&mut self, mut factor: Box<dyn Factorisation>, terms: Vec<RankOne>, costs: &mut Costs) {
+    fn change(
+        &mut self,
+        mut factor: Box<dyn Factorisation>,
+        terms: Vec<RankOne>,
+        costs: &mut Costs,
+    ) {
         let start = Instant::now();
         let changed = factor.change(&terms, &[]);
         costs.change += start.elapsed();

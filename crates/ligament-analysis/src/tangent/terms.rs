@@ -80,7 +80,9 @@ impl Coupled<'_> {
     /// Terms of pairs across cracks, `sign` times.
     pub(super) fn of_contact(self, pairs: &[ClosedPair], sign: f64) -> Vec<RankOne> {
         let terms = pairs.iter().map(|it| contact::term(&it.pair));
-        terms.filter_map(|term| self.at_unknowns(term, sign)).collect()
+        terms
+            .filter_map(|term| self.at_unknowns(term, sign))
+            .collect()
     }
 
     /// A term of an element times a factor, at the unknowns; none where it changes nothing.

@@ -96,7 +96,11 @@ impl Crossing {
         let depth = place.min(1.0 - place);
         Self {
             normal: [-piece[1], piece[0]].map(|component| sign * component / length),
-            depth: if depth.is_nan() { f64::NEG_INFINITY } else { depth },
+            depth: if depth.is_nan() {
+                f64::NEG_INFINITY
+            } else {
+                depth
+            },
         }
     }
 }

@@ -32,8 +32,9 @@ impl BondSystem {
             (dot(normal, bonds.direction[bond]) >= ALONG_THE_CRACK).then_some(pair)
         });
         let numbered = (bonds.len() as u32..).zip(cut);
-        let of_cut = numbered
-            .map(|(number, it)| self.contact_pair(number, it.ends, it.normal, [it.axial, it.shear]));
+        let of_cut = numbered.map(|(number, it)| {
+            self.contact_pair(number, it.ends, it.normal, [it.axial, it.shear])
+        });
         of_broken.chain(of_cut).collect()
     }
 
@@ -94,12 +95,7 @@ impl BondSystem {
     }
 
     /// Degrees of freedom of two points with their factors: the normal, and `of_rotations` where points turn.
-    fn row_of_gap(
-        &self,
-        ends: [u32; 2],
-        normal: [f64; 2],
-        of_rotations: f64,
-    ) -> [(u32, f64); 6] {
+    fn row_of_gap(&self, ends: [u32; 2], normal: [f64; 2], of_rotations: f64) -> [(u32, f64); 6] {
         let layout = self.layout();
         let mut row = [(0, 0.0); 6];
         let entries = ends.into_iter().zip([-1.0, 1.0]).flat_map(|(end, sign)| {
@@ -140,10 +136,12 @@ impl BondSystem {
             return None;
         }
         let pairs = self.contact_pairs(intact).into_iter();
-        let overlaps = pairs.filter(|pair| is_asked(pair.ends)).map(|pair| Overlap {
-            depth: -pair.gap(motions, expansion),
-            ends: pair.ends,
-        });
+        let overlaps = pairs
+            .filter(|pair| is_asked(pair.ends))
+            .map(|pair| Overlap {
+                depth: -pair.gap(motions, expansion),
+                ends: pair.ends,
+            });
         let beyond = overlaps.filter(|it| it.depth > beyond);
         beyond.reduce(|most, it| if it.depth > most.depth { it } else { most })
     }
