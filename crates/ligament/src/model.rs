@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
-use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds, normals};
-use ligament_model::contact::{CutBond, Faces};
+use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
+use ligament_model::contact::Faces;
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
-use ligament_model::element::Rigidities;
 use ligament_model::failure::Criteria;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, PointCloud,
@@ -15,6 +14,7 @@ use ligament_model::{
 
 use crate::body::Body;
 use crate::error::SetupError;
+use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::setup::{CorrectionDomain, Setup};
@@ -71,7 +71,7 @@ impl Model {
             stiffness,
             correction,
             energy_ratios,
-            of_cut,
+            faces,
         } = stage(watcher, "correction", || {
             let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
@@ -92,9 +92,7 @@ impl Model {
             absent,
         };
         let system = stage(watcher, "rigidities", || {
-            let faces = faces(&setup, &cloud, &bonds, &fixed.absent, of_cut);
-            let system = bond_system(&setup, cloud, bonds, stiffness, &correction)?;
-            Ok::<_, SetupError>(system.with_faces(faces))
+            bond_system(&setup, cloud, bonds, stiffness, &correction, faces)
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
@@ -174,12 +172,13 @@ fn bond_system(
     bonds: BondSet,
     stiffness: BondStiffness,
     correction: &Correction,
+    faces: Faces,
 ) -> Result<BondSystem, SetupError> {
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_numbers(&*setup.body, &system)?;
-    Ok(system)
+    Ok(system.with_faces(faces))
 }
 
 /// The bonds inside the body, and those that its voids part.
@@ -219,8 +218,7 @@ struct Corrected {
     stiffness: BondStiffness,
     correction: Correction,
     energy_ratios: [Vec<f64>; 4],
-    /// Rigidities of the cut bonds, in the order of their ends; none where faces do not close.
-    of_cut: Option<Rigidities>,
+    faces: Faces,
 }
 
 /// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
@@ -230,11 +228,39 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     let any_is_cut = is_cut.contains(&true);
     let cut_first = setup.correction.domain == CorrectionDomain::Cracked;
-    let bonds = if cut_first && any_is_cut {
-        bonds.retained(&survives)
-    } else {
-        bonds
-    };
+    let numbered = bonds.ends.iter().zip(is_cut);
+    let cut: Vec<[u32; 2]> = (numbered.filter(|(_, is_cut)| **is_cut))
+        .map(|(ends, _)| *ends)
+        .collect();
+    let corrected = of_bonds(
+        formulation,
+        if cut_first && any_is_cut {
+            bonds.retained(&survives)
+        } else {
+            bonds
+        },
+    );
+    if cut_first || !any_is_cut {
+        let faces = faces::faces(setup, cloud, &corrected.bonds, &cut, None);
+        return Corrected { faces, ..corrected };
+    }
+    let rigidities = setup.closing.then(|| {
+        let (bonds, stiffness) = (&corrected.bonds, &corrected.stiffness);
+        faces::rigidities(formulation, bonds, stiffness, &corrected.correction, is_cut)
+    });
+    let bonds = corrected.bonds.retained(&survives);
+    Corrected {
+        faces: faces::faces(setup, cloud, &bonds, &cut, rigidities.as_ref()),
+        bonds,
+        stiffness: corrected.stiffness.retained(&survives),
+        correction: corrected.correction.retained(&survives),
+        energy_ratios: corrected.energy_ratios,
+    }
+}
+
+/// Some bonds with their stiffness and correction, and no faces.
+fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
+    let Formulation { setup, cloud, .. } = *formulation;
     let alpha = formulation.alpha(&bonds);
     let stiffness = formulation.stiffness(&bonds, &alpha);
     let correction = formulation.correction(&bonds, &stiffness, alpha);
@@ -245,56 +271,12 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
         plane,
     };
     let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
-    let closes = setup.closing && any_is_cut;
-    let of_cut = closes.then(|| {
-        let bonds = bonds.clone().retained(is_cut);
-        let stiffness = stiffness.clone().retained(is_cut);
-        let correction = correction.clone().retained(is_cut);
-        let (alpha, omega) = (correction.length_factor, &correction.domain_factor);
-        let element = setup.law.element();
-        BondSystem::new(cloud.clone(), bonds, element, stiffness, alpha, omega).rigidities
-    });
-    let corrected = Corrected {
+    Corrected {
         bonds,
         stiffness,
         correction,
         energy_ratios,
-        of_cut,
-    };
-    if cut_first || !any_is_cut {
-        return corrected;
-    }
-    Corrected {
-        bonds: corrected.bonds.retained(&survives),
-        stiffness: corrected.stiffness.retained(&survives),
-        correction: corrected.correction.retained(&survives),
-        ..corrected
-    }
-}
-
-/// The faces of the cracks: what pre-cracks cut, with its rigidities where faces carry pressure when they close.
-fn faces(
-    setup: &Setup,
-    cloud: &PointCloud,
-    bonds: &BondSet,
-    absent: &[AbsentBond],
-    of_cut: Option<Rigidities>,
-) -> Faces {
-    let cut = absent.iter().filter(|it| it.absence == Absence::PreCrack);
-    let ends: Vec<[u32; 2]> = cut.map(|it| it.ends).collect();
-    let rigidity = |of: Option<&Vec<f64>>, place: usize| of.map_or(0.0, |of| of[place]);
-    let normals = normals(&setup.precracks, &ends, cloud).into_iter();
-    let numbered = ends.iter().zip(normals).enumerate();
-    let cut = numbered.map(|(place, (&ends, normal))| CutBond {
-        ends,
-        normal,
-        axial: rigidity(of_cut.as_ref().map(|it| &it.axial), place),
-        shear: rigidity(of_cut.as_ref().map(|it| &it.shear), place),
-    });
-    if setup.closing {
-        Faces::closing(cut.collect(), bonds)
-    } else {
-        Faces::open(cut.collect())
+        faces: Faces::default(),
     }
 }
 

@@ -95,26 +95,38 @@ fn search(
     }
     let pairs = equations.contact.pairs().iter();
     let gaps = iterate.gaps.iter().zip(&next.gaps);
-    let moved: Vec<[f64; 3]> = (pairs.zip(gaps))
-        .map(|(pair, (&from, &to))| [pair.stiffness, from, to - from])
+    let moved: Vec<Moved> = (pairs.zip(gaps))
+        .map(|(pair, (&gap, &next))| Moved {
+            stiffness: pair.stiffness,
+            gap,
+            change: next - gap,
+        })
         .collect();
-    let length = lowest([start, end], &moved);
+    let length = lowest(start, end, &moved);
     let back: Vec<f64> = correction.iter().map(|it| (length - 1.0) * it).collect();
     equations.add_correction(state, &back);
     equations.measure(state)
 }
 
-/// Part of a step at which the slope of the energy is zero, from the slopes at its ends, and stiffness, gap and change of the gap of
-/// each pair.
-fn lowest([start, end]: [f64; 2], moved: &[[f64; 3]]) -> f64 {
+/// A pair on the way along a step.
+struct Moved {
+    /// N/m.
+    stiffness: f64,
+    /// Gap at the start, m.
+    gap: f64,
+    /// Change of the gap over the step, m.
+    change: f64,
+}
+
+/// Part of a step at which the slope of the energy is zero, from the slopes at its ends and what the pairs do.
+fn lowest(start: f64, end: f64, moved: &[Moved]) -> f64 {
+    let force = |it: &Moved, part: f64| it.stiffness * (it.gap + part * it.change).min(0.0);
     let of_contact = |part: f64| -> f64 {
         let slopes = moved.iter();
-        slopes
-            .map(|[stiffness, gap, change]| stiffness * (gap + part * change).min(0.0) * change)
-            .sum()
+        slopes.map(|it| force(it, part) * it.change).sum()
     };
-    let of_bonds = [start - of_contact(0.0), end - of_contact(1.0)];
-    let slope = |part: f64| of_bonds[0] + part * (of_bonds[1] - of_bonds[0]) + of_contact(part);
+    let (first, last) = (start - of_contact(0.0), end - of_contact(1.0));
+    let slope = |part: f64| first + part * (last - first) + of_contact(part);
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
@@ -135,12 +147,17 @@ mod tests {
     /// 1 - u = 9 (u - 0.25). From 0 the step of the spring alone goes to 1, with slopes -1 at 0 and 0 + 9 . 0.75 at 1.
     #[test]
     fn the_energy_is_lowest_where_the_pressure_balances_the_pull() {
-        let part = lowest([-1.0, 6.75], &[[9.0, 0.25, -1.0]]);
+        let wall = Moved {
+            stiffness: 9.0,
+            gap: 0.25,
+            change: -1.0,
+        };
+        let part = lowest(-1.0, 6.75, &[wall]);
         assert!((part - 0.325).abs() < 1e-12, "{part}");
     }
 
     #[test]
     fn without_pairs_the_slope_is_linear() {
-        assert!((lowest([-1.0, 3.0], &[]) - 0.25).abs() < 1e-12);
+        assert!((lowest(-1.0, 3.0, &[]) - 0.25).abs() < 1e-12);
     }
 }
