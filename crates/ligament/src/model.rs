@@ -52,7 +52,7 @@ impl Model {
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
-        let (bonds, mut absent) = stage(watcher, "bonds", || {
+        let (bonds, absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
@@ -64,8 +64,7 @@ impl Model {
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
         });
-        absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
-        absent.sort_unstable_by_key(|it| it.ends);
+        let absent = with_cut(absent, &bonds, &is_cut);
         let Corrected {
             bonds,
             stiffness,
@@ -197,6 +196,13 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
     let absent = absent_bonds(&bonds, &crosses, Absence::Void);
     (bonds.retained(&keep), absent)
+}
+
+/// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.
+fn with_cut(mut absent: Vec<AbsentBond>, bonds: &BondSet, is_cut: &[bool]) -> Vec<AbsentBond> {
+    absent.extend(absent_bonds(bonds, is_cut, Absence::PreCrack));
+    absent.sort_unstable_by_key(|it| it.ends);
+    absent
 }
 
 /// The bonds for which `is_absent` (n_bonds) is true, as what is none.
