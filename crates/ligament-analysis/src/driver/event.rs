@@ -47,6 +47,7 @@ pub fn run(
     }
     let (mut path, at_one) =
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
     let unloaded = match path.balance(0, &Breakage::default())? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {
@@ -291,14 +292,15 @@ impl Following<'_> {
         let factor = load_factor / state.load_factor;
         state.load_factor = load_factor;
         let fragments = self.path.equilibrium.fragments();
-        // A temperature strains all parts.
+        // A temperature strains all parts, and where faces close any part may press on another.
+        let faces_close = self.path.problem.system.faces_close();
         let is_heated = !self
             .path
             .problem
             .loads
             .thermal_strain(load_factor)
             .is_none();
-        let mut is_loaded = vec![is_heated; fragments.points.len()];
+        let mut is_loaded = vec![is_heated || faces_close; fragments.points.len()];
         let layout = self.path.problem.system.layout();
         for &dof in &self.loaded {
             let point = layout.point(dof as usize);

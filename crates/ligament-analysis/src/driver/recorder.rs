@@ -8,11 +8,15 @@ use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
+use crate::contact::ContactEnergy;
 use crate::history::StepRecord;
 use crate::problem::Problem;
 use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
+
+/// Share of the largest work of a run below which its work counts as given back: that of a hundredth of the load.
+const UNLOADED: f64 = 1e-4;
 
 /// Energies along the path.
 ///
@@ -24,6 +28,8 @@ use crate::state::State;
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
+    /// Largest external work so far.
+    largest_work: f64,
     /// Degrees of freedom that something moves or loads.
     loaded: Vec<u32>,
     /// Forces and displacements of the loaded degrees of freedom in the last state.
@@ -32,6 +38,8 @@ pub(super) struct Energies {
     thermal: (f64, f64),
     /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
     last: Vec<(BondDeformation, Remaining)>,
+    /// Pairs across cracks that were closed in the last state; none where faces do not close.
+    contact: ContactEnergy,
 }
 
 /// Force and displacement of a degree of freedom in the last state.
@@ -52,13 +60,16 @@ impl Energies {
         let Self {
             external_work,
             released,
+            largest_work,
             last_loaded,
             thermal,
             loaded: _,
             last: _,
+            contact: _,
         } = self;
         external_work.write(out);
         released.write(out);
+        largest_work.write(out);
         last_loaded.write(out);
         thermal.write(out);
     }
@@ -73,6 +84,7 @@ impl Energies {
         let mut energies = Self {
             external_work: Serial::read(from)?,
             released: Serial::read(from)?,
+            largest_work: Serial::read(from)?,
             last_loaded: Serial::read(from)?,
             thermal: Serial::read(from)?,
             ..Self::unloaded(problem)
@@ -81,6 +93,7 @@ impl Energies {
             return Err(CheckpointError::OtherModel);
         }
         energies.keep(state, balanced);
+        energies.contact.keep(state, balanced);
         Ok(energies)
     }
 
@@ -90,8 +103,10 @@ impl Energies {
         Self {
             external_work: 0.0,
             released: 0.0,
+            largest_work: 0.0,
             thermal: (0.0, 0.0),
             last: Vec::new(),
+            contact: ContactEnergy::of_unloaded(&*problem.system),
             last_loaded: vec![Loaded::default(); loaded.len()],
             loaded,
         }
@@ -116,6 +131,12 @@ impl Energies {
         self.thermal = (state.load_factor, balanced.internal.thermal);
         work += 0.5 * (force + self.thermal.1) * (state.load_factor - load_factor);
         self.external_work += work;
+        self.largest_work = self.largest_work.max(self.external_work.abs());
+    }
+
+    /// Energy below which differences are rounding of what was done before, J: an unloaded body has given its work back.
+    fn floor(&self) -> f64 {
+        UNLOADED * self.largest_work
     }
 
     /// Adds what a breakage released, and what softening did since the last state.
@@ -137,6 +158,24 @@ impl Energies {
             }
         }
         self.keep(state, balanced);
+    }
+
+    /// Takes in which pairs across cracks opened and closed since the last state: at a fixed load, after a breakage, that releases
+    /// energy; on the way from one load to another it is what the trapezoidal rule misses of the work.
+    pub(super) fn add_contact(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        breakage: &Breakage,
+        balanced: &Balanced,
+    ) {
+        let expansion = |load_factor| problem.loads.thermal_strain(load_factor);
+        let change = self.contact.follow(state, balanced, &expansion);
+        if breakage.bonds.is_empty() {
+            self.external_work -= change;
+        } else {
+            self.released += change;
+        }
     }
 
     /// Keeps deformations and what is left of the bonds.
@@ -191,7 +230,7 @@ pub(super) fn step_record(
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
-        energy_floor: balanced.energy_floor,
+        energy_floor: balanced.energy_floor.max(energies.floor()),
         dissipated_energy: state.dissipated.iter().sum(),
         broken_bonds: counters.broken,
         broken_in_step: counters.broken_in_step,
@@ -201,6 +240,7 @@ pub(super) fn step_record(
         fragments: fragments.points.len(),
         at_rest: counters.at_rest,
         negative_eigenvalues: counters.negative_eigenvalues,
+        closed_pairs: balanced.closed.len(),
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: problem
             .probes

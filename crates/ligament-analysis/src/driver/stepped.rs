@@ -42,7 +42,9 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let (mut path, at_one) =
+        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
     path.soften();
     let load_factors = load_factors(settings, &path.course.elastic);
     let mut stepping = Stepping {

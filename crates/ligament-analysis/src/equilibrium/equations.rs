@@ -4,12 +4,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::FactorKind;
+use ligament_model::contact::ClosedPair;
 use ligament_model::element::BondDeformation;
 
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::contact::{self, Contact};
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::internal::{BondSweep, InternalForces};
@@ -37,6 +39,9 @@ pub(super) struct Iterate {
     pub(super) residual: Residual,
     pub(super) extents: Extents,
     negative_energy: Option<f64>,
+    /// Gaps of the pairs across cracks, shape (n_pairs), m.
+    pub(super) gaps: Vec<f64>,
+    pub(super) closed: Vec<ClosedPair>,
 }
 
 impl Iterate {
@@ -51,6 +56,7 @@ impl Iterate {
             iterations,
             negative_energy: self.negative_energy,
             mechanisms,
+            closed: self.closed,
         }
     }
 }
@@ -69,6 +75,8 @@ pub(super) struct Equations {
     pub(super) largest_extents: Extents,
     /// Largest stiffness of a point against displacements, N/m.
     stiffest: f64,
+    /// Pairs across cracks, where faces close.
+    pub(super) contact: Contact,
     pub(super) costs: Costs,
 }
 
@@ -95,6 +103,7 @@ impl Equations {
             local_stiffness,
             loaded: loaded(&**loads),
             largest_extents: Extents::default(),
+            contact: Contact::default(),
             costs: Costs {
                 analysis: stiffness.analysis_time(),
                 ..Costs::default()
@@ -123,6 +132,7 @@ impl Equations {
             local_stiffness: _,
             loaded: _,
             stiffest: _,
+            contact: _,
         } = self;
         largest_extents.write(out);
         costs.write(out);
@@ -138,6 +148,7 @@ impl Equations {
         self.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
         self.solver.restore(from)?;
+        self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
         Ok(measured)
@@ -242,7 +253,7 @@ impl Equations {
         iterate: &Iterate,
         mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
-        mechanisms.extend(self.prepare_solver(state)?);
+        mechanisms.extend(self.make_ready(state, iterate)?);
         let force = self.out_of_balance(state, iterate);
         Ok(self.solve(state, force))
     }
@@ -253,7 +264,7 @@ impl Equations {
     }
 
     /// The displacements K^-1 f for forces f (n_unknowns), shape (n_unknowns), with the stiffness K that the solver was
-    /// [made ready](Self::prepare_solver) with.
+    /// [made ready](Self::make_ready) with.
     pub(super) fn solve(&mut self, state: &State, force: Vec<f64>) -> Vec<f64> {
         self.solver.solve(state, force, &mut self.costs)
     }
@@ -282,11 +293,11 @@ impl Equations {
         deformations: Vec<BondDeformation>,
     ) -> Iterate {
         let start = Instant::now();
-        let swept = self.problem.system.forces(
-            state.bonds(),
-            deformations,
-            self.problem.loads.thermal_strain(state.load_factor),
-        );
+        let expansion = self.problem.loads.thermal_strain(state.load_factor);
+        let mut swept = (self.problem.system).forces(state.bonds(), deformations, expansion);
+        let gaps = self.contact.gaps(&state.displacement, expansion);
+        let closed = self.contact.closed(&gaps);
+        contact::add_to(&mut swept, &closed, self.layout(), expansion);
         let energy_of_motion = swept.energy_of_motion(state.load_factor);
         let BondSweep {
             deformations,
@@ -311,7 +322,16 @@ impl Equations {
             residual,
             extents,
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),
+            gaps,
+            closed,
         }
+    }
+
+    /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.
+    pub(super) fn slope(&self, state: &State, iterate: &Iterate, correction: &[f64]) -> f64 {
+        let force = self.out_of_balance(state, iterate);
+        let products = force.iter().zip(correction);
+        -products.map(|(force, step)| force * step).sum::<f64>()
     }
 
     /// External less internal forces at the unknowns, shape (n_unknowns).
@@ -368,8 +388,18 @@ impl Equations {
         self.largest_extents = self.largest_extents.or(extents);
     }
 
+    /// Makes the solver ready for an iterate of a state. Gives the points of mechanisms that are held from now on.
+    pub(super) fn make_ready(
+        &mut self,
+        state: &mut State,
+        iterate: &Iterate,
+    ) -> Result<Vec<u32>, Unbalanced> {
+        self.solver.close(&iterate.closed, &mut self.costs);
+        self.prepare_solver(state)
+    }
+
     /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.
-    pub(super) fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
+    fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
         let mut held_now = Vec::new();
         loop {
             let vanishing = self.solver.prepare(state, &mut self.costs);

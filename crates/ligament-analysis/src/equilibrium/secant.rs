@@ -63,7 +63,7 @@ pub(super) fn balance(
             return Ok(equations.not_settled(&residual, iterations));
         }
         equations.solver.weaken(state, &mut equations.costs);
-        match equations.prepare_solver(state) {
+        match equations.make_ready(state, &iterate) {
             Ok(held) => mechanisms.extend(held),
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         }
