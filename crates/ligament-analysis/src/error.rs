@@ -20,6 +20,15 @@ pub enum SetupError {
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
     )]
     Softening,
+    /// The exact path through stages was asked for with a criterion whose measure has no closed form along a line.
+    #[error(
+        "the exact path through stages needs to know where a bond reaches its limit along a line, which the criterion \"{criterion}\" \
+         does not tell: take load steps"
+    )]
+    UnknownAlongLines {
+        /// Name of the criterion.
+        criterion: &'static str,
+    },
     /// A run cannot go on from its checkpoint.
     #[error("the run cannot go on from its checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),

@@ -30,6 +30,7 @@ mod resolved;
 mod schema;
 mod sections;
 mod solver;
+mod stage;
 pub mod source;
 mod temperature;
 pub mod values;

@@ -4,6 +4,7 @@
 //! that end a run.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_model::failure::Criteria;
@@ -21,7 +22,7 @@ use crate::error::SetupError;
 use crate::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
 };
-use crate::load_program::ControlKind;
+use crate::load_program::{ControlKind, StagedLoading};
 use crate::problem::Problem;
 use crate::serial::Serial;
 use crate::softening::Softening;
@@ -66,7 +67,8 @@ const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
 /// A run on its way.
 pub(super) struct Path<'a> {
-    pub(super) problem: &'a Problem,
+    /// The problem, with the loads of the present part of its programme.
+    pub(super) problem: Problem,
     pub(super) observer: &'a mut dyn Observer,
     pub(super) equilibrium: Equilibrium,
     pub(super) state: State,
@@ -94,7 +96,7 @@ impl<'a> Path<'a> {
         } = begin(problem, &mut equilibrium, observer)?;
         let solves = [equilibrium.costs().solves; 2];
         let path = Self {
-            problem,
+            problem: problem.clone(),
             observer,
             equilibrium,
             state: unloaded,
@@ -107,6 +109,9 @@ impl<'a> Path<'a> {
                 energy_was_negative: false,
                 solves,
                 negative_eigenvalues: 0,
+                part_start: problem.loads.staged().map_or_else(Vec::new, StagedLoading::start),
+                part: 0,
+                largest_force: 0.0,
             },
             collapsed: false,
             stop,
@@ -117,13 +122,12 @@ impl<'a> Path<'a> {
 
     /// Goes on from a checkpoint; also gives the equilibrium there.
     pub(super) fn go_on(
-        problem: &'a Problem,
         stop: StopRules,
         restored: Restored,
         observer: &'a mut dyn Observer,
     ) -> (Self, Balanced) {
         let path = Self {
-            problem,
+            problem: restored.problem,
             observer,
             equilibrium: restored.equilibrium,
             state: restored.state,
@@ -141,6 +145,28 @@ impl<'a> Path<'a> {
         let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equilibrium.soften();
+    }
+
+    /// Goes over to the part of this index of a programme, which begins where the present one ends.
+    pub(super) fn begin_part(&mut self, part: usize) {
+        let Some(loads) = self.problem.loads.staged().filter(|it| it.part() != part) else {
+            return;
+        };
+        let start = loads.factors(self.state.load_factor);
+        let loads = StagedLoading::new(loads.programme().clone(), part, &start);
+        let [begins, _] = loads.programme().parts[part].span;
+        self.state.load_factor = begins;
+        (self.course.part, self.course.part_start) = (part, start);
+        self.problem.loads = Arc::new(loads);
+        self.equilibrium.load_with(self.problem.loads.clone());
+    }
+
+    /// Factor of the control load in a record.
+    pub(super) fn control_factor(&self, record: &StepRecord) -> f64 {
+        match self.problem.loads.staged() {
+            Some(loads) => record.factors[loads.programme().control],
+            None => record.load_factor,
+        }
     }
 
     /// Tells the observer what comes next.
@@ -225,10 +251,10 @@ impl<'a> Path<'a> {
         breakage: &Breakage,
         balanced: &Balanced,
     ) -> Result<(), SetupError> {
-        self.energies.add_work(self.problem, &self.state, balanced);
+        self.energies.add_work(&self.problem, &self.state, balanced);
         self.energies
-            .add_released(self.problem, &self.state, breakage, balanced);
-        dissipation::soften(self.problem, &mut self.state);
+            .add_released(&self.problem, &self.state, breakage, balanced);
+        dissipation::soften(&self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
     }
@@ -264,7 +290,7 @@ impl<'a> Path<'a> {
         self.course.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
-            dissipation::break_bond(self.problem, &mut self.state, record);
+            dissipation::break_bond(&self.problem, &mut self.state, record);
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
         self.collapsed |= self.load_came_loose(&breakage.holds);
@@ -301,6 +327,9 @@ impl<'a> Path<'a> {
 
     /// Whether the load of an equilibrium is rounding against the largest so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
+        if let Some(loads) = self.problem.loads.staged() {
+            return self.carries_no_part(loads, balanced);
+        }
         let (_, reaction) = self.control(balanced);
         reaction <= NO_LOAD * self.course.peak
     }
@@ -338,7 +367,18 @@ impl<'a> Path<'a> {
             return Some(Termination::DisplacementReached { displacement });
         }
         let carried = self.carried_by_the_damaged(balanced)?;
-        (carried <= NO_LOAD * self.course.peak).then_some(Termination::FellApart)
+        let fell_apart = match self.problem.loads.staged() {
+            None => carried <= NO_LOAD * self.course.peak,
+            Some(loads) => self.carries_no_part(loads, balanced),
+        };
+        fell_apart.then_some(Termination::FellApart)
+    }
+
+    /// Whether no point of a body carries anything of the loads of a programme that act on it.
+    fn carries_no_part(&self, loads: &StagedLoading, balanced: &Balanced) -> bool {
+        let factors = loads.factors(self.state.load_factor);
+        let acts = factors.iter().any(|factor| *factor != 0.0);
+        acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force
     }
 
     /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
@@ -360,7 +400,8 @@ impl<'a> Path<'a> {
         }
         // A load the other way is carried the other way.
         let (_, reaction) = self.control(balanced);
-        Some(if self.state.load_factor < 0.0 {
+        let factor = self.problem.loads.control_factor(self.state.load_factor);
+        Some(if factor < 0.0 {
             -reaction
         } else {
             reaction
@@ -382,7 +423,7 @@ impl<'a> Path<'a> {
         };
         self.course.solves[1] = self.equilibrium.costs().solves;
         let record = step_record(
-            self.problem,
+            &self.problem,
             &self.state,
             balanced,
             &self.energies,
@@ -390,6 +431,8 @@ impl<'a> Path<'a> {
             counters,
         );
         self.course.peak = self.course.peak.max(record.reaction);
+        let force = balanced.internal.force_scale;
+        self.course.largest_force = self.course.largest_force.max(force);
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
             system: &*self.problem.system,

@@ -1,5 +1,7 @@
 //! What every driver does first: hold what nothing holds, and look at the elastic answer.
 
+use std::sync::Arc;
+
 use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
 use crate::balanced::{Attempt, Balanced, Stability};
@@ -36,7 +38,28 @@ serial!(ElasticAnswer {
 });
 
 /// Holds what nothing holds, and solves once at load factor one for the stiffness, the first breakage and the inertia.
+///
+/// Of a programme of stages that is the answer to the load of the curve alone, which foretells no breakage.
 pub(super) fn begin(
+    problem: &Problem,
+    equilibrium: &mut Equilibrium,
+    observer: &mut dyn Observer,
+) -> Result<Start, SetupError> {
+    let Some(staged) = problem.loads.staged() else {
+        return begin_proportional(problem, equilibrium, observer);
+    };
+    let alone = Problem {
+        loads: Arc::new(staged.control_alone()),
+        ..problem.clone()
+    };
+    equilibrium.load_with(alone.loads.clone());
+    let mut start = begin_proportional(&alone, equilibrium, observer)?;
+    equilibrium.load_with(problem.loads.clone());
+    start.elastic.first_break = None;
+    Ok(start)
+}
+
+fn begin_proportional(
     problem: &Problem,
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,

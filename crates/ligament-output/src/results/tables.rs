@@ -105,6 +105,16 @@ fn write_criteria(
     Ok(())
 }
 
+/// Columns of the history that stages add: the stage, and the factor of each load.
+fn stage_columns(problem: &Problem) -> Vec<String> {
+    let Some(loads) = problem.loads.staged() else {
+        return Vec::new();
+    };
+    let names = loads.programme().names.iter();
+    let factors = names.map(|name| format!("{name}_factor"));
+    std::iter::once("stage".to_owned()).chain(factors).collect()
+}
+
 /// How a table is opened, by its place in [`FILES`] and its columns.
 type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
@@ -198,7 +208,8 @@ impl Tables {
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
-        let extra: Vec<String> = group_columns
+        let extra: Vec<String> = (stage_columns(problem).into_iter())
+            .chain(group_columns)
             .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
         let history_columns: Vec<&str> = (HISTORY.iter().map(|column| column.0))
@@ -276,6 +287,11 @@ impl Tables {
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
+        if let Some(loads) = view.loads.staged() {
+            let stage = loads.programme().stage_name(record.part);
+            row.push(stage.into());
+            row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
+        }
         let layout = view.system.layout();
         let of_groups = record.group_forces.iter().flat_map(|force| {
             // The forces of a group stand as those of one point.
