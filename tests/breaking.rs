@@ -7,7 +7,9 @@
 use ligament_analysis::Equilibrium;
 use ligament_analysis::Observer;
 use ligament_analysis::State;
+use ligament_analysis::Termination;
 use ligament_analysis::fields;
+use ligament_analysis::history::Notice;
 use ligament_analysis::history::ObserverError;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::history::View;
@@ -21,6 +23,29 @@ use verification::numbers::relative_error;
 use verification::problems::DISK;
 use verification::problems::SQUARE;
 use verification::table::Table;
+
+/// A body that is loaded, unloaded to nothing and loaded the other way has given its work back at zero load, without a notice that
+/// energies do not balance, and ends with its last load step.
+#[test]
+fn unloading_to_nothing_keeps_the_balance() {
+    let bench = Bench::new(
+        DISK,
+        &["fracture.steps=[0.01, 0.02, 0.0, -0.01, 0.0, 0.02]"],
+    );
+    let run = bench.break_up();
+    assert!(run.breaks.is_empty());
+    assert_eq!(run.outcome.history.len(), 7);
+    assert_eq!(run.outcome.termination, Termination::StepsDone);
+    let told = |notice: &Notice| matches!(notice, Notice::EnergyUnbalanced { .. });
+    assert!(!run.notices.iter().any(told), "{:?}", run.notices);
+    // Equal load factors are equal states, 1e-9 of the work by the tolerance of the residual.
+    let [loaded, again] = [2, 6].map(|step| run.outcome.history[step].external_work);
+    assert!(loaded > 0.0 && relative_error(again, loaded) < 1e-9);
+    for unloaded in [3, 5] {
+        let work = run.outcome.history[unloaded].external_work;
+        assert!(work.abs() < 1e-9 * loaded, "{work:e} of {loaded:e}");
+    }
+}
 
 /// External work = stored + released energy in every load step. 1e-9 of the work: all three are exact between breakages.
 #[test]

@@ -316,8 +316,7 @@ fn a_run_that_a_rule_ended_can_be_prolonged() {
         assert!(ended.termination.is_by_rule(), "{}", ended.termination);
         let (problem, analysis) = (long.problem(), &long.model.setup.analysis);
         let restored = run::restore(&problem, analysis, &last.0).unwrap();
-        let prolonged =
-            run::resume(analysis, restored, &mut Recorder::default()).unwrap();
+        let prolonged = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
         let whole = run::follow(&problem, analysis, &mut Recorder::default()).unwrap();
         assert!(prolonged.state.broken_bonds() > ended.state.broken_bonds());
         assert_eq!(words(prolonged), words(whole));

@@ -4,7 +4,7 @@
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::stepped::SteppedSettings;
-use ligament_analysis::{Component, ControlKind, SetupError, fields};
+use ligament_analysis::{Component, ControlKind, SetupError, Termination, fields};
 use ligament_model::failure::softening::exponential::LAST_FORCE;
 use ligament_model::failure::softening::{bilinear, exponential, plastic};
 use ligament_model::failure::{AfterLimit, Weakened};
@@ -140,6 +140,20 @@ fn the_whole_life_takes_the_area_under_the_law() {
             "{law}: {last:?}"
         );
         assert!(last.reaction.abs() < 1e-12);
+    }
+}
+
+/// Below its limit a bar that is pulled, let go and pressed takes no harm, whatever its criterion softens: the run ends with its last
+/// load step, in one part.
+#[test]
+fn a_reversal_below_the_limit_is_no_collapse() {
+    for (law, after) in laws() {
+        let turn = 0.5 * displacement(law, 1.0);
+        let path = vec![turn, 2.0 * turn, turn, 0.0, -turn, -2.0 * turn];
+        let (outcome, _) = series(after).step(&settings(path));
+        assert_eq!(outcome.termination, Termination::StepsDone, "{law}");
+        assert_eq!(outcome.history.len(), 7, "{law}");
+        assert_eq!(outcome.history[6].broken_bonds, 0, "{law}");
     }
 }
 

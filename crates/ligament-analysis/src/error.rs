@@ -29,6 +29,12 @@ pub enum SetupError {
         /// Name of the criterion.
         criterion: &'static str,
     },
+    /// The loads of a body that is to break deform nothing.
+    #[error(
+        "nothing resists the loads: they move the body as a whole and do not deform it, so that no bond would ever break; hold a \
+         part of it by a [[support]]"
+    )]
+    NothingResists,
     /// A run cannot go on from its checkpoint.
     #[error("the run cannot go on from its checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),

@@ -205,6 +205,36 @@ fn overrides_change_make_and_replace_settings() {
     assert_eq!(small.case.output.fields_every, Some(3));
 }
 
+/// Keys are taken away before others are set, so that a case with load steps can be followed on the exact path; an entry of a list
+/// goes as a whole, and what is not there is told.
+#[test]
+fn keys_are_taken_away() {
+    let taken = with(TEXT, &["-fracture.steps", "fracture.control=event"]);
+    let fracture = taken.unwrap().case.fracture.unwrap();
+    assert_eq!((fracture.control, fracture.steps), (Control::Event, None));
+    let probes = |settings: &[&str]| with(TEXT, settings).unwrap().case.probes.len();
+    assert_eq!(probes(&["-probe.1"]), probes(&[]) - 1);
+    for (key, reason) in [
+        (
+            "fracture.step",
+            "the case has no `fracture.step` to take away; did you mean `steps`?",
+        ),
+        (
+            "probe.7",
+            "there is no `probe.7`: the indices of `probe` are 0 to 2",
+        ),
+        (
+            "model.law.x",
+            "`model.law` is a value, not a table: it has no `x` below it",
+        ),
+        ("", "`` is not a key path"),
+    ] {
+        let error = with(TEXT, &[&format!("-{key}")]).unwrap_err();
+        let expected = format!("--unset {key}: {reason}");
+        assert!(error.starts_with(&expected), "{error}");
+    }
+}
+
 #[test]
 fn faults_of_overrides_are_blamed_on_them() {
     for (setting, expected) in [

@@ -40,6 +40,7 @@ fn check_shows_the_lattice() {
     for line in [
         "lattice\n  cells                 220 of 20 x 12 (20 removed)\n",
         "  area                  2.200000e-2 m^2\n",
+        "  thickness             ",
         "  set left              33 points, 3.3333e-3 m of a side each\n",
         "  set rock              220 points\n",
         "  set disk              8 points\n",

@@ -235,6 +235,28 @@ fn groups_are_found_by_their_place() {
     checked(&case, Extent::Matrix);
 }
 
+/// Two supports are both held, the second free to slide, and the body is pressed onto them in the middle of its far side.
+#[test]
+fn a_beam_lies_on_both_supports() {
+    let names = ["a", "b", "left-support", "right-support"];
+    let (folder, starter) = of_text(&square(0.1, names));
+    let case = case(&starter.unwrap(), folder.path());
+    let [first, second] = case.case.supports.as_slice() else {
+        panic!("{:?}", case.case.supports);
+    };
+    assert_eq!(first.group.as_deref(), Some("left-support"));
+    assert_eq!(second.group.as_deref(), Some("right-support"));
+    // The supports are the lower and the upper edge here, so that the load pushes along x.
+    assert_eq!(
+        (second.displacement.x, second.displacement.y),
+        (Some(0.0), None)
+    );
+    let load = &case.case.loads[0];
+    assert_eq!(load.group, None);
+    assert!(load.displacement.unwrap().x.is_some_and(|x| x != 0.0));
+    checked(&case, Extent::Matrix);
+}
+
 /// A body of 100 m was meant in mm; bodies of all other sizes get numbers that suit them.
 #[test]
 fn sizes_are_sensible() {

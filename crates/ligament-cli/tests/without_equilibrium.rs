@@ -76,7 +76,7 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
     let event =
         "[fracture]\ncontrol = \"event\"\n[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
     let (code, shown, _) = run(folder, &format!("{STRIP}{event}"));
-    assert_eq!(code, Some(0), "{shown}");
+    assert_eq!(code, Some(6), "{shown}");
     assert!(
         shown.contains("NOT AT REST") && shown.contains("largest load"),
         "{shown}"
@@ -100,6 +100,31 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
         let picture = fs::read_to_string(folder.join(file)).unwrap();
         assert!(picture.contains("not at rest"), "{file}");
     }
+}
+
+/// A stop rule that ends the strip while its bonds break was asked for: the state is marked, and the run went as it should.
+#[test]
+fn a_run_that_a_rule_ends_went_well() {
+    let folder = tempfile::tempdir().unwrap();
+    let event = "[fracture]\ncontrol = \"event\"\nstop = { bonds = 2 }\n\
+         [[fracture.criterion]]\nkind = \"critical-stretch\"\n";
+    let (code, shown, _) = run(folder.path(), &format!("{STRIP}{event}"));
+    assert_eq!(code, Some(0), "{shown}");
+    assert!(shown.contains("bonds were broken"), "{shown}");
+}
+
+/// Loads that move a body as a whole break nothing: the run is refused before its first load step, and earlier results stay.
+#[test]
+fn loads_that_nothing_resists_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let moved = STRIP
+        .replace("force = { x = 1e6 }", "displacement = { x = 1e-5 }")
+        .replace("support = ", "# ");
+    let stepped = "[fracture]\nsteps = 50\n[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
+    let (code, shown, error) = run(folder.path(), &format!("{moved}{stepped}"));
+    assert_eq!(code, Some(1), "{shown}");
+    assert!(error.contains("nothing resists the loads"), "{error}");
+    assert!(error.contains("[[support]]"), "{error}");
 }
 
 /// A study has no results of a run that found no equilibrium, however often it is asked, and names runs whose last state is none; a

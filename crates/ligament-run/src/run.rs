@@ -22,6 +22,9 @@ use ligament_case::case::CaseFile;
 
 pub use crate::checkpoints::IsStopped;
 
+/// Exit code of a run that ended while bonds were breaking, other than by its user or a rule of its case.
+pub const NOT_AT_REST: u8 = 6;
+
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Report {
@@ -47,6 +50,14 @@ impl Report {
                 Some(&summary.termination_message)
             }
             Self::Loading(_) | Self::Modes(_) => None,
+        }
+    }
+
+    /// Whether the last state is no answer to its load, though no stop rule of the case ended the run.
+    pub fn ends_not_at_rest(&self) -> bool {
+        match self {
+            Self::Loading(summary) => summary.ends_not_at_rest(),
+            Self::Modes(_) => false,
         }
     }
 

@@ -195,6 +195,12 @@ impl Summary {
         }
     }
 
+    /// Whether the last state is no answer to its load, though neither the user nor a rule of the case ended the run there.
+    pub fn ends_not_at_rest(&self) -> bool {
+        const ASKED_FOR: [&str; 3] = ["bonds-broken", "wall-time", "stopped"];
+        self.last_state_not_at_rest && !ASKED_FOR.contains(&self.termination)
+    }
+
     /// Whether the run was stopped by its user.
     pub fn is_stopped(&self) -> bool {
         self.termination == Termination::Stopped.name()

@@ -113,9 +113,7 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     Ok(match analysis {
-        Analysis::Stepped(settings) => {
-            driver::stepped::resume(settings, restored, observer)?
-        }
+        Analysis::Stepped(settings) => driver::stepped::resume(settings, restored, observer)?,
         Analysis::Event(settings) => driver::event::resume(settings, restored, observer)?,
         Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
     })

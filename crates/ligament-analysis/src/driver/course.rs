@@ -54,10 +54,10 @@ impl Course {
             return self.part_start.is_empty().then_some(problem);
         };
         let programme = first.programme();
-        let fits = self.part < programme.parts.len()
-            && self.part_start.len() == programme.loads.len();
-        let loads = fits
-            .then(|| StagedLoading::new(programme.clone(), self.part, &self.part_start))?;
+        let fits =
+            self.part < programme.parts.len() && self.part_start.len() == programme.loads.len();
+        let loads =
+            fits.then(|| StagedLoading::new(programme.clone(), self.part, &self.part_start))?;
         problem.loads = Arc::new(loads);
         Some(problem)
     }

@@ -54,6 +54,7 @@ pub fn run(
     }
     let (mut path, at_one) =
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
     let unloaded = match path.balance(0, &Breakage::default())? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {

@@ -109,7 +109,10 @@ impl<'a> Path<'a> {
                 energy_was_negative: false,
                 solves,
                 negative_eigenvalues: 0,
-                part_start: problem.loads.staged().map_or_else(Vec::new, StagedLoading::start),
+                part_start: problem
+                    .loads
+                    .staged()
+                    .map_or_else(Vec::new, StagedLoading::start),
                 part: 0,
                 largest_force: 0.0,
             },
@@ -118,6 +121,14 @@ impl<'a> Path<'a> {
             started: Instant::now(),
         };
         Ok((path, at_one))
+    }
+
+    /// Refuses loads that deform nothing; `at_one` is the equilibrium at load factor one, if there is one.
+    pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
+        if at_one.is_some() && self.course.elastic.stiffness.is_nan() {
+            return Err(SetupError::NothingResists);
+        }
+        Ok(())
     }
 
     /// Goes on from a checkpoint; also gives the equilibrium there.
@@ -401,11 +412,7 @@ impl<'a> Path<'a> {
         // A load the other way is carried the other way.
         let (_, reaction) = self.control(balanced);
         let factor = self.problem.loads.control_factor(self.state.load_factor);
-        Some(if factor < 0.0 {
-            -reaction
-        } else {
-            reaction
-        })
+        Some(if factor < 0.0 { -reaction } else { reaction })
     }
 
     /// Records an equilibrium.

@@ -15,6 +15,9 @@ use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
 
+/// Share of the largest work of a run below which its work counts as given back: that of a hundredth of the load.
+const UNLOADED: f64 = 1e-4;
+
 /// Energies along the path.
 ///
 /// Between two states of equilibrium with the same bonds everything is linear, so the trapezoidal rule gives the work
@@ -25,6 +28,8 @@ use crate::state::State;
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
+    /// Largest external work so far.
+    largest_work: f64,
     /// Degrees of freedom that something moves or loads.
     loaded: Vec<u32>,
     /// Forces and displacements of the loaded degrees of freedom in the last state.
@@ -53,6 +58,7 @@ impl Energies {
         let Self {
             external_work,
             released,
+            largest_work,
             last_loaded,
             thermal,
             loaded: _,
@@ -60,6 +66,7 @@ impl Energies {
         } = self;
         external_work.write(out);
         released.write(out);
+        largest_work.write(out);
         last_loaded.write(out);
         thermal.write(out);
     }
@@ -74,6 +81,7 @@ impl Energies {
         let mut energies = Self {
             external_work: Serial::read(from)?,
             released: Serial::read(from)?,
+            largest_work: Serial::read(from)?,
             last_loaded: Serial::read(from)?,
             thermal: Serial::read(from)?,
             ..Self::unloaded(problem)
@@ -91,6 +99,7 @@ impl Energies {
         Self {
             external_work: 0.0,
             released: 0.0,
+            largest_work: 0.0,
             thermal: (0.0, 0.0),
             last: Vec::new(),
             last_loaded: vec![Loaded::default(); loaded.len()],
@@ -118,6 +127,12 @@ impl Energies {
         self.thermal = (factor_now, balanced.internal.thermal);
         work += 0.5 * (force + self.thermal.1) * (factor_now - factor);
         self.external_work += work;
+        self.largest_work = self.largest_work.max(self.external_work.abs());
+    }
+
+    /// Energy below which differences are rounding of what was done before, J: an unloaded body has given its work back.
+    fn floor(&self) -> f64 {
+        UNLOADED * self.largest_work
     }
 
     /// Adds what a breakage released, and what softening did since the last state.
@@ -189,13 +204,15 @@ pub(super) fn step_record(
         step: counters.step,
         load_factor: state.load_factor,
         part: loads.staged().map_or(0, StagedLoading::part),
-        factors: loads.staged().map_or_else(Vec::new, |it| it.factors(state.load_factor)),
+        factors: loads
+            .staged()
+            .map_or_else(Vec::new, |it| it.factors(state.load_factor)),
         displacement: loads.control_displacement(state.load_factor, &state.displacement),
         reaction: loads.control_force(state.load_factor, &balanced.internal),
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         external_work: energies.external_work,
-        energy_floor: balanced.energy_floor,
+        energy_floor: balanced.energy_floor.max(energies.floor()),
         dissipated_energy: state.dissipated.iter().sum(),
         broken_bonds: counters.broken,
         broken_in_step: counters.broken_in_step,

@@ -43,7 +43,9 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, _) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let (mut path, at_one) =
+        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
     path.soften();
     let plan = plan(problem, settings, &path.course.elastic);
     let mut stepping = Stepping {
@@ -125,10 +127,14 @@ struct LoadStep {
 fn plan(problem: &Problem, settings: &SteppedSettings, elastic: &ElasticAnswer) -> Vec<LoadStep> {
     let step = |part: usize| move |load_factor: f64| LoadStep { part, load_factor };
     let steps: Vec<LoadStep> = match problem.loads.staged() {
-        None => refined(settings, elastic.first_break).into_iter().map(step(0)).collect(),
+        None => refined(settings, elastic.first_break)
+            .into_iter()
+            .map(step(0))
+            .collect(),
         Some(loads) => {
             let parts = loads.programme().parts.iter().enumerate();
-            let of_part = |(part, it): (usize, &Part)| it.load_factors().into_iter().map(step(part));
+            let of_part =
+                |(part, it): (usize, &Part)| it.load_factors().into_iter().map(step(part));
             parts.flat_map(of_part).collect()
         }
     };

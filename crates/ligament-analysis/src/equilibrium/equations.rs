@@ -323,7 +323,9 @@ impl Equations {
         let system = &self.problem.system;
         let expansion = loads.thermal_strain(1.0);
         let deformations = system.deformations(&state.intact, &growth, expansion);
-        let internal = system.forces(state.bonds(), deformations, expansion).internal;
+        let internal = system
+            .forces(state.bonds(), deformations, expansion)
+            .internal;
         let dofs = self.stiffness.unknowns().degrees_of_freedom();
         let given = loads.forces(1.0, dofs);
         let force = dofs.iter().zip(given);

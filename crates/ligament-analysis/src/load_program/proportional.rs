@@ -200,7 +200,8 @@ impl LoadProgram for ProportionalLoading {
     }
 
     fn given_resultants(&self, time: f64) -> Vec<Vec<f64>> {
-        let at_time = |group: &BoundaryGroup| group.force.iter().map(|force| time * force).collect();
+        let at_time =
+            |group: &BoundaryGroup| group.force.iter().map(|force| time * force).collect();
         self.groups.iter().map(at_time).collect()
     }
 

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::key_path::KeyPath;
+use super::overrides::as_option;
 use ligament::error::Fault as SetupFault;
 use ligament::suggestion::hint;
 
@@ -187,9 +188,9 @@ pub enum Location {
         path: PathBuf,
     },
     /// On the command line.
-    #[error("--set {given}")]
+    #[error("{}", as_option(given))]
     Override {
-        /// The setting as it was given, `key=value`.
+        /// The setting as it was given, `key=value` or `-key`.
         given: String,
     },
 }
@@ -213,8 +214,8 @@ pub enum CaseError {
         /// The TOML parser's reason.
         message: String,
     },
-    /// A `--set` could not be applied.
-    #[error("--set {given}: {reason}")]
+    /// A `--set` or `--unset` could not be applied.
+    #[error("{}: {reason}", as_option(given))]
     Override {
         /// The setting as it was given.
         given: String,

@@ -24,7 +24,7 @@ pub struct CaseFile {
 }
 
 impl CaseFile {
-    /// Reads a case file, applies the overrides (`key=value`, the later wins) and checks the whole.
+    /// Reads a case file, applies the overrides (`key=value`, or `-key` to take a key away; the later wins) and checks the whole.
     ///
     /// # Errors
     ///

@@ -15,8 +15,8 @@ static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
 
 /// Units as they stand in the description of a key, after a comma: "Thickness of the body, m."
 const UNITS: [&str; 14] = [
-    "1/K", "J/m^2", "K", "N", "N m", "N m/m^3", "N/m", "N/m^3", "Pa", "kg/m^3", "m", "m/s^2", "rad",
-    "s",
+    "1/K", "J/m^2", "K", "N", "N m", "N m/m^3", "N/m", "N/m^3", "Pa", "kg/m^3", "m", "m/s^2",
+    "rad", "s",
 ];
 
 /// Unit of the number at a key path, where it has one: its own, or that of the table or list which it is in.

@@ -1,18 +1,102 @@
-//! `--set key=value`: settings of the command line on top of a case file.
+//! `--set key=value` and `--unset key`: settings of the command line on top of a case file.
+
+use ligament::suggestion::hint;
 
 use super::document::{Entry, Node, Origin, Value};
 use super::key_path::KeyPath;
 
-/// Puts the override `given` (`key=value`, the one with this index) into the document.
+/// Mark before the key of an override that takes the key away.
+const UNSET: char = '-';
+
+/// The override that takes a key of the case file away.
+pub fn unset(key: &str) -> String {
+    format!("{UNSET}{key}")
+}
+
+/// An override as the command line has it: `--set key=value` or `--unset key`.
+pub(super) fn as_option(given: &str) -> String {
+    match given.strip_prefix(UNSET) {
+        Some(key) => format!("--unset {key}"),
+        None => format!("--set {given}"),
+    }
+}
+
+/// Puts the override `given` (`key=value` or `-key`, the one with this index) into the document.
 pub(super) fn apply(document: &mut Node, given: &str, index: usize) -> Result<(), String> {
+    if let Some(key) = given.strip_prefix(UNSET) {
+        return take_away(document, &key_path(key)?);
+    }
     let origin = Origin::Override(index);
     let (key, text) = given
         .split_once('=')
         .ok_or("expected key=value, such as model.horizon_factor=4")?;
-    let path = KeyPath::parse(key.trim())
-        .ok_or_else(|| format!("`{key}` is not a key path such as load.0.displacement.y"))?;
+    let path = key_path(key)?;
     let value = parse_value(text.trim(), origin)?;
     set(document, &path, value, origin)
+}
+
+fn key_path(key: &str) -> Result<KeyPath, String> {
+    KeyPath::parse(key.trim())
+        .ok_or_else(|| format!("`{key}` is not a key path such as load.0.displacement.y"))
+}
+
+/// Takes a key, or an entry of a list, out of the document.
+fn take_away(document: &mut Node, path: &KeyPath) -> Result<(), String> {
+    let mut node = document;
+    let mut above = KeyPath::default();
+    let last = path.0.len().saturating_sub(1);
+    for (depth, segment) in path.0.iter().enumerate() {
+        let place = place_of(node, &above, segment)?;
+        let is_last = depth == last;
+        node = match &mut node.value {
+            Value::Table(entries) if is_last => {
+                entries.remove(place);
+                return Ok(());
+            }
+            Value::List(nodes) if is_last => {
+                nodes.remove(place);
+                return Ok(());
+            }
+            Value::Table(entries) => &mut entries[place].node,
+            Value::List(nodes) => &mut nodes[place],
+            _ => return Err(no_table(&above, segment)),
+        };
+        above = above.child(segment);
+    }
+    Ok(())
+}
+
+/// Place of a key in its table, or of an entry in its list.
+fn place_of(node: &Node, above: &KeyPath, segment: &str) -> Result<usize, String> {
+    match &node.value {
+        Value::Table(entries) => {
+            let place = entries.iter().position(|entry| entry.key == segment);
+            place.ok_or_else(|| {
+                let keys: Vec<String> = entries.iter().map(|entry| entry.key.clone()).collect();
+                format!(
+                    "the case has no `{}` to take away{}",
+                    above.child(segment),
+                    hint(segment, &keys, "keys that it has", '`')
+                )
+            })
+        }
+        Value::List(nodes) => {
+            let index = list_index(above, segment)?;
+            let count = nodes.len();
+            let place = Some(index).filter(|&index| index < count);
+            place.ok_or_else(|| out_of_range(above, index, count))
+        }
+        _ => Err(no_table(above, segment)),
+    }
+}
+
+fn list_index(list: &KeyPath, segment: &str) -> Result<usize, String> {
+    let not_a_number = |_| format!("`{list}` is a list: `{segment}` should be an index from 0");
+    segment.parse().map_err(not_a_number)
+}
+
+fn no_table(above: &KeyPath, segment: &str) -> String {
+    format!("`{above}` is a value, not a table: it has no `{segment}` below it")
 }
 
 /// A TOML value, or a bare word for a string without its quotes.
@@ -54,9 +138,7 @@ fn descend<'a>(
         Value::Table(entries) => Ok(entry(entries, above, segment, origin)),
         Value::List(nodes) => {
             let count = nodes.len();
-            let index: usize = segment.parse().map_err(|_| {
-                format!("`{above}` is a list: `{segment}` should be an index from 0")
-            })?;
+            let index = list_index(above, segment)?;
             // A case without criteria has one all the same, and several are put together on the command line.
             if index == count && above.to_string() == "fracture.criterion" {
                 let value = Value::Table(Vec::new());
@@ -66,9 +148,7 @@ fn descend<'a>(
                 .get_mut(index)
                 .ok_or_else(|| out_of_range(above, index, count))
         }
-        _ => Err(format!(
-            "`{above}` is a value, not a table: it has no `{segment}` below it"
-        )),
+        _ => Err(no_table(above, segment)),
     }
 }
 

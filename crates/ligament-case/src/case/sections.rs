@@ -238,7 +238,9 @@ impl Case {
             probes: each("probe", &self.probes, Probe::setup)?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
-                (None, Some(fracture)) => fracture.setup(&root().child("fracture"), !self.stages.is_empty())?,
+                (None, Some(fracture)) => {
+                    fracture.setup(&root().child("fracture"), !self.stages.is_empty())?
+                }
                 (None, None) => setup::Analysis::default(),
             },
             solver: self.solver.setup(),

@@ -15,14 +15,14 @@ pub struct Source {
     pub path: PathBuf,
     /// The text of the file.
     pub text: String,
-    /// The overrides, `key=value` each, in their order.
+    /// The overrides, `key=value` or `-key` each, in their order.
     pub overrides: Vec<String>,
     /// All of it, parsed.
     pub document: Node,
 }
 
 impl Source {
-    /// Parses a text and applies the overrides (`key=value`, the later wins); `path` says where it is.
+    /// Parses a text and applies the overrides (`key=value`, or `-key` to take a key away; the later wins); `path` says where it is.
     ///
     /// # Errors
     ///

@@ -73,8 +73,7 @@ impl Factors {
     }
 }
 
-const EXPECTED: &str =
-    "a factor, a list of factors one after the other, or a list of pairs [share of the stage, factor]";
+const EXPECTED: &str = "a factor, a list of factors one after the other, or a list of pairs [share of the stage, factor]";
 
 impl<'de> Deserialize<'de> for Factors {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -110,7 +109,9 @@ impl<'de> Visitor<'de> for FactorsVisitor {
         match (factors.is_empty(), points.is_empty()) {
             (_, true) => Ok(Factors::EqualParts(factors)),
             (true, _) => Ok(Factors::Table(points)),
-            _ => Err(A::Error::custom(format_args!("must be {EXPECTED}, found both"))),
+            _ => Err(A::Error::custom(format_args!(
+                "must be {EXPECTED}, found both"
+            ))),
         }
     }
 }

@@ -16,6 +16,8 @@ pub(super) enum Spot {
 pub(super) struct Ends {
     /// What is held.
     pub(super) support: Spot,
+    /// What is held along the axis alone, as the second support of a beam is.
+    pub(super) rollers: Vec<Spot>,
     /// What is moved.
     pub(super) load: Spot,
     /// The axis along which it is moved: 0 or 1.
@@ -48,14 +50,65 @@ const PAIRS: [[&[&str]; 2]; 3] = [
 /// Words for what pushes on the body.
 const PRESSING: [&str; 6] = ["platen", "press", "push", "punch", "anvil", "compression"];
 
+/// Half the width of what presses on a beam, in spacings.
+const HALF_A_PLATEN: f64 = 1.5;
+
 /// Share of the body's extent within which a curve counts as lying at its end.
 const AT_THE_END: f64 = 0.1;
 
 /// The ends of a mesh between the corners of its bounding box: by the names of groups, else by where they lie, else by place.
 pub(super) fn ends(mesh: &Mesh, extent: [[f64; 2]; 2], spacing: f64) -> Ends {
-    by_name(mesh)
+    beam(mesh, extent, spacing)
+        .or_else(|| by_name(mesh))
         .or_else(|| by_place(mesh, extent))
         .unwrap_or_else(|| at_the_rim(extent, spacing))
+}
+
+/// A body on two supports or more, pressed onto them: by what is named as the load, else in the middle of the far side.
+fn beam(mesh: &Mesh, extent: [[f64; 2]; 2], spacing: f64) -> Option<Ends> {
+    let [[held, loaded], ..] = PAIRS;
+    let groups = mesh.groups.iter();
+    let supports: Vec<&Group> = groups
+        .filter(|group| group.dimension < 2 && has_word(&group.name, held))
+        .collect();
+    let [first, rollers @ ..] = supports.as_slice() else {
+        return None;
+    };
+    let last = rollers.last()?;
+    let apart = [0, 1].map(|axis| middle(mesh, last, axis) - middle(mesh, first, axis));
+    let axis = usize::from(apart[0].abs() > apart[1].abs());
+    let along = 1 - axis;
+    let level = middle(mesh, first, axis);
+    let is_support = |load: &Group| supports.iter().any(|it| it.name == load.name);
+    let named = best(mesh, loaded).filter(|load| !is_support(load));
+    let (load, place) = match named {
+        Some(load) => (Spot::Group(load.name.clone()), middle(mesh, load, axis)),
+        None => {
+            let [low, high] = extent.map(|corner| corner[axis]);
+            let far = if level - low < high - level {
+                high
+            } else {
+                low
+            };
+            let centre = middle(mesh, first, along) + 0.5 * apart[along];
+            let mut corners = [[0.0; 2]; 2];
+            for (corner, side) in corners.iter_mut().zip([-1.0, 1.0]) {
+                corner[axis] = far + side * spacing;
+                corner[along] = centre + side * HALF_A_PLATEN * spacing;
+            }
+            (Spot::Box(corners), far)
+        }
+    };
+    let spot = |group: &&Group| Spot::Group(group.name.clone());
+    Some(Ends {
+        support: spot(first),
+        rollers: rollers.iter().map(spot).collect(),
+        load,
+        axis,
+        away: (place - level).signum(),
+        presses: true,
+        found: "as a beam on supports by their names",
+    })
 }
 
 fn by_name(mesh: &Mesh) -> Option<Ends> {
@@ -105,19 +158,20 @@ fn by_place(mesh: &Mesh, extent: [[f64; 2]; 2]) -> Option<Ends> {
     })
 }
 
+/// Mean coordinate of the nodes of a group, m.
+fn middle(mesh: &Mesh, group: &Group, axis: usize) -> f64 {
+    let nodes = group.nodes.iter();
+    let coordinates = nodes.map(|&node| mesh.positions[node as usize][axis]);
+    coordinates.sum::<f64>() / group.nodes.len() as f64
+}
+
 /// None where they lie at the same place.
 fn between(mesh: &Mesh, support: &Group, load: &Group, found: &'static str) -> Option<Ends> {
-    let middle = |group: &Group, axis: usize| {
-        let coordinates = group
-            .nodes
-            .iter()
-            .map(|&node| mesh.positions[node as usize][axis]);
-        coordinates.sum::<f64>() / group.nodes.len() as f64
-    };
-    let [x, y] = [0, 1].map(|axis| middle(load, axis) - middle(support, axis));
+    let [x, y] = [0, 1].map(|axis| middle(mesh, load, axis) - middle(mesh, support, axis));
     let (axis, distance) = if x.abs() > y.abs() { (0, x) } else { (1, y) };
     (distance != 0.0).then(|| Ends {
         support: Spot::Group(support.name.clone()),
+        rollers: Vec::new(),
         load: Spot::Group(load.name.clone()),
         axis,
         away: distance.signum(),
@@ -130,6 +184,7 @@ fn between(mesh: &Mesh, support: &Group, load: &Group, found: &'static str) -> O
 fn at_the_rim([low, high]: [[f64; 2]; 2], spacing: f64) -> Ends {
     let (left, right) = (low[0] - spacing, high[0] + spacing);
     Ends {
+        rollers: Vec::new(),
         support: Spot::Box([[left, low[1] - spacing], [right, low[1] + spacing]]),
         load: Spot::Box([[left, high[1] - spacing], [right, high[1] + spacing]]),
         axis: 1,

@@ -155,6 +155,7 @@ pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
     };
     let ends = Ends {
         support: Spot::Group("bottom".to_owned()),
+        rollers: Vec::new(),
         load: Spot::Group("top".to_owned()),
         axis,
         away: 1.0,

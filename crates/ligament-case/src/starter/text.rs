@@ -272,12 +272,17 @@ fn conditions(body: &Body, ends: &Ends) -> String {
         }
         _ => "",
     };
+    let roller = |place: &Spot| {
+        let place = spot(place, body);
+        format!("\n[[support]]\n{place}displacement = {{ {axis} = 0.0 }} # m, free to slide\n")
+    };
+    let rollers: String = ends.rollers.iter().map(roller).collect();
     let mut text = format!(
         "\
 # What holds the body. It and the load were chosen {}. A component that is not given is free.
 [[support]]
 {}displacement = {{ x = 0.0, y = 0.0 }} # m
-
+{rollers}
 # What loads it, as it is at load factor 1. Its displacement and the force for it are the curve in history.csv. In the place of
 # `displacement`: force, force_per_length, moment, pressure and others.
 [[load]]

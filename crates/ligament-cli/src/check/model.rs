@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use ligament_case::case::CaseFile;
-use ligament_model::Elasticity;
+use ligament_model::{Elasticity, Plane};
 use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
 
@@ -15,10 +15,20 @@ pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyh
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.cloud.volumes.iter().sum();
     body::write(out, model.body(), volume)?;
+    write_section(out, model)?;
     write_materials(out, model)?;
     write_bonds(out, model)?;
     criteria::write(out, model)?;
     Ok(write_energy_ratios(out, model)?)
+}
+
+fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let state = match model.setup.plane() {
+        Plane::Stress => "plane stress",
+        Plane::Strain => "plane strain",
+    };
+    let thickness = model.setup.thickness();
+    entry(out, "thickness", format!("{thickness} m, {state}"))
 }
 
 fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {

@@ -11,7 +11,7 @@ use crate::build::BUILD;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
-use ligament_run::run::{Report, Request};
+use ligament_run::run::{NOT_AT_REST, Report, Request};
 use ligament_study::sweep::take_leash;
 
 pub(super) const EXAMPLES: &str = "\
@@ -37,7 +37,8 @@ pub struct RunArgs {
     /// The case file and changes to it.
     #[command(flatten)]
     pub case: CaseArgs,
-    /// Folder for the results [default: results/NAME with the name of the case's folder]
+    /// Folder for the results [default: results/NAME, with the name of the case file, or of its folder where the file is
+    /// case.toml]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace results of an earlier run in the folder
@@ -92,6 +93,9 @@ pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
         stdout.flush()?;
         writeln!(terminal::stderr(), "error: no result under load: {reason}")?;
         return Ok(ExitCode::from(WITHOUT_EQUILIBRIUM));
+    }
+    if report.ends_not_at_rest() {
+        return Ok(ExitCode::from(NOT_AT_REST));
     }
     Ok(ExitCode::SUCCESS)
 }

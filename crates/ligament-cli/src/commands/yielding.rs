@@ -43,6 +43,9 @@ pub struct YieldArgs {
     /// Change a setting of the case, e.g. model.horizon_factor=4 (may be repeated)
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "case")]
     pub overrides: Vec<String>,
+    /// Take a key out of the case, e.g. fracture.criterion (may be repeated; before any --set)
+    #[arg(long = "unset", value_name = "KEY", requires = "case")]
+    pub unset: Vec<String>,
     /// A criterion with the same limits for all bonds, e.g. sliding+stretch (may be repeated) [default:
     /// those of the figures of the paper, or those of the case]
     #[arg(long = "criterion", value_name = "NAME")]
@@ -93,6 +96,7 @@ impl YieldArgs {
                 let case = CaseArgs {
                     file,
                     overrides: self.overrides,
+                    unset: self.unset,
                     threads: self.threads,
                 };
                 let case = Box::new(case.load()?);

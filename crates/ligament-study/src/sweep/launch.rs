@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 
 use ligament_output::remove_if_there;
 use ligament_run::memory;
+use ligament_run::run::NOT_AT_REST;
 
 use super::estimate::Estimates;
 use super::folder::StudyFolder;
@@ -245,7 +246,9 @@ impl Launcher<'_> {
         self.time += time;
         let run = self.runs[index];
         let exit = status?;
-        if !exit.success() {
+        // A run that ended while bonds were breaking has results, and the table of the runs says of what kind.
+        let has_results = exit.success() || exit.code() == Some(NOT_AT_REST.into());
+        if !has_results {
             let reason = self.last_words(run, exit);
             record::fail(run, self.folder, &reason)?;
             progress.ends(run, &Status::Failed(reason), time);

@@ -277,7 +277,9 @@ impl Places<'_> {
                     property: "density",
                     reason: "(in kg/m^3) because an acceleration acts on masses".to_owned(),
                 };
-                Field::element("materials", index).part("density").error(fault)
+                Field::element("materials", index)
+                    .part("density")
+                    .error(fault)
             })
         };
         let materials = self.setup.materials.iter().enumerate();

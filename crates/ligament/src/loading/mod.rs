@@ -8,10 +8,10 @@ mod vibration;
 
 use std::sync::Arc;
 
-use ligament_analysis::{LoadProgram, Programme, ProportionalLoading, StagedLoading};
 use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
+use ligament_analysis::{LoadProgram, Programme, ProportionalLoading, StagedLoading};
 use ligament_model::failure::Criteria;
 use ligament_model::{BondSystem, Bonds};
 

@@ -126,7 +126,9 @@ fn moved_by_one(
                 place: setup.body.label(layout.point(dof)),
                 other: setup.loads[first].name.clone(),
             };
-            return Err(Field::element("loads", second).part("displacement").error(fault));
+            return Err(Field::element("loads", second)
+                .part("displacement")
+                .error(fault));
         }
     }
     Ok(())

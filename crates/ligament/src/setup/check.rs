@@ -419,13 +419,12 @@ fn check_load(field: Field, load: &Load) -> Checked {
         _ => {}
     }
     match (load.action, &load.place) {
-        (
-            Action::BodyForce(_) | Action::Acceleration(_) | Action::BodyCouple(_),
-            Place::At(_),
-        ) => contradiction(
-            field.part("place"),
-            "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
-        ),
+        (Action::BodyForce(_) | Action::Acceleration(_) | Action::BodyCouple(_), Place::At(_)) => {
+            contradiction(
+                field.part("place"),
+                "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
+            )
+        }
         (Action::ForcePerLength(_) | Action::Pressure(_), Place::Group(_)) => Ok(()),
         (Action::ForcePerLength(_), _) => contradiction(
             action,

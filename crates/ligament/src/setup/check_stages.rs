@@ -50,7 +50,8 @@ impl Setup {
 
     fn check_stage(&self, field: Field, stage: &Stage) -> Checked {
         if stage.loads.is_empty() {
-            let reason = "nothing changes in this stage: name a load with the factor that it goes to";
+            let reason =
+                "nothing changes in this stage: name a load with the factor that it goes to";
             return contradiction(field, reason);
         }
         let names = self.factor_names();

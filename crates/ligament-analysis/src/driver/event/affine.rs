@@ -50,6 +50,7 @@ impl Affine {
     ) -> Result<Vec<BondDeformation>, Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
             self.growth = path.equilibrium.growth(&mut path.state, rate)?;
+            path.course.solves[0] = path.equilibrium.costs().solves;
         }
         let expansion = crate::LoadProgram::thermal_strain(rate, 1.0);
         let system = &path.problem.system;
@@ -113,12 +114,7 @@ impl Way for Affine {
 }
 
 /// The goal where no load is admissible: the load stays.
-fn held(
-    settings: &EventSettings,
-    line: &Balanced,
-    criteria: &Criteria,
-    path: &Path<'_>,
-) -> Goal {
+fn held(settings: &EventSettings, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
     let (tie, intact) = (settings.tie_tolerance, &path.state.intact);
     let FirstToBreak { ratio, bonds } = first_to_break(tie, &line.deformations, criteria, intact);
     Goal {
