@@ -5,12 +5,13 @@ mod proportional;
 mod staged;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use crate::internal::InternalForces;
 use crate::unknowns::Layout;
 use ligament_model::thermal::ThermalStrain;
 
-pub use programme::{Part, Programme};
+pub use programme::{LoadCourse, Part, Programme};
 pub use proportional::{BoundaryError, ProportionalLoading};
 pub use staged::StagedLoading;
 
@@ -41,8 +42,13 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Factor of the control load.
     fn control_factor(&self, time: f64) -> f64;
 
-    /// This loading as a part of a programme of stages; None where all loads grow with one load factor.
-    fn staged(&self) -> Option<&StagedLoading> {
+    /// Factors of the loads in the present part of a programme of stages; None where all loads grow with one load factor.
+    fn course(&self) -> Option<&LoadCourse> {
+        None
+    }
+
+    /// The same loads in another course of their factors; None where all grow with one load factor.
+    fn in_course(&self, _course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
         None
     }
 

@@ -4,14 +4,12 @@
 use ligament::Loading;
 use ligament::prelude::*;
 use ligament::run::{follow, restore, resume};
-use std::sync::Arc;
-
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::{
     BreakRecord, Moment, ObserverError, Onward, StepRecord, Termination, View,
 };
-use ligament_analysis::{Attempt, BondDeformation, Equilibrium, StagedLoading, State};
+use ligament_analysis::{Attempt, BondDeformation, Equilibrium, LoadCourse, State};
 
 /// A plate of 12 by 12 cells of 10 mm with a hole, held at the left and at the bottom, pulled at the right and pressed from above.
 fn plate(analysis: Analysis, stages: Vec<Stage>) -> Setup {
@@ -172,9 +170,11 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
     let problem = loading.problem(&model.system, &model.criteria);
     let mut path = Recorder::default();
     follow(&problem, &model.setup.analysis, &mut path).unwrap();
-    let pull = StagedLoading::new(loading.programme.unwrap(), 1, &[0.0, 1.0]);
+    let first = problem.loads.course().unwrap();
+    let pull = LoadCourse::new(first.programme.clone(), 1, &[0.0, 1.0]);
+    let pull = problem.loads.in_course(pull).unwrap();
     let mut equilibrium = Equilibrium::new(&problem, 1e-4).unwrap();
-    equilibrium.load_with(Arc::new(pull));
+    equilibrium.load_with(pull);
     let mut state = State::fresh(&*model.system);
     let mut breakage = equilibrium.break_bonds(&mut state, &[]);
     let ratios = |equilibrium: &mut Equilibrium, state: &mut State, breakage: &Breakage| {

@@ -1,7 +1,5 @@
 //! How far a run is: what a checkpoint holds of it beside the state, and the run that is read back from one.
 
-use std::sync::Arc;
-
 use super::recorder::{Energies, StepCounters};
 use super::start::ElasticAnswer;
 use crate::balanced::Balanced;
@@ -9,7 +7,7 @@ use crate::checkpoint::CheckpointError;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::StepRecord;
-use crate::load_program::StagedLoading;
+use crate::load_program::LoadCourse;
 use crate::problem::Problem;
 use crate::serial;
 use crate::serial::{Damaged, Serial};
@@ -50,15 +48,14 @@ impl Course {
     /// The problem with the loads of the present part of its programme; None where the course is of another one.
     fn problem(&self, problem: &Problem) -> Option<Problem> {
         let mut problem = problem.clone();
-        let Some(first) = problem.loads.staged() else {
+        let Some(first) = problem.loads.course() else {
             return self.part_start.is_empty().then_some(problem);
         };
-        let programme = first.programme();
+        let programme = first.programme.clone();
         let fits =
-            self.part < programme.parts.len() && self.part_start.len() == programme.loads.len();
-        let loads =
-            fits.then(|| StagedLoading::new(programme.clone(), self.part, &self.part_start))?;
-        problem.loads = Arc::new(loads);
+            self.part < programme.parts.len() && self.part_start.len() == programme.names.len();
+        let here = fits.then(|| LoadCourse::new(programme, self.part, &self.part_start))?;
+        problem.loads = problem.loads.in_course(here)?;
         Some(problem)
     }
 }

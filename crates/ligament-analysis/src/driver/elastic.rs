@@ -44,11 +44,11 @@ pub fn run(
 
 /// The part of a programme and the load factor of each solution, the unloaded body first.
 fn ends(problem: &Problem) -> Vec<(usize, f64)> {
-    let ends: Vec<(usize, f64)> = match problem.loads.staged() {
+    let ends: Vec<(usize, f64)> = match problem.loads.course() {
         None => vec![(0, 1.0)],
         Some(loads) => {
-            let parts = loads.programme().parts.iter().enumerate();
-            parts.map(|(part, it)| (part, it.span[1])).collect()
+            let parts = loads.programme.parts.iter().enumerate();
+            parts.map(|(part, it)| (part, it.span.1)).collect()
         }
     };
     std::iter::once((0, 0.0)).chain(ends).collect()

@@ -8,6 +8,7 @@
 
 mod affine;
 mod proportional;
+mod way;
 
 use std::mem;
 
@@ -21,7 +22,7 @@ use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
-use crate::unbalanced::Unbalanced;
+use way::{Goal, Way};
 
 /// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +47,7 @@ pub fn run(
     if problem.criteria.soften() {
         return Err(SetupError::Softening);
     }
-    let is_staged = problem.loads.staged().is_some();
+    let is_staged = problem.loads.course().is_some();
     if let Some(criterion) = problem.criteria.unknown_along_lines().filter(|_| is_staged) {
         return Err(SetupError::UnknownAlongLines {
             criterion: criterion.name,
@@ -115,28 +116,9 @@ pub fn resume(
     Ok(following.path.into_outcome(termination, Rows::Events))
 }
 
-/// A way along the lines between two breakages.
-trait Way {
-    /// The end of the way along the line of an equilibrium: the critical load, or what ends the run or its part of the programme
-    /// before it.
-    fn goal(
-        &mut self,
-        path: &mut Path<'_>,
-        settings: &EventSettings,
-        line: &Balanced,
-    ) -> Result<Goal, Unbalanced>;
-
-    /// Moves to another load factor with the same bonds, where no solution is needed.
-    fn follow(&self, path: &mut Path<'_>, line: &Balanced, load_factor: f64) -> Balanced;
-
-    /// What the displacements grow by with the load factor, shape (n_degrees_of_freedom); empty where they are in proportion to it.
-    fn growth(&self) -> &[f64];
-}
-
 /// The run on its way.
 struct Following<'a> {
     path: Path<'a>,
-    settings: &'a EventSettings,
     way: Box<dyn Way>,
 }
 
@@ -164,32 +146,14 @@ impl Before {
     }
 }
 
-/// Where the line of the present bonds is followed to.
-struct Goal {
-    load_factor: f64,
-    /// s/s_0 of the first bonds to break, there.
-    ratio: f64,
-    /// The first bonds to break, if the load factor is their critical one.
-    bonds: Vec<u32>,
-    /// Whether no load in the part of a programme is admissible, so that the bonds break beyond their limits at the load that is held.
-    is_held: bool,
-    /// Whether a part of a programme ends there.
-    ends_part: bool,
-    /// The reason why the run ends there, if it does.
-    end: Option<Termination>,
-}
-
 impl<'a> Following<'a> {
-    fn new(path: Path<'a>, settings: &'a EventSettings, growth: Vec<f64>) -> Self {
-        let way: Box<dyn Way> = match path.problem.loads.staged() {
-            Some(_) => Box::new(affine::Affine::new(growth)),
-            None => Box::new(proportional::Proportional::new(&*path.problem.loads)),
+    fn new(path: Path<'a>, settings: &EventSettings, growth: Vec<f64>) -> Self {
+        let (loads, tie_tolerance) = (&*path.problem.loads, settings.tie_tolerance);
+        let way: Box<dyn Way> = match loads.course() {
+            Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
+            None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),
         };
-        Self {
-            path,
-            settings,
-            way,
-        }
+        Self { path, way }
     }
 
     /// Follows the path from an equilibrium of the whole body to the end of the run.
@@ -205,7 +169,7 @@ impl<'a> Following<'a> {
     /// Follows the path from an equilibrium on the line to an event.
     fn go_on(&mut self, mut step: usize, mut line: Balanced) -> Result<Termination, SetupError> {
         loop {
-            let goal = match self.way.goal(&mut self.path, self.settings, &line) {
+            let goal = match self.way.goal(&mut self.path, &line) {
                 Ok(goal) => goal,
                 Err(reason) => {
                     let end = self.path.without_equilibrium(step, reason);

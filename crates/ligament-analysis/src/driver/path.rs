@@ -4,7 +4,6 @@
 //! that end a run.
 
 use std::borrow::Cow;
-use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_model::failure::Criteria;
@@ -22,7 +21,7 @@ use crate::error::SetupError;
 use crate::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
 };
-use crate::load_program::{ControlKind, StagedLoading};
+use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
 use crate::serial::Serial;
 use crate::softening::Softening;
@@ -76,7 +75,7 @@ pub(super) struct Path<'a> {
     pub(super) course: Course,
     /// Whether a given force acts on a part that nothing holds any more.
     pub(super) collapsed: bool,
-    stop: StopRules,
+    pub(super) stop: StopRules,
     started: Instant,
 }
 
@@ -111,8 +110,8 @@ impl<'a> Path<'a> {
                 negative_eigenvalues: 0,
                 part_start: problem
                     .loads
-                    .staged()
-                    .map_or_else(Vec::new, StagedLoading::start),
+                    .course()
+                    .map_or_else(Vec::new, LoadCourse::start),
                 part: 0,
                 largest_force: 0.0,
             },
@@ -160,22 +159,25 @@ impl<'a> Path<'a> {
 
     /// Goes over to the part of this index of a programme, which begins where the present one ends.
     pub(super) fn begin_part(&mut self, part: usize) {
-        let Some(loads) = self.problem.loads.staged().filter(|it| it.part() != part) else {
+        let Some(here) = self.problem.loads.course().filter(|it| it.part != part) else {
             return;
         };
-        let start = loads.factors(self.state.load_factor);
-        let loads = StagedLoading::new(loads.programme().clone(), part, &start);
-        let [begins, _] = loads.programme().parts[part].span;
+        let start = here.factors(self.state.load_factor);
+        let next = LoadCourse::new(here.programme.clone(), part, &start);
+        let (begins, _) = next.programme.parts[part].span;
+        let Some(loads) = self.problem.loads.in_course(next) else {
+            return;
+        };
         self.state.load_factor = begins;
         (self.course.part, self.course.part_start) = (part, start);
-        self.problem.loads = Arc::new(loads);
-        self.equilibrium.load_with(self.problem.loads.clone());
+        self.problem.loads = loads.clone();
+        self.equilibrium.load_with(loads);
     }
 
     /// Factor of the control load in a record.
     pub(super) fn control_factor(&self, record: &StepRecord) -> f64 {
-        match self.problem.loads.staged() {
-            Some(loads) => record.factors[loads.programme().control],
+        match self.problem.loads.course() {
+            Some(loads) => record.factors[loads.programme.control],
             None => record.load_factor,
         }
     }
@@ -338,7 +340,7 @@ impl<'a> Path<'a> {
 
     /// Whether the load of an equilibrium is rounding against the largest so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
-        if let Some(loads) = self.problem.loads.staged() {
+        if let Some(loads) = self.problem.loads.course() {
             return self.carries_no_part(loads, balanced);
         }
         let (_, reaction) = self.control(balanced);
@@ -378,7 +380,7 @@ impl<'a> Path<'a> {
             return Some(Termination::DisplacementReached { displacement });
         }
         let carried = self.carried_by_the_damaged(balanced)?;
-        let fell_apart = match self.problem.loads.staged() {
+        let fell_apart = match self.problem.loads.course() {
             None => carried <= NO_LOAD * self.course.peak,
             Some(loads) => self.carries_no_part(loads, balanced),
         };
@@ -386,7 +388,7 @@ impl<'a> Path<'a> {
     }
 
     /// Whether no point of a body carries anything of the loads of a programme that act on it.
-    fn carries_no_part(&self, loads: &StagedLoading, balanced: &Balanced) -> bool {
+    fn carries_no_part(&self, loads: &LoadCourse, balanced: &Balanced) -> bool {
         let factors = loads.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
         acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force

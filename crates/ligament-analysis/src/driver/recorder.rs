@@ -9,7 +9,6 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::history::StepRecord;
-use crate::load_program::StagedLoading;
 use crate::problem::Problem;
 use crate::serial;
 use crate::serial::Serial;
@@ -203,9 +202,9 @@ pub(super) fn step_record(
     StepRecord {
         step: counters.step,
         load_factor: state.load_factor,
-        part: loads.staged().map_or(0, StagedLoading::part),
+        part: loads.course().map_or(0, |it| it.part),
         factors: loads
-            .staged()
+            .course()
             .map_or_else(Vec::new, |it| it.factors(state.load_factor)),
         displacement: loads.control_displacement(state.load_factor, &state.displacement),
         reaction: loads.control_force(state.load_factor, &balanced.internal),

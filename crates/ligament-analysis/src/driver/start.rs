@@ -1,7 +1,5 @@
 //! What every driver does first: hold what nothing holds, and look at the elastic answer.
 
-use std::sync::Arc;
-
 use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
 use crate::balanced::{Attempt, Balanced, Stability};
@@ -45,11 +43,13 @@ pub(super) fn begin(
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
-    let Some(staged) = problem.loads.staged() else {
+    let course = problem.loads.course();
+    let alone = course.and_then(|it| problem.loads.in_course(it.control_alone()));
+    let Some(loads) = alone else {
         return begin_proportional(problem, equilibrium, observer);
     };
     let alone = Problem {
-        loads: Arc::new(staged.control_alone()),
+        loads,
         ..problem.clone()
     };
     equilibrium.load_with(alone.loads.clone());

@@ -126,13 +126,13 @@ struct LoadStep {
 /// All load steps, the unloaded body first.
 fn plan(problem: &Problem, settings: &SteppedSettings, elastic: &ElasticAnswer) -> Vec<LoadStep> {
     let step = |part: usize| move |load_factor: f64| LoadStep { part, load_factor };
-    let steps: Vec<LoadStep> = match problem.loads.staged() {
+    let steps: Vec<LoadStep> = match problem.loads.course() {
         None => refined(settings, elastic.first_break)
             .into_iter()
             .map(step(0))
             .collect(),
         Some(loads) => {
-            let parts = loads.programme().parts.iter().enumerate();
+            let parts = loads.programme.parts.iter().enumerate();
             let of_part =
                 |(part, it): (usize, &Part)| it.load_factors().into_iter().map(step(part));
             parts.flat_map(of_part).collect()

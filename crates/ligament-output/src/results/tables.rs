@@ -107,10 +107,10 @@ fn write_criteria(
 
 /// Columns of the history that stages add: the stage, and the factor of each load.
 fn stage_columns(problem: &Problem) -> Vec<String> {
-    let Some(loads) = problem.loads.staged() else {
+    let Some(loads) = problem.loads.course() else {
         return Vec::new();
     };
-    let names = loads.programme().names.iter();
+    let names = loads.programme.names.iter();
     let factors = names.map(|name| format!("{name}_factor"));
     std::iter::once("stage".to_owned()).chain(factors).collect()
 }
@@ -287,8 +287,8 @@ impl Tables {
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
-        if let Some(loads) = view.loads.staged() {
-            let stage = loads.programme().stage_name(record.part);
+        if let Some(loads) = view.loads.course() {
+            let stage = loads.programme.stage_name(record.part);
             row.push(stage.into());
             row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
         }

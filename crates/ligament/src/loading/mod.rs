@@ -11,7 +11,7 @@ use std::sync::Arc;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
-use ligament_analysis::{LoadProgram, Programme, ProportionalLoading, StagedLoading};
+use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::failure::Criteria;
 use ligament_model::{BondSystem, Bonds};
 
@@ -22,15 +22,15 @@ pub use vibration::Vibration;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::Setup;
 use boundary::{Acting, boundary, couples_have_stiffness};
-use programme::programme;
+use programme::staged;
 
 /// Supports, loads and probes of a setup, for its model.
 #[derive(Debug)]
 pub struct Loading {
     /// Supports and loads as they are at load factor 1.
     pub boundary: Arc<ProportionalLoading>,
-    /// Stages of the loads, if there are any.
-    pub programme: Option<Arc<Programme>>,
+    /// Supports and loads in the first part of the stages, if there are any.
+    pub staged: Option<Arc<StagedLoading>>,
     /// Probes.
     pub probes: Arc<[Probe]>,
     /// How the equations are solved.
@@ -54,9 +54,9 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
-        let programme = programme(setup, &system.cloud, system.layout())?;
+        let staged = staged(setup, &system.cloud, system.layout())?;
         Ok(Self {
-            programme: programme.map(Arc::new),
+            staged: staged.map(Arc::new),
             boundary: Arc::new(boundary.reduced(system.layout())),
             probes,
             solver: setup.solver,
@@ -65,12 +65,9 @@ impl Loading {
 
     /// The problem that it makes of the bonds and their failure criteria.
     pub fn problem(&self, system: &Arc<BondSystem>, criteria: &Arc<Criteria>) -> Problem {
-        let loads: Arc<dyn LoadProgram> = match &self.programme {
+        let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
-            Some(programme) => {
-                let start = vec![0.0; programme.names.len()];
-                Arc::new(StagedLoading::new(programme.clone(), 0, &start))
-            }
+            Some(staged) => staged.clone(),
         };
         Problem {
             system: system.clone(),

@@ -1,11 +1,15 @@
 //! Stages of a setup as a programme of its loads on the points.
 
-use ligament_analysis::{Component, Layout, Part, Programme, ProportionalLoading};
+use std::sync::Arc;
+
+use ligament_analysis::{
+    Component, Layout, LoadCourse, Part, Programme, ProportionalLoading, StagedLoading,
+};
 use ligament_model::PointCloud;
 
 use super::boundary::{Acting, boundary};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Analysis, Course, Setup, Stage};
+use crate::setup::{self, Analysis, Setup, Stage};
 
 /// Shares of a stage that are nearer to each other are one.
 const SAME: f64 = 1e-9;
@@ -33,16 +37,17 @@ impl Setup {
     }
 }
 
-/// The programme of the stages of a setup for points with these components; None without stages.
+/// Each load of a setup with stages by itself, for points with these components, in the first part of the programme that the stages are;
+/// None without stages.
 ///
 /// # Errors
 ///
 /// If two loads prescribe a motion of a point.
-pub(super) fn programme(
+pub(super) fn staged(
     setup: &Setup,
     cloud: &PointCloud,
     layout: Layout,
-) -> Result<Option<Programme>, SetupError> {
+) -> Result<Option<StagedLoading>, SetupError> {
     if setup.stages.is_empty() {
         return Ok(None);
     }
@@ -54,14 +59,16 @@ pub(super) fn programme(
         .map(|acting| Ok(boundary(setup, cloud, acting)?.reduced(layout)))
         .collect::<Result<_, SetupError>>()?;
     moved_by_one(setup, layout, &loads)?;
-    Ok(Some(Programme {
+    let programme = Programme {
         control: setup.curve_load().or(temperature).unwrap_or(0),
         temperature,
         stages: setup.stages.iter().map(|it| it.name.clone()).collect(),
         names,
-        loads,
         parts: parts(setup),
-    }))
+    };
+    let start = vec![0.0; programme.names.len()];
+    let course = LoadCourse::new(Arc::new(programme), 0, &start);
+    Ok(Some(StagedLoading::new(loads.into(), course)))
 }
 
 /// The parts of all stages.
@@ -89,7 +96,7 @@ fn add_parts(
     ends.sort_unstable_by(f64::total_cmp);
     ends.dedup_by(|one, other| *one - *other < SAME);
     ends.push(1.0);
-    let course = |name: &str| -> Option<&Course> {
+    let course = |name: &str| -> Option<&setup::Course> {
         let mut courses = stage.loads.iter();
         courses.find(|(of, _)| of == name).map(|(_, course)| course)
     };
@@ -99,7 +106,7 @@ fn add_parts(
         let at_end = |(name, start): (&String, &f64)| Some(course(name)?.at(share, *start));
         parts.push(Part {
             stage: index,
-            span: [begins, share],
+            span: (begins, share),
             ends: names.iter().zip(factors.iter()).map(at_end).collect(),
             steps: ((steps * (share - begins)).round() as usize).max(1),
         });

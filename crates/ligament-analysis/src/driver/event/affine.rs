@@ -12,12 +12,12 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{EventSettings, Goal, Way};
+use super::way::{Goal, Way};
 use crate::balanced::Balanced;
 use crate::breaking::{FirstToBreak, first_to_break};
 use crate::driver::path::Path;
 use crate::history::Termination;
-use crate::load_program::StagedLoading;
+use crate::load_program::LoadProgram;
 use crate::unbalanced::Unbalanced;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
@@ -28,6 +28,7 @@ const TASK: usize = 4096;
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
+    tie_tolerance: f64,
     growth: Vec<f64>,
     /// Whether the growth is that of the present bonds.
     is_present: bool,
@@ -35,8 +36,9 @@ pub(super) struct Affine {
 
 impl Affine {
     /// With the growth of a checkpoint; it is empty at the start.
-    pub(super) fn new(growth: Vec<f64>) -> Self {
+    pub(super) fn new(tie_tolerance: f64, growth: Vec<f64>) -> Self {
         Self {
+            tie_tolerance,
             is_present: !growth.is_empty(),
             growth,
         }
@@ -46,42 +48,39 @@ impl Affine {
     fn slopes(
         &mut self,
         path: &mut Path<'_>,
-        rate: &StagedLoading,
+        rate: &dyn LoadProgram,
     ) -> Result<Vec<BondDeformation>, Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
             self.growth = path.equilibrium.growth(&mut path.state, rate)?;
             path.course.solves[0] = path.equilibrium.costs().solves;
         }
-        let expansion = crate::LoadProgram::thermal_strain(rate, 1.0);
+        let expansion = rate.thermal_strain(1.0);
         let system = &path.problem.system;
         Ok(system.deformations(&path.state.intact, &self.growth, expansion))
     }
 }
 
 impl Way for Affine {
-    fn goal(
-        &mut self,
-        path: &mut Path<'_>,
-        settings: &EventSettings,
-        line: &Balanced,
-    ) -> Result<Goal, Unbalanced> {
+    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let loads = path.problem.loads.clone();
-        let Some(loads) = loads.staged() else {
+        let Some((course, rate)) =
+            (loads.course()).and_then(|it| Some((it, loads.in_course(it.rate())?)))
+        else {
             unreachable!("lines of a programme are followed under a programme");
         };
-        let slopes = self.slopes(path, &loads.rate())?;
+        let slopes = self.slopes(path, &*rate)?;
         let start = Instant::now();
         let now = path.state.load_factor;
-        let (programme, part) = (loads.programme(), loads.part());
-        let [begins, ends] = programme.parts[part].span;
+        let (programme, part) = (&course.programme, course.part);
+        let (begins, ends) = programme.parts[part].span;
         let criteria = path.criteria(line).into_owned();
         let intact = &path.state.intact;
         let reach = [begins - now, ends - now];
         let goal = match admissible(&criteria, intact, [&line.deformations, &slopes], reach) {
-            None => held(settings, line, &criteria, path),
+            None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) => {
                 let at = deformations_at(line, &slopes, upper);
-                let tie = settings.tie_tolerance;
+                let tie = self.tie_tolerance;
                 let FirstToBreak { ratio, bonds } = first_to_break(tie, &at, &criteria, intact);
                 let ends_part = upper == reach[1];
                 let is_last = part + 1 == programme.parts.len();
@@ -96,7 +95,7 @@ impl Way for Affine {
             }
         };
         path.equilibrium.count_bond_work(start);
-        Ok(up_to_displacement(goal, path, settings, &self.growth))
+        Ok(up_to_displacement(goal, path, &self.growth))
     }
 
     fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
@@ -114,8 +113,8 @@ impl Way for Affine {
 }
 
 /// The goal where no load is admissible: the load stays.
-fn held(settings: &EventSettings, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
-    let (tie, intact) = (settings.tie_tolerance, &path.state.intact);
+fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
+    let intact = &path.state.intact;
     let FirstToBreak { ratio, bonds } = first_to_break(tie, &line.deformations, criteria, intact);
     Goal {
         load_factor: path.state.load_factor,
@@ -129,12 +128,7 @@ fn held(settings: &EventSettings, line: &Balanced, criteria: &Criteria, path: &P
 }
 
 /// The goal, or the load before it at which the control load reaches the displacement that ends the run.
-fn up_to_displacement(
-    goal: Goal,
-    path: &Path<'_>,
-    settings: &EventSettings,
-    growth: &[f64],
-) -> Goal {
+fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
     let (state, loads) = (&path.state, &path.problem.loads);
     let at = |load_factor: f64| {
         let by = load_factor - state.load_factor;
@@ -142,7 +136,7 @@ fn up_to_displacement(
         let moved: Vec<f64> = moved.map(|(value, growth)| value + by * growth).collect();
         loads.control_displacement(load_factor, &moved)
     };
-    let Some(wanted) = settings.stop.displacement else {
+    let Some(wanted) = path.stop.displacement else {
         return goal;
     };
     let [here, there] = [at(state.load_factor), at(goal.load_factor)];

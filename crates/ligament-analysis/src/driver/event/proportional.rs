@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::{EventSettings, Goal, Way};
+use super::way::{Goal, Way};
 use crate::balanced::Balanced;
 use crate::breaking::{FirstToBreak, first_to_break};
 use crate::driver::path::{NO_LOAD, Path};
@@ -15,13 +15,15 @@ use crate::unbalanced::Unbalanced;
 
 /// Lines through the unloaded state.
 pub(super) struct Proportional {
+    tie_tolerance: f64,
     /// Degrees of freedom that something moves or loads.
     loaded: Vec<u32>,
 }
 
 impl Proportional {
-    pub(super) fn new(loads: &dyn LoadProgram) -> Self {
+    pub(super) fn new(tie_tolerance: f64, loads: &dyn LoadProgram) -> Self {
         Self {
+            tie_tolerance,
             loaded: loads.loaded_degrees_of_freedom(),
         }
     }
@@ -29,15 +31,10 @@ impl Proportional {
 
 impl Way for Proportional {
     /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
-    fn goal(
-        &mut self,
-        path: &mut Path<'_>,
-        settings: &EventSettings,
-        line: &Balanced,
-    ) -> Result<Goal, Unbalanced> {
+    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let start = Instant::now();
         let FirstToBreak { ratio, bonds } = first_to_break(
-            settings.tie_tolerance,
+            self.tie_tolerance,
             &line.deformations,
             &path.criteria(line),
             &path.state.intact,
@@ -64,7 +61,7 @@ impl Way for Proportional {
         }
         let loads = &path.problem.loads;
         let displacement = loads.control_displacement(now, &path.state.displacement);
-        if let Some(wanted) = settings.stop.displacement
+        if let Some(wanted) = path.stop.displacement
             && displacement > 0.0
         {
             let load_factor = now * wanted / displacement;
