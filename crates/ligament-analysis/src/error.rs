@@ -35,6 +35,12 @@ pub enum SetupError {
          part of it by a [[support]]"
     )]
     NothingResists,
+    /// The exact path through stages was asked for with faces of cracks that close.
+    #[error(
+        "faces of cracks open and close on the way from breakage to breakage where one load stays and another grows, which the exact path \
+         through stages does not follow: take load steps, or leave the faces open"
+    )]
+    ClosingFaces,
     /// A run cannot go on from its checkpoint.
     #[error("the run cannot go on from its checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),

@@ -12,6 +12,7 @@
 //! | failure criteria with their limits | [`Criteria`](failure::Criteria) | [`failure`] |
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
+//! | cracks as lines | [`CrackLine`](crack::CrackLine) | [`crack`] |
 //!
 //! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
 //! as NHPD or MPPD: `docs/references.md` lists the papers.
@@ -19,7 +20,9 @@
 pub mod bonds;
 pub mod change;
 pub mod cloud;
+pub mod contact;
 pub mod correction;
+pub mod crack;
 mod curve;
 pub mod element;
 pub mod failure;
@@ -33,6 +36,7 @@ pub mod mass;
 pub mod material;
 pub mod moduli;
 pub mod rigid_motions;
+pub mod scatter;
 pub mod shape;
 pub mod stress;
 pub mod sweep;
@@ -53,5 +57,6 @@ pub use interface::Bonds;
 pub use law::BondStiffness;
 pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
+pub use scatter::Scatter;
 pub use shape::Shape;
 pub use system::{BondSystem, BondsLeft};

@@ -6,7 +6,7 @@ use crate::balanced::Balanced;
 use crate::checkpoint::CheckpointError;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
-use crate::history::StepRecord;
+use crate::history::{LargestOverlap, StepRecord};
 use crate::load_program::LoadCourse;
 use crate::problem::Problem;
 use crate::serial;
@@ -29,6 +29,8 @@ pub(super) struct Course {
     pub(super) part: usize,
     /// Largest force at a point in any record, N.
     pub(super) largest_force: f64,
+    /// Faces of cracks that passed through each other farthest.
+    pub(super) overlap: Option<LargestOverlap>,
 }
 
 serial!(Course {
@@ -42,6 +44,7 @@ serial!(Course {
     part_start,
     part,
     largest_force,
+    overlap,
 });
 
 impl Course {

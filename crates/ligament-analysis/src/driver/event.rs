@@ -48,6 +48,9 @@ pub fn run(
         return Err(SetupError::Softening);
     }
     let is_staged = problem.loads.course().is_some();
+    if is_staged && problem.system.faces_close() {
+        return Err(SetupError::ClosingFaces);
+    }
     if let Some(criterion) = problem.criteria.unknown_along_lines().filter(|_| is_staged) {
         return Err(SetupError::UnknownAlongLines {
             criterion: criterion.name,

@@ -11,6 +11,7 @@ use ligament_model::failure::Criteria;
 use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
+use super::overlap;
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{Start, begin, report_loose, report_mechanisms};
 use crate::balanced::{Attempt, Balanced};
@@ -19,7 +20,8 @@ use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
+    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord,
+    Termination, View,
 };
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
@@ -114,6 +116,7 @@ impl<'a> Path<'a> {
                     .map_or_else(Vec::new, LoadCourse::start),
                 part: 0,
                 largest_force: 0.0,
+                overlap: None,
             },
             collapsed: false,
             stop,
@@ -124,7 +127,9 @@ impl<'a> Path<'a> {
 
     /// Refuses loads that deform nothing; `at_one` is the equilibrium at load factor one, if there is one.
     pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
-        if at_one.is_some() && self.course.elastic.stiffness.is_nan() {
+        // Parts that the full load pulls off each other may be pressed by a part of it.
+        let may_press = self.problem.system.faces_close();
+        if at_one.is_some() && self.course.elastic.stiffness.is_nan() && !may_press {
             return Err(SetupError::NothingResists);
         }
         Ok(())
@@ -267,6 +272,7 @@ impl<'a> Path<'a> {
         self.energies.add_work(&self.problem, &self.state, balanced);
         self.energies
             .add_released(&self.problem, &self.state, breakage, balanced);
+        (self.energies).add_contact(&self.problem, &self.state, breakage, balanced);
         dissipation::soften(&self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
@@ -306,7 +312,9 @@ impl<'a> Path<'a> {
             dissipation::break_bond(&self.problem, &mut self.state, record);
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
-        self.collapsed |= self.load_came_loose(&breakage.holds);
+        // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
+        let may_press = self.problem.system.faces_close();
+        self.collapsed |= !may_press && self.load_came_loose(&breakage.holds);
         let fragments = self.equilibrium.fragments();
         report_loose(step, fragments, &breakage.holds, self.observer)?;
         Ok(breakage)
@@ -380,16 +388,18 @@ impl<'a> Path<'a> {
             return Some(Termination::DisplacementReached { displacement });
         }
         let carried = self.carried_by_the_damaged(balanced)?;
-        let fell_apart = match self.problem.loads.course() {
+        // What fell apart carries again where its faces close.
+        let is_over = !self.problem.system.faces_close();
+        let carries_nothing = match self.problem.loads.course() {
             None => carried <= NO_LOAD * self.course.peak,
-            Some(loads) => self.carries_no_part(loads, balanced),
+            Some(course) => self.carries_no_part(course, balanced),
         };
-        fell_apart.then_some(Termination::FellApart)
+        (is_over && carries_nothing).then_some(Termination::FellApart)
     }
 
     /// Whether no point of a body carries anything of the loads of a programme that act on it.
-    fn carries_no_part(&self, loads: &LoadCourse, balanced: &Balanced) -> bool {
-        let factors = loads.factors(self.state.load_factor);
+    fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
+        let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
         acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force
     }
@@ -442,6 +452,7 @@ impl<'a> Path<'a> {
         self.course.peak = self.course.peak.max(record.reaction);
         let force = balanced.internal.force_scale;
         self.course.largest_force = self.course.largest_force.max(force);
+        self.report_overlap(record.step)?;
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
             system: &*self.problem.system,
@@ -456,6 +467,26 @@ impl<'a> Path<'a> {
         self.observer.step(&record, &view)?;
         self.report_energies(&record)?;
         self.course.history.push(record);
+        Ok(())
+    }
+
+    /// Tells of the first record in which faces of cracks pass through each other, and keeps the largest overlap.
+    fn report_overlap(&mut self, step: usize) -> Result<(), ObserverError> {
+        let fragments = self.equilibrium.fragments();
+        let Some(overlap) = overlap::largest(&self.problem, &self.state, fragments) else {
+            return Ok(());
+        };
+        let now = LargestOverlap {
+            depth: overlap.depth,
+            ends: overlap.ends,
+            step,
+        };
+        match self.course.overlap {
+            None => self.observer.notice(&Notice::Overlap(now))?,
+            Some(before) if before.depth >= now.depth => return Ok(()),
+            Some(_) => {}
+        }
+        self.course.overlap = Some(now);
         Ok(())
     }
 
@@ -490,6 +521,7 @@ impl<'a> Path<'a> {
             termination,
             elastic_stiffness: self.course.elastic.stiffness,
             first_break: self.course.elastic.first_break,
+            overlap: self.course.overlap,
             stability: self.course.elastic.stability,
             costs: *self.equilibrium.costs(),
             solver: *self.equilibrium.choice(),

@@ -10,10 +10,12 @@ use super::source::Source;
 use crate::temperature_table;
 
 /// What a setup calls by the names of its types, and the words of a case for it.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 14] = [
     (" or `Law::MbbPd`", " or \"mbb-pd\""),
     ("`Law::MbbPd`", "model.law = \"mbb-pd\""),
     ("`Law::Orthotropic`", "model.law = \"orthotropic\""),
+    ("`Scattered::Strength`", "\"strength\""),
+    ("`Scattered::FractureEnergy`", "\"fracture-energy\""),
     ("`LatticeBody`", "[lattice] in the place of [mesh]"),
     ("`Alpha::None`", "\"none\""),
     ("`Surface::None`", "\"none\""),
@@ -82,7 +84,7 @@ impl Case {
         let list = match field.name {
             "body" if self.mesh.is_some() => "mesh",
             "body" => "lattice",
-            "law" | "horizon" | "rotational_scale" => "model",
+            "law" | "horizon" | "rotational_scale" | "closing" => "model",
             "materials" => "material",
             "precracks" => "precrack",
             "supports" => "support",
@@ -91,12 +93,14 @@ impl Case {
             "temperatures" => "temperature",
             "probes" => "probe",
             "criteria" => "fracture.criterion",
+            "scatter" => "fracture.scatter",
             "analysis.load_factors" => "fracture.steps",
             other => other,
         };
         let Some(index) = field.index else {
             let part = match (field.name, field.part) {
                 ("law", None) => Some("law"),
+                ("closing", None) => Some("closing"),
                 ("rotational_scale", Some("length")) => Some("cosserat_length"),
                 ("rotational_scale", _) => Some("rotational_factor"),
                 (_, part) => part,

@@ -224,6 +224,7 @@ impl Case {
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
             precracks: each("precrack", &self.precracks, Precrack::setup)?,
+            closing: self.model.closing,
             no_fail: each("no_fail", &self.no_fail, Region::place)?,
             supports: each("support", &self.supports, Support::setup)?,
             loads: each("load", &self.loads, Load::setup)?,
@@ -235,6 +236,11 @@ impl Case {
                 criteria.flatten(),
                 super::criterion::Criterion::setup,
             )?,
+            scatter: (self.fracture.iter())
+                .filter_map(|it| it.scatter.as_ref())
+                .map(|it| it.setup(&root().child("fracture").child("scatter")))
+                .next()
+                .transpose()?,
             probes: each("probe", &self.probes, Probe::setup)?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),

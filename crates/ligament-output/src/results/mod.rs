@@ -13,6 +13,7 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+pub mod cracks;
 mod grid;
 mod largest;
 mod model_file;
@@ -21,6 +22,7 @@ pub mod outputs;
 mod point_fields;
 mod rule;
 mod so_far;
+pub mod steps;
 pub mod stored;
 mod tables;
 

@@ -36,6 +36,8 @@ const HISTORY: [Column<StepRecord>; 17] = [
     ("negative_eigenvalues", |it| it.negative_eigenvalues.into()),
     ("dissipated_energy", |it| it.dissipated_energy.into()),
 ];
+/// The column of a body whose crack faces close.
+const CLOSED: Column<StepRecord> = ("closed_pairs", |it| it.closed_pairs.into());
 const ITERATIONS: [&str; 7] = [
     "step",
     "round",
@@ -208,7 +210,9 @@ impl Tables {
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
+        let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
         let extra: Vec<String> = (stage_columns(problem).into_iter())
+            .chain(of_faces)
             .chain(group_columns)
             .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
@@ -291,6 +295,9 @@ impl Tables {
             let stage = loads.programme.stage_name(record.part);
             row.push(stage.into());
             row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
+        }
+        if view.system.faces_close() {
+            row.push(CLOSED.1(record));
         }
         let layout = view.system.layout();
         let of_groups = record.group_forces.iter().flat_map(|force| {

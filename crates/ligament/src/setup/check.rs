@@ -44,12 +44,14 @@ impl Setup {
             self.check_material(Field::element("materials", index), &region.material)?;
         }
         self.check_criteria()?;
+        self.check_scatter()?;
         self.check_strains_of_bonds()?;
         self.check_rotational_scale()?;
         self.check_correction()?;
         self.check_load_factors()?;
         self.check_stages()?;
         self.check_precracks()?;
+        self.check_closing()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
         for (index, support) in self.supports.iter().enumerate() {

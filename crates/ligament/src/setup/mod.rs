@@ -3,11 +3,13 @@
 mod analysis;
 mod check;
 mod check_stages;
+mod closing;
 mod conditions;
 mod correction;
 mod law;
 mod probe;
 mod rotation;
+mod scatter;
 pub mod stage;
 mod temperature;
 
@@ -17,7 +19,7 @@ use ligament_analysis::SolverSettings;
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
-use ligament_model::{Horizons, Material, Plane, PointCloud};
+use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 
 use crate::body::Body;
 
@@ -53,6 +55,8 @@ pub struct Setup {
     pub correction: Correction,
     /// Cracks that are there from the start.
     pub precracks: Vec<PreCrack>,
+    /// Whether the faces of pre-cracks and of broken bonds carry pressure again where they close; of laws whose points turn.
+    pub closing: bool,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
     /// Supports of the body; there need be none.
@@ -68,6 +72,8 @@ pub struct Setup {
     pub temperatures: Vec<Temperature>,
     /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
     pub criteria: Vec<Choice>,
+    /// A property of the materials that varies at random over the body, in an analysis of fracture.
+    pub scatter: Option<Scatter>,
     /// Quantities that the history records beside displacement and load.
     pub probes: Vec<Probe>,
     /// Kind of analysis.
@@ -128,6 +134,7 @@ impl Setup {
             bonds_through_voids: false,
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
+            closing: false,
             no_fail: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
@@ -135,6 +142,7 @@ impl Setup {
             stages: Vec::new(),
             temperatures: Vec::new(),
             criteria: Vec::new(),
+            scatter: None,
             probes: Vec::new(),
             analysis: Analysis::default(),
             solver: SolverSettings::default(),
