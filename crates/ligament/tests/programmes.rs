@@ -55,6 +55,7 @@ fn stage(name: &str, load: &str, course: Course, steps: Option<usize>) -> Stage 
         name: name.to_owned(),
         loads: vec![(load.to_owned(), course)],
         steps,
+        control: None,
     }
 }
 

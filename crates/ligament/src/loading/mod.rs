@@ -54,7 +54,7 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
-        let staged = staged(setup, &system.cloud, system.layout())?;
+        let staged = staged(setup, &system.cloud, system.layout(), &probes)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             boundary: Arc::new(boundary.reduced(system.layout())),
