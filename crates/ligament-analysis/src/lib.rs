@@ -15,6 +15,7 @@ pub mod connectivity;
 pub mod costs;
 pub mod dissection;
 pub mod driver;
+pub mod energy_release;
 pub mod equilibrium;
 pub mod error;
 pub mod fields;

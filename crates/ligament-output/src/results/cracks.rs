@@ -1,14 +1,14 @@
 //! The cracks of a stored run, as lines.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ligament_mesh::Cell;
 use ligament_model::Canvas;
 use ligament_model::crack::{CrackLine, Faces, Part, crack_lines};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
-use crate::csv::read::Sheet;
+use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
 
@@ -24,9 +24,30 @@ pub struct StoredCracks {
     cut: Vec<usize>,
     /// Faces that opened, in the order in which their bonds broke, with the place of the breakage in the order of all, from 1.
     opened: Vec<(usize, usize)>,
-    /// Number of broken bonds at each row of the history, with the step.
-    rows: Vec<(usize, usize)>,
+    records: Vec<CrackRecord>,
 }
+
+/// What a row of the history says of a crack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrackRecord {
+    /// Number of the step or event.
+    pub step: usize,
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacement of the first load, m.
+    pub displacement: f64,
+    /// Force of the first load, N.
+    pub reaction: f64,
+    /// Energy that breakages released so far, J.
+    pub released_energy: f64,
+    /// Energy that bonds took for good so far, J.
+    pub dissipated_energy: f64,
+    /// Number of broken bonds.
+    pub broken_bonds: usize,
+}
+
+/// Records of the history of which cracks are followed at most.
+const MOST_RECORDS: usize = 500;
 
 impl StoredCracks {
     /// Reads them from the folder of a run.
@@ -53,13 +74,12 @@ impl StoredCracks {
         let breaks = (1..).zip(broken_pairs(folder)?);
         let opened = breaks.filter_map(|(order, tags)| Some((place(tags)?, order)));
         let history = Sheet::read(folder.join("history.csv"))?;
-        let rows = history.rows(|row| Ok((row.value("step")?, row.value("broken_bonds")?)))?;
         Ok(Self {
             thickness: body.thickness,
             cut: cut.into_iter().filter_map(place).collect(),
             opened: opened.collect(),
             horizon: body.horizon,
-            rows,
+            records: history.rows(CrackRecord::read)?,
             faces,
         })
     }
@@ -82,16 +102,59 @@ impl StoredCracks {
         crack_lines(&self.faces, &parts, &self.horizon)
     }
 
+    /// The records in which a face is open that was not in the one before; of very many an even choice, with the last.
+    pub fn grown_records(&self) -> Vec<&CrackRecord> {
+        let open = |broken: usize| self.opened.partition_point(|(_, order)| *order <= broken);
+        let mut before = 0;
+        let mut grown: Vec<&CrackRecord> = Vec::new();
+        for record in &self.records {
+            let now = open(record.broken_bonds);
+            if now > before {
+                grown.push(record);
+            }
+            before = now;
+        }
+        let stride = grown.len().div_ceil(MOST_RECORDS).max(1);
+        let last = grown.len().saturating_sub(1);
+        let numbered = grown.into_iter().enumerate();
+        let chosen = numbered.filter(|(place, _)| (last - place).is_multiple_of(stride));
+        chosen.map(|(_, record)| record).collect()
+    }
+
+    /// Mean horizon of the points, m.
+    pub fn mean_horizon(&self) -> f64 {
+        self.horizon.iter().sum::<f64>() / self.horizon.len().max(1) as f64
+    }
+
+    /// The steps of the history.
+    pub fn steps(&self) -> Vec<usize> {
+        self.records.iter().map(|it| it.step).collect()
+    }
+
     /// Number of broken bonds in the state of a step.
     fn broken_until(&self, step: usize) -> usize {
-        let rows = self.rows.iter().take_while(|(at, _)| *at <= step);
-        rows.last().map_or(0, |(_, broken)| *broken)
+        let until = self.records.iter().take_while(|it| it.step <= step);
+        until.last().map_or(0, |it| it.broken_bonds)
+    }
+}
+
+impl CrackRecord {
+    fn read(row: Row<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            step: row.value("step")?,
+            load_factor: row.number("load_factor")?,
+            displacement: row.number("displacement")?,
+            reaction: row.number("reaction")?,
+            released_energy: row.number("released_energy")?,
+            dissipated_energy: row.number("dissipated_energy")?,
+            broken_bonds: row.value("broken_bonds")?,
+        })
     }
 }
 
 /// Tags of the ends of the broken bonds, in the order of breaking.
 fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
-    let path: PathBuf = folder.join("breaks.csv");
+    let path = folder.join("breaks.csv");
     if !path.is_file() {
         return Ok(Vec::new());
     }

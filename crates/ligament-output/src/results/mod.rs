@@ -11,8 +11,10 @@
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
 //!
+//! The cracks of a stored run as lines, their tips and their growth are written afterwards ([`write_cracks`]).
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+mod crack_tables;
 pub mod cracks;
 mod grid;
 mod largest;
@@ -34,6 +36,7 @@ use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
 pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
