@@ -8,16 +8,18 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::numbers;
 use crate::terminal;
+use ligament_output::results::steps::StepChoice;
 use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
-use ligament_plot::picture::{FieldRequest, Magnification, Target, draw_fields};
+use ligament_plot::picture::{FieldRequest, Magnification, Target, draw_each, draw_fields};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament plot results/disk                                damage of the last output
   ligament plot results/disk --strip 4 --scale 20           four outputs, displacements 20 times larger
   ligament plot results/disk --field displacement.x --step 40 --out ux.svg
+  ligament plot results/disk --step first peak last         three steps by what happened in them
   ligament plot results/disk --field none --crack --box -0.01,-0.02,0.01,0.02
   ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
   ligament plot results/plate-modes                         the first six modes
@@ -34,9 +36,10 @@ pub struct PlotArgs {
     /// Field to draw, or none [default: damage where bonds broke, else displacement]
     #[arg(long, value_name = "NAME")]
     pub field: Option<String>,
-    /// Steps or modes to draw [default: the last step, the first six modes]
-    #[arg(long, visible_alias = "mode", value_name = "N", num_args = 1.., value_delimiter = ',')]
-    pub step: Vec<usize>,
+    /// Steps or modes to draw: numbers, first (breakage), peak, last, or all: a picture each, in files with numbers [default: the
+    /// last step, the first six modes]
+    #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',')]
+    pub step: Vec<StepChoice>,
     /// Draw so many outputs, evenly spread, side by side
     #[arg(long, value_name = "COUNT", conflicts_with = "step", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub strip: Option<u32>,
@@ -106,13 +109,17 @@ impl PlotArgs {
             width: self.width,
             dpi: self.dpi,
         };
-        let path = if self.curve {
-            draw_curves(&CurveRequest {
+        let is_series = self.step == [StepChoice::All];
+        if !is_series && self.step.contains(&StepChoice::All) {
+            anyhow::bail!("--step all draws every stored step; leave out the others");
+        }
+        let paths = if self.curve {
+            vec![draw_curves(&CurveRequest {
                 folders: self.results,
                 labels: self.labels,
                 columns: [self.x, self.y],
                 target,
-            })?
+            })?]
         } else {
             let choice = match self.strip {
                 Some(count) => Choice::Strip(count as usize),
@@ -120,7 +127,7 @@ impl PlotArgs {
                 None if !self.displacements.is_empty() => Choice::Displacements(self.displacements),
                 None => Choice::Default,
             };
-            draw_fields(&FieldRequest {
+            let request = FieldRequest {
                 folders: self.results,
                 labels: self.labels,
                 field: self.field,
@@ -133,9 +140,17 @@ impl PlotArgs {
                 map: self.map,
                 columns: self.columns.map(|it| it as usize),
                 target,
-            })?
+            };
+            match is_series {
+                true => draw_each(&request)?,
+                false => vec![draw_fields(&request)?],
+            }
         };
-        Ok(writeln!(terminal::stdout(), "{}", path.display())?)
+        let mut stdout = terminal::stdout();
+        for path in paths {
+            writeln!(stdout, "{}", path.display())?;
+        }
+        Ok(())
     }
 }
 

@@ -17,18 +17,24 @@ mod joined;
 mod levels;
 pub mod maps;
 mod panel;
+mod request;
 pub mod select;
+mod series;
+mod source;
 mod strip;
+mod style;
 mod svg;
 mod units;
 
 use std::path::{Path, PathBuf};
 
 use ligament_output::replace_file;
-use ligament_output::results::outputs::OutputKind;
+use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
-pub use fields::{FieldRequest, Magnification, draw_fields};
+pub use fields::draw_fields;
+pub use request::{FieldRequest, Magnification};
+pub use series::draw_each;
 
 use crate::plots::PlotError;
 use crate::plots::png::{PngError, to_png};
@@ -72,25 +78,26 @@ pub enum PictureError {
         /// Names that can be drawn.
         choices: Vec<String>,
     },
-    /// There is no output of this number.
-    #[error(
-        "{path} has no output of {} {number}; there are {}{}",
-        match kind { OutputKind::Steps => "step", OutputKind::Modes => "mode" },
-        list(known),
-        match kind {
-            OutputKind::Steps => " (run it again with --set output.fields_every=1 for all)",
-            OutputKind::Modes => "",
-        }
-    )]
-    NoSuchOutput {
+    /// A step that was asked for is not there.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// There is no mode of this number.
+    #[error("{path} has no output of mode {number}; there are {}", listed(known))]
+    NoSuchMode {
         /// The folder.
         path: PathBuf,
-        /// Kind of the outputs in the folder.
-        kind: OutputKind,
         /// The number.
         number: usize,
         /// Numbers that there are.
         known: Vec<usize>,
+    },
+    /// A picture for each step is one of each result alone.
+    #[error("{option} draws one result at a time, and there are {n_results}; name one of them")]
+    SeveralResults {
+        /// The option that asked for it.
+        option: &'static str,
+        /// Results given.
+        n_results: usize,
     },
     /// There is no history to choose or to draw from in the folder.
     #[error("{0} has no history.csv with the outputs, so none can be chosen by the displacement")]
@@ -145,17 +152,6 @@ pub enum PictureError {
     /// A PNG could not be made of the picture.
     #[error(transparent)]
     Png(#[from] PngError),
-}
-
-fn list(numbers: &[usize]) -> String {
-    const MOST: usize = 24;
-    let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
-    match words.as_slice() {
-        [first @ .., last] if words.len() > MOST => {
-            format!("{}, ..., {last}", first[..MOST - 2].join(", "))
-        }
-        all => all.join(", "),
-    }
 }
 
 /// Whether a file is to be a PNG, and not an SVG.
