@@ -117,6 +117,13 @@ fn the_patch_correction() {
     assert!(summary["correction"]["newton_steps"].as_u64().unwrap() > 1);
 }
 
+/// A strength that varies at random, of 4800 points.
+#[test]
+fn random_strengths() {
+    let settings = ["lattice.cells=[120, 40]", "lattice.spacing=0.0005"];
+    assert_same_path("random-strength/case.toml", 40, &settings);
+}
+
 /// Elements that lean on their neighbours, on a lattice of 10,000 points.
 #[test]
 fn imaginary_elements() {

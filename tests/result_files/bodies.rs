@@ -223,5 +223,8 @@ impl<'a> PointFields<'a> {
         self.reals("energy_ratio_y", along_y.iter().copied());
         self.reals("energy_ratio_biaxial", biaxial.iter().copied());
         self.reals("energy_ratio_shear", shear.iter().copied());
+        if let Some(scatter) = &fixed.scatter {
+            self.reals("strength_factor", scatter.at_points.iter().copied());
+        }
     }
 }

@@ -239,6 +239,10 @@ field = "stress_xx"
 [fracture]
 steps = 8
 bonds_per_iteration = 10
+[fracture.scatter]
+of = "strength"
+modulus = 20.0
+correlation_length = 0.02
 [[fracture.criterion]]
 kind = "tension"
 after = "exponential"

@@ -1,5 +1,7 @@
 //! What the preparation of a model finds and an analysis does not change.
 
+use crate::scatter::Factors;
+
 /// Fields of points and bonds that an analysis does not change, beside those of the bond system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FixedFields {
@@ -17,6 +19,8 @@ pub struct FixedFields {
     pub patch_residual: Vec<f64>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: Vec<bool>,
+    /// Factors by which a property varies at random, where one does.
+    pub scatter: Option<Factors>,
     /// Pairs within a horizon that are no bonds, in the order of their ends.
     pub absent: Vec<AbsentBond>,
 }

@@ -21,7 +21,8 @@ use ligament_case::case::CaseFile;
 
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{
-    CorrectionSummary, ModelSummary, Spread, correction_line, family, formulation_line, heading,
+    CorrectionSummary, ModelSummary, ScatterSummary, Spread, correction_line, family,
+    formulation_line, heading,
 };
 pub use solver::SolverSummary;
 

@@ -10,8 +10,8 @@ use ligament_model::failure::{self, Basis, Criteria};
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::{
-    BondStiffness, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Material, Plane,
-    PointCloud,
+    BondStiffness, BondSystem, Elasticity, ElementKind, FixedFields, Horizons, Isotropic, Material,
+    Plane, PointCloud,
 };
 
 use crate::body::Origin;
@@ -181,7 +181,7 @@ pub fn constants(material: &Material, law: &Law, plane: Plane) -> Option<Isotrop
     })
 }
 
-/// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `no_fail` (n_points) never fail.
+/// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.
 ///
 /// # Errors
 ///
@@ -189,7 +189,7 @@ pub fn constants(material: &Material, law: &Law, plane: Plane) -> Option<Isotrop
 pub fn criteria(
     setup: &Setup,
     system: &BondSystem,
-    no_fail: &[bool],
+    fixed: &FixedFields,
 ) -> Result<Criteria, SetupError> {
     if !setup.analysis.is_fracture() {
         return Ok(Criteria::default());
@@ -205,7 +205,7 @@ pub fn criteria(
     );
     let basis = Basis {
         system,
-        no_fail,
+        no_fail: &fixed.no_fail,
         plane,
         constants: (materials.iter())
             .map(|it| constants(it, &setup.law, plane))
@@ -221,6 +221,7 @@ pub fn criteria(
                 Components::All
             },
         },
+        scatter: fixed.scatter.as_ref(),
     };
     failure::criteria(&setup.criteria, &basis).map_err(|(place, no_limit)| {
         Field::element("criteria", place).error(Fault::NoLimit(no_limit))

@@ -85,14 +85,14 @@ impl Model {
             shear_ratio: correction.shear_ratio.clone(),
             patch_residual: correction.patch_residual().to_vec(),
             no_fail: loading::no_fail(&setup, &cloud)?,
+            scatter: (setup.scatter).map(|it| it.factors(setup.body.positions())),
             absent,
         };
         let system = stage(watcher, "rigidities", || {
             bond_system(&setup, cloud, bonds, stiffness, &correction)
         })?;
-        let criteria = stage(watcher, "criteria", || {
-            formulation::criteria(&setup, &system, &fixed.no_fail)
-        })?;
+        let limits = || formulation::criteria(&setup, &system, &fixed);
+        let criteria = stage(watcher, "criteria", limits)?;
         let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
         let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
         Ok(Self {

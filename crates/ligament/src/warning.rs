@@ -113,6 +113,17 @@ pub enum Warning {
         /// Number of such bonds.
         bonds: usize,
     },
+    /// Random factors that vary faster than the points can show.
+    #[error(
+        "fracture.scatter.correlation_length = {length:.4e} m is less than the largest distance between points, {spacing:.4e} m: there the \
+         points decide over how far strengths go together; take a finer body or a greater length (0: each point for itself)"
+    )]
+    ScatterBelowSpacing {
+        /// Correlation length, m.
+        length: f64,
+        /// Largest distance of a point to its nearest neighbour, m.
+        spacing: f64,
+    },
     /// A Poisson's ratio that the law does not use.
     #[error(
         "Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}"
@@ -194,6 +205,7 @@ pub(crate) fn of_model(
     if touched > 0 {
         warnings.push(Warning::Touched { bonds: touched });
     }
+    warnings.extend(scatter_below_spacing(setup, spacing));
     let materials = setup.materials.iter();
     let constants: Vec<Isotropic> = materials
         .filter_map(|it| it.material.elasticity.isotropic())
@@ -218,6 +230,12 @@ fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<
         }
     };
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
+}
+
+fn scatter_below_spacing(setup: &Setup, spacing: &[f64]) -> Option<Warning> {
+    let length = setup.scatter?.correlation_length;
+    let spacing = spacing.iter().copied().fold(0.0, f64::max);
+    (length > 0.0 && length < spacing).then_some(Warning::ScatterBelowSpacing { length, spacing })
 }
 
 /// Longer side of the box around a body, m.

@@ -15,6 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::criterion::Criterion;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::scatter::Scatter;
 use super::values::{Numbers, missing, numbers, refuse, require};
 use super::word::Word;
 
@@ -53,6 +54,8 @@ pub struct Fracture {
     /// When to stop before the end of the loading; whichever comes first.
     #[serde(default)]
     pub stop: Stop,
+    /// A strength or a fracture energy that varies over the body at random.
+    pub scatter: Option<Scatter>,
     /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
     #[serde(rename = "criterion")]
     #[schemars(length(min = 1))]

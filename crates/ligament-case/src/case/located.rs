@@ -10,10 +10,12 @@ use super::source::Source;
 use crate::temperature_table;
 
 /// What a setup calls by the names of its types, and the words of a case for it.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 14] = [
     (" or `Law::MbbPd`", " or \"mbb-pd\""),
     ("`Law::MbbPd`", "model.law = \"mbb-pd\""),
     ("`Law::Orthotropic`", "model.law = \"orthotropic\""),
+    ("`Scattered::Strength`", "\"strength\""),
+    ("`Scattered::FractureEnergy`", "\"fracture-energy\""),
     ("`LatticeBody`", "[lattice] in the place of [mesh]"),
     ("`Alpha::None`", "\"none\""),
     ("`Surface::None`", "\"none\""),
@@ -90,6 +92,7 @@ impl Case {
             "temperatures" => "temperature",
             "probes" => "probe",
             "criteria" => "fracture.criterion",
+            "scatter" => "fracture.scatter",
             "analysis.load_factors" => "fracture.steps",
             other => other,
         };

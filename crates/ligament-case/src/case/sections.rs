@@ -220,6 +220,11 @@ impl Case {
                 criteria.flatten(),
                 super::criterion::Criterion::setup,
             )?,
+            scatter: (self.fracture.iter())
+                .filter_map(|it| it.scatter.as_ref())
+                .map(|it| it.setup(&root().child("fracture").child("scatter")))
+                .next()
+                .transpose()?,
             probes: each("probe", &self.probes, Probe::setup)?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),

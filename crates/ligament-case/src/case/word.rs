@@ -19,6 +19,7 @@ use ligament_model::correction::patch::Settings;
 use ligament_model::failure::softening::{LAWS, Law};
 use ligament_model::failure::{self, KINDS, Kind, Weakened};
 use ligament_model::law::rotational::RotationalStiffness;
+use ligament_model::scatter::Scattered;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -177,6 +178,11 @@ worded! { Option<Rotations>:
     [None] "auto" "`inertia` where no bond has a negative shear stiffness, `massless` otherwise.";
     [Some(Rotations::Inertia)] "inertia" "Rotations have the inertia of a square with the point's volume.";
     [Some(Rotations::Massless)] "massless" "Rotations have no inertia and follow the displacements.";
+}
+
+worded! { Scattered:
+    [Self::Strength] "strength" "Strengths, and limits given in their place.";
+    [Self::FractureEnergy] "fracture-energy" "Fracture energies.";
 }
 
 worded! { Axis:

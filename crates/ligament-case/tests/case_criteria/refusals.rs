@@ -112,3 +112,55 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         assert_eq!(error_with(lines), message);
     }
 }
+
+/// The message for random factors by these keys, in line 59, and one criterion.
+fn error_of_scatter(kind: &str, keys: &str) -> String {
+    let criteria = format!("criterion = [{{ kind = \"{kind}\" }}]");
+    error_of(with(&format!("scatter = {{ {keys} }}\n{criteria}\n")))
+}
+
+#[test]
+fn random_factors_go_with_their_distribution_and_with_what_criteria_take() {
+    let cases = [
+        ("tension", "of = \"strength\"", "missing key `modulus`"),
+        (
+            "tension",
+            "of = \"strength\", distribution = \"normal\", modulus = 12",
+            "`modulus` does not apply with distribution = \"normal\"",
+        ),
+        (
+            "tension",
+            "of = \"strength\", distribution = \"normal\", deviation = 0.3",
+            "deviation: must be greater than 0 and less than 0.25, found 0.3",
+        ),
+        (
+            "tension",
+            "of = \"strength\", modulus = 0.5",
+            "modulus: must be 1 to 10000, found 0.5",
+        ),
+        (
+            "tension",
+            "of = \"strength\", modulus = 12, correlation_length = -1.0",
+            "correlation_length: must be at least 0, found -1.0",
+        ),
+        (
+            "tension",
+            "of = \"strenght\", modulus = 12",
+            "did you mean \"strength\"?",
+        ),
+        (
+            "tension",
+            "of = \"fracture-energy\", modulus = 12",
+            "fracture.scatter.of: no criterion takes the fracture energy, so that nothing varies: take \"strength\"",
+        ),
+        (
+            "critical-stretch",
+            "of = \"strength\", modulus = 12",
+            "fracture.scatter.of: no criterion has a limit from a strength or of its own, so that nothing varies: take \"fracture-energy\"",
+        ),
+    ];
+    for (kind, keys, message) in cases {
+        let found = error_of_scatter(kind, keys);
+        assert!(found.contains(message), "{keys}: {found}");
+    }
+}

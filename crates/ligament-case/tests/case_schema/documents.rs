@@ -49,6 +49,7 @@ component = "y"
 [fracture]
 steps = 10
 stop = { load_fraction = 0.5 }
+scatter = { of = "strength", modulus = 12 }
 criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4 }]
 [output]
 stress = ["virial"]

@@ -5,7 +5,9 @@ use std::io::{self, Write};
 use ligament::formulation::constants;
 use ligament_model::failure::{Criterion, Measure};
 
+use ligament_model::scatter::{Distribution, Scattered};
 use ligament_run::model::Model;
+use ligament_run::summary::{ScatterSummary, Spread};
 
 /// Writes the criteria with their limits over the bonds.
 pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
@@ -21,7 +23,33 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             write_energy(out, model, criterion)?;
         }
     }
-    Ok(())
+    write_scatter(out, model)
+}
+
+/// Writes what varies at random: limits of bonds above have its factors.
+fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let (Some(scatter), Some(summary)) = (model.setup.scatter, ScatterSummary::new(model)) else {
+        return Ok(());
+    };
+    let distribution = match scatter.distribution {
+        Distribution::Weibull { modulus } => format!("Weibull modulus {modulus}"),
+        Distribution::Normal { deviation } => format!("normal by {} %", 100.0 * deviation),
+    };
+    let correlation = match scatter.correlation_length {
+        0.0 => "each point for itself".to_owned(),
+        length => format!("correlation length {length:.4e} m"),
+    };
+    let Spread { min, max, .. } = summary.factor;
+    let name = match scatter.of {
+        Scattered::Strength => "random strength",
+        Scattered::FractureEnergy => "random G_c",
+    };
+    let seed = scatter.seed;
+    writeln!(
+        out,
+        "  {name:<21} {distribution}, {correlation}, seed {seed}: factors {min:.4} to {max:.4}, deviation {:.2} %",
+        100.0 * summary.deviation
+    )
 }
 
 fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {

@@ -308,8 +308,8 @@ fn what_cannot_be_drawn_is_told_with_what_can() {
             "did you mean `reaction`?",
         ),
         (
-            vec![path, "--out", "a.pdf"],
-            "a picture ends in .png or .svg",
+            vec![path, "--out", "a.eps"],
+            "a picture ends in .png, .svg or .pdf",
         ),
         (vec![path, "--labels", "a", "b"], "2 labels for 1 results"),
         (vec!["nowhere"], "there is no such folder"),

@@ -109,3 +109,93 @@ fn each_step_has_a_picture_of_its_own_with_the_same_scales() {
     let two = refusal(&[path, path, "--step", "all"]);
     assert!(two.contains("one result at a time"), "{two}");
 }
+
+/// The colours of the dots of each picture of an animation, whole, with the times for which they are shown.
+fn shown(bytes: &[u8]) -> (usize, Vec<(u16, Vec<[u8; 3]>)>) {
+    let mut decoder = gif::DecodeOptions::new().read_info(bytes).unwrap();
+    let palette = decoder
+        .global_palette()
+        .unwrap()
+        .as_chunks::<3>()
+        .0
+        .to_vec();
+    let (width, height) = (usize::from(decoder.width()), usize::from(decoder.height()));
+    let mut canvas = vec![[0; 3]; width * height];
+    let mut pictures = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        assert!(frame.palette.is_none(), "one palette for all");
+        for (place, &dot) in frame.buffer.iter().enumerate() {
+            let columns = usize::from(frame.width);
+            let x = usize::from(frame.left) + place % columns;
+            let y = usize::from(frame.top) + place / columns;
+            canvas[width * y + x] = palette[usize::from(dot)];
+        }
+        pictures.push((frame.delay, canvas.clone()));
+    }
+    (width, pictures)
+}
+
+#[test]
+fn an_animation_has_a_picture_of_each_step_with_fixed_colours() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    let path = results.to_str().unwrap();
+    let file = folder.path().join("crack.gif");
+    let file = file.to_str().unwrap();
+    let words = [path, "--animate", file, "--field", "damage", "--crack"];
+    let bytes = plot(&[&words[..], &["--fps", "5"]].concat());
+    let (width, pictures) = shown(&bytes);
+    // 90 mm at 150 dots per inch.
+    assert_eq!(width, 531);
+    let last = steps(&results).last().unwrap().0;
+    assert_eq!(pictures.len(), last + 1);
+    let times: Vec<u16> = pictures.iter().map(|it| it.0).collect();
+    assert!(times[..last].iter().all(|it| *it == 20) && times[last] == 200);
+    // The colour bar, in the last columns, is the same in all; the body is not.
+    let bar = |picture: &[[u8; 3]]| {
+        let rows = picture.chunks(width).map(|row| row[width - 60..].to_vec());
+        rows.collect::<Vec<_>>()
+    };
+    let (_, first) = &pictures[0];
+    assert!(pictures.iter().all(|it| bar(&it.1) == bar(first)));
+    assert!(pictures.windows(2).any(|pair| pair[0].1 != pair[1].1));
+    assert_eq!(plot(&[&words[..], &["--fps", "5"]].concat()), bytes);
+    // A choice of steps is a choice of pictures.
+    let few = plot(&[path, "--animate", file, "--strip", "3", "--width", "40"]);
+    assert_eq!(shown(&few).1.len(), 3);
+    let other = refusal(&[path, "--animate", "crack.mp4"]);
+    assert!(other.contains("in .gif"), "{other}");
+}
+
+#[test]
+fn a_pdf_is_one_page_of_the_width_with_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), LATTICE, "plate", &[]);
+    let path = results.to_str().unwrap();
+    for (words, points, name) in [
+        // 90 and 120 mm in points.
+        (
+            vec![path, "--format", "pdf"],
+            "255.11",
+            "picture-damage.pdf",
+        ),
+        (
+            vec!["--curve", path, "--format", "pdf"],
+            "340.15",
+            "picture-curve.pdf",
+        ),
+    ] {
+        let pdf = plot(&words);
+        assert!(results.join(name).is_file());
+        let whole = String::from_utf8_lossy(&pdf);
+        assert!(whole.starts_with("%PDF-1.") && whole.trim_end().ends_with("%%EOF"));
+        assert!(
+            whole.contains(&format!("/MediaBox [0 0 {points}")),
+            "{name}"
+        );
+        assert!(whole.contains("/Count 1") && whole.contains("/Identity-H"));
+        assert_eq!(plot(&words), pdf, "the same twice");
+    }
+    let other = refusal(&[path, "--format", "pdf", "--out", "a.svg"]);
+    assert!(other.contains("does not end in .pdf"), "{other}");
+}

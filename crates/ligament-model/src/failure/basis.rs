@@ -2,6 +2,7 @@
 
 use super::crack_energies::Lattice;
 use crate::material::{Isotropic, Material, Plane};
+use crate::scatter::{Factors, Scattered};
 use crate::system::BondSystem;
 
 /// Body, materials and law, from which criteria make the limits of the bonds.
@@ -19,6 +20,8 @@ pub struct Basis<'a> {
     pub constants: Vec<Option<Isotropic>>,
     /// The bonds as a lattice far from its edges, for those with strains of their own.
     pub lattice: Lattice,
+    /// Factors by which a property varies at random, where one does.
+    pub scatter: Option<&'a Factors>,
 }
 
 impl Basis<'_> {
@@ -32,6 +35,16 @@ impl Basis<'_> {
         of_materials
             .map(|it| value(it).unwrap_or(f64::INFINITY))
             .collect()
+    }
+
+    /// Multiplies values of the bonds (n_bonds) by a function of the factor by which a property varies, where it does.
+    pub(super) fn scatter(&self, of: Scattered, values: &mut [f64], share: fn(f64) -> f64) {
+        let Some(factors) = self.scatter.filter(|it| it.of == of) else {
+            return;
+        };
+        for (value, &ends) in values.iter_mut().zip(&self.system.bonds.ends) {
+            *value *= share(factors.of_bond(ends));
+        }
     }
 
     /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where the

@@ -7,6 +7,7 @@ use super::kind::{After, Choice};
 use super::measure::Measure;
 use super::softening::{AfterLimit, LAWS, Law};
 use super::unfit::{NoLimit, Unfit};
+use crate::scatter::Scattered;
 
 /// The criteria on the bonds, in the order of their choices, which must be [right](Choice::check) and [suit](Choice::suits) all
 /// materials.
@@ -21,7 +22,11 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
         let at_place = |error| (place, error);
         let kind = &choice.kind;
         let limits = (kind.limits)(choice, basis).map_err(at_place)?;
-        for (&measure, limits) in kind.measures.iter().zip(limits) {
+        for (&measure, mut limits) in kind.measures.iter().zip(limits) {
+            // Limits that follow the bonds that are left have the factors of their points.
+            if limits.crack_at_points.is_none() {
+                scatter(choice, &mut limits.limit, basis);
+            }
             list.push(Criterion {
                 name: match kind.measures {
                     [_] => kind.word,
@@ -38,6 +43,16 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
     Ok(Criteria { list })
 }
 
+/// Multiplies limits (n_bonds) by the factor f of what they come from: a strength by f, an energy by sqrt(f).
+fn scatter(choice: &Choice, limits: &mut [f64], basis: &Basis<'_>) {
+    let of = choice.limits_from();
+    let share = match of {
+        Scattered::Strength => |factor: f64| factor,
+        Scattered::FractureEnergy => f64::sqrt,
+    };
+    basis.scatter(of, limits, share);
+}
+
 /// Behaviour of bonds with these limits (n_bonds) after them. A parameter that is not given makes the lives of the bonds
 /// take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle
 /// bond with that fracture energy.
@@ -47,7 +62,8 @@ fn after(wanted: &After, limits: &[f64], basis: &Basis<'_>) -> Result<AfterLimit
         (None, _) => Vec::new(),
         (Some(_), Some(given)) => vec![given; limits.len()],
         (Some(parameter), None) => {
-            let brittle = fracture_energy::critical_stretches(basis);
+            let mut brittle = fracture_energy::critical_stretches(basis);
+            basis.scatter(Scattered::FractureEnergy, &mut brittle, f64::sqrt);
             let of_bond = |(bond, (&limit, &brittle)): (usize, (&f64, &f64))| {
                 // Bonds that never fail need no end.
                 if limit.is_infinite() || brittle.is_infinite() {

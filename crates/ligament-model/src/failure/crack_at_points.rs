@@ -7,6 +7,7 @@ use crate::bonds::Incidence;
 use crate::element::BondDeformation;
 use crate::element::imaginary::{SymmetricEntries, matrix};
 use crate::material::Material;
+use crate::scatter::Scattered;
 
 /// The deformation that a crack is taken to have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,7 +71,12 @@ impl CrackAtPoints {
             let present = present.filter(|(share, _)| **share > 0.0).map(|it| *it.1);
             let weaker =
                 |one: [f64; 3], other: [f64; 3]| if other[0] < one[0] { other } else { one };
-            present.reduce(weaker).unwrap_or([f64::INFINITY; 3])
+            let [opening, sliding, exponent] = present.reduce(weaker).unwrap_or([f64::INFINITY; 3]);
+            let factor = basis
+                .scatter
+                .filter(|it| it.of == Scattered::FractureEnergy);
+            let factor = factor.map_or(1.0, |it| it.at_points[point]);
+            [factor * opening, factor * sliding, exponent]
         };
         let asks_for_modes = |[opening, sliding, _]: &[f64; 3]| opening != sliding;
         let is_asked = mode == Mode::Mixed && of_materials.iter().any(asks_for_modes);

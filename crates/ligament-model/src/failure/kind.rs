@@ -8,6 +8,7 @@ use super::measure::Measure;
 use super::softening::{Law, brittle};
 use super::unfit::{NoLimit, Unfit};
 use crate::material::{Elasticity, Material};
+use crate::scatter::Scattered;
 
 /// A kind of failure criterion.
 #[derive(Debug, Clone, Copy)]
@@ -259,6 +260,22 @@ impl Choice {
             setting: format!("kind = \"{}\"", self.kind.word),
             reason,
         })
+    }
+
+    /// The property whose random factor is that of the limits: given ones stand in the place of a strength.
+    pub fn limits_from(&self) -> Scattered {
+        let mut takes = self.takes().iter();
+        match takes.any(|it| it.key == FRACTURE_ENERGY.key) {
+            true => Scattered::FractureEnergy,
+            false => Scattered::Strength,
+        }
+    }
+
+    /// Whether a random factor of a property changes anything.
+    pub fn feels(&self, of: Scattered) -> bool {
+        let of_softening =
+            of == Scattered::FractureEnergy && self.parameter_from_energy().is_some();
+        self.limits_from() == of || of_softening
     }
 
     /// Whether a bond takes all of the fracture energy up to its limit.

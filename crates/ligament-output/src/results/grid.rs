@@ -25,6 +25,9 @@ pub(super) fn fixed_fields<'a>(
         Field::scalar("energy_ratio_biaxial", biaxial),
         Field::scalar("energy_ratio_shear", shear),
     ];
+    if let Some(scatter) = &fixed.scatter {
+        fields.push(Field::scalar(scatter.of.field(), &scatter.at_points));
+    }
     if !fixed.patch_residual.is_empty() {
         fields.push(Field::scalar("patch_residual", &fixed.patch_residual));
     }

@@ -119,7 +119,7 @@ impl StepChoice {
     /// # Errors
     ///
     /// If nothing happened that deserves the name, nothing is stored of a step given by its number, or there is no history.
-    pub fn of(self, folder: &Path, stored: &[usize]) -> Result<Vec<NamedStep>, StepError> {
+    pub fn steps(self, folder: &Path, stored: &[usize]) -> Result<Vec<NamedStep>, StepError> {
         let numbered = |step| NamedStep {
             step,
             happened: None,
@@ -227,7 +227,7 @@ mod tests {
 
     fn found(word: &str, stored: &[usize]) -> Vec<NamedStep> {
         let choice: StepChoice = word.parse().unwrap();
-        choice.of(folder(HISTORY).path(), stored).unwrap()
+        choice.steps(folder(HISTORY).path(), stored).unwrap()
     }
 
     /// Step 2 softened first and is the largest at rest: step 4 has a larger reaction, and bonds were still breaking there.
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(steps("all"), [0, 1, 2, 3, 4]);
         let brittle = HISTORY.replace("1e-9", "0");
         let choice = StepChoice::One(StepName::First);
-        let first = choice.of(folder(&brittle).path(), &[3]).unwrap()[0];
+        let first = choice.steps(folder(&brittle).path(), &[3]).unwrap()[0];
         assert_eq!(first.words().unwrap()[0], "first breakage");
     }
 
@@ -276,7 +276,7 @@ mod tests {
         let error = |word: &str, history: &str| {
             let choice: StepChoice = word.parse().unwrap();
             choice
-                .of(folder(history).path(), &[0, 1])
+                .steps(folder(history).path(), &[0, 1])
                 .unwrap_err()
                 .to_string()
         };
@@ -286,7 +286,7 @@ mod tests {
         assert!(error("peak", &intact).contains("no step under load is at rest"));
         let empty = tempfile::tempdir().unwrap();
         let none = StepChoice::One(StepName::Peak)
-            .of(empty.path(), &[0])
+            .steps(empty.path(), &[0])
             .unwrap_err();
         assert!(none.to_string().contains("no history.csv"), "{none}");
         assert!(

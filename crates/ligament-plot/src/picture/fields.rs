@@ -41,5 +41,5 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     legend.extend(Output::warning(&outputs));
     let width = WIDTHS[usize::from(panels.len() > 1)];
     let svg = style.svg(&panels, legend, None, width);
-    request.target.write(file, &svg)
+    request.target.write(file, &svg, &style.title)
 }

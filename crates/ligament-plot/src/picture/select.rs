@@ -118,7 +118,7 @@ fn named(
         if outputs.kind == OutputKind::Modes {
             require_mode(outputs, *name, all)?;
         }
-        found.extend(name.of(&outputs.folder, all)?);
+        found.extend(name.steps(&outputs.folder, all)?);
     }
     let output = |it: &NamedStep| Chosen {
         number: it.step,

@@ -2,13 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
+use ligament_output::replace_file;
+
 use super::PictureError;
 use super::body::{bounds, common_scale_of};
 use super::panel::Panel;
 use super::request::{FieldRequest, Magnification, WIDTHS};
+use super::select::Choice;
 use super::source::{Output, Subject, outputs};
 use super::strip::{Entry, Room};
 use super::style::{Style, crack_legend};
+use crate::plots::gif::to_gif;
+use crate::plots::png::Pixels;
+
+/// Most pictures of an animation whose steps nobody chose.
+const MOST_FRAMES: usize = 120;
+
+/// Dots per inch of an animation.
+const DPI: f64 = 150.0;
 
 /// The pictures of a series. The bodies are read when they are drawn, so that memory holds one at a time.
 pub(super) struct Series<'a> {
@@ -31,9 +42,48 @@ pub fn draw_each(request: &FieldRequest) -> Result<Vec<PathBuf>, PictureError> {
     let mut written = Vec::new();
     for output in &series.outputs {
         let numbered = numbered(&file, output.number());
-        written.push(request.target.write(numbered, &series.svg(output)?)?);
+        written.push(
+            request
+                .target
+                .write(numbered, &series.svg(output)?, &series.style.title)?,
+        );
     }
     Ok(written)
+}
+
+/// An animation over the chosen outputs, or evenly spread ones of all.
+///
+/// Each is shown for `1 / per_second` s, the last for two seconds at least. Returns where the animation is.
+///
+/// # Errors
+///
+/// If there are several results, no such outputs or fields, the file does not end in `.gif` or cannot be written.
+pub fn animate(
+    request: &FieldRequest,
+    file: &Path,
+    per_second: f64,
+) -> Result<PathBuf, PictureError> {
+    let is_gif = (file.extension()).is_some_and(|it| it.eq_ignore_ascii_case("gif"));
+    if !is_gif {
+        return Err(PictureError::Format(file.to_path_buf()));
+    }
+    let subject = one_subject(request, "--animate")?;
+    let evenly_spread = FieldRequest {
+        choice: match &request.choice {
+            Choice::Default => Choice::Strip(MOST_FRAMES),
+            choice => choice.clone(),
+        },
+        ..request.clone()
+    };
+    let series = Series::new(&evenly_spread, &subject)?;
+    let mut pictures = Vec::new();
+    for output in &series.outputs {
+        let dpi = request.target.dpi.unwrap_or(DPI);
+        pictures.push(Pixels::of(&series.svg(output)?, dpi)?);
+    }
+    let hundredths = (100.0 / per_second).round().clamp(2.0, 6000.0);
+    replace_file(file, &to_gif(&pictures, hundredths as u16)?)?;
+    Ok(file.to_path_buf())
 }
 
 /// The subject of a series, which are the results in one folder.

@@ -21,7 +21,7 @@ pub(super) struct Style<'a> {
     quantity: String,
     unit: &'static str,
     /// Words for the file.
-    title: String,
+    pub(super) title: String,
 }
 
 impl<'a> Style<'a> {

@@ -2,6 +2,7 @@
 
 use ligament_model::ElementKind;
 use ligament_model::correction::{CorrectionReport, DomainReport};
+use ligament_model::scatter::Scattered;
 use serde::Serialize;
 
 use ligament::Model;
@@ -34,6 +35,22 @@ pub struct ModelSummary {
     pub family: Spread,
     /// The corrections of the bonds.
     pub correction: CorrectionSummary,
+    /// What varies at random, where anything does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scatter: Option<ScatterSummary>,
+}
+
+/// A property that varies at random.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ScatterSummary {
+    /// The property.
+    pub of: Word<Scattered>,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Factors of the points.
+    pub factor: Spread,
+    /// Standard deviation of the factors of the points over their mean.
+    pub deviation: f64,
 }
 
 /// Range and mean of a quantity.
@@ -100,7 +117,25 @@ impl ModelSummary {
             horizon: Spread::over(model.fixed.horizon.iter().copied()),
             family: family(model),
             correction: CorrectionSummary::new(model),
+            scatter: ScatterSummary::new(model),
         }
+    }
+}
+
+impl ScatterSummary {
+    /// What varies at random in a model.
+    pub fn new(model: &Model) -> Option<Self> {
+        let factors = &model.fixed.scatter.as_ref()?.at_points;
+        let scatter = model.setup.scatter?;
+        let factor = Spread::over(factors.iter().copied());
+        let squares = factors.iter().map(|it| (it - factor.mean).powi(2));
+        let variance = squares.sum::<f64>() / factors.len().max(1) as f64;
+        Some(Self {
+            of: Word(scatter.of),
+            seed: scatter.seed,
+            factor,
+            deviation: variance.sqrt() / factor.mean,
+        })
     }
 }
 

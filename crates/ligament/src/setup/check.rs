@@ -44,6 +44,7 @@ impl Setup {
             self.check_material(Field::element("materials", index), &region.material)?;
         }
         self.check_criteria()?;
+        self.check_scatter()?;
         self.check_strains_of_bonds()?;
         self.check_rotational_scale()?;
         self.check_correction()?;

@@ -7,6 +7,7 @@ mod correction;
 mod law;
 mod probe;
 mod rotation;
+mod scatter;
 mod temperature;
 
 use std::sync::Arc;
@@ -15,7 +16,7 @@ use ligament_analysis::SolverSettings;
 use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
-use ligament_model::{Horizons, Material, Plane, PointCloud};
+use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 
 use crate::body::Body;
 
@@ -60,6 +61,8 @@ pub struct Setup {
     pub temperatures: Vec<Temperature>,
     /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
     pub criteria: Vec<Choice>,
+    /// A property of the materials that varies at random over the body, in an analysis of fracture.
+    pub scatter: Option<Scatter>,
     /// Quantities that the history records beside displacement and load.
     pub probes: Vec<Probe>,
     /// Kind of analysis.
@@ -125,6 +128,7 @@ impl Setup {
             loads: Vec::new(),
             temperatures: Vec::new(),
             criteria: Vec::new(),
+            scatter: None,
             probes: Vec::new(),
             analysis: Analysis::default(),
             solver: SolverSettings::default(),

@@ -1,0 +1,72 @@
+//! `[fracture.scatter]`: a strength or a fracture energy that varies at random.
+
+use ligament_model::scatter::{self, Scattered};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::{missing, refuse};
+use super::word::Word;
+
+/// A property that varies over the body at random, by a factor with the mean 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scatter {
+    /// What varies.
+    pub of: Word<Scattered>,
+    /// Distribution of the factors.
+    #[serde(default)]
+    pub distribution: Distribution,
+    /// Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %.
+    #[schemars(range(min = 1, max = 10_000))]
+    pub modulus: Option<f64>,
+    /// Standard deviation over the mean; of `normal`.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.25))]
+    pub deviation: Option<f64>,
+    /// Seed of the random numbers: another one is another specimen.
+    #[serde(default)]
+    pub seed: u64,
+    /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub correlation_length: f64,
+}
+
+/// Distribution of the factors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Distribution {
+    /// Weibull's with two parameters, by its `modulus`.
+    #[default]
+    Weibull,
+    /// Normal with a `deviation`, cut off at four of them.
+    Normal,
+}
+
+impl Scatter {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<scatter::Scatter, KeyFault> {
+        let distribution = match self.distribution {
+            Distribution::Weibull => {
+                let given = [("deviation", self.deviation.is_some())];
+                let reason = "its deviation comes from its modulus";
+                refuse(key, given, "distribution = \"weibull\"", reason)?;
+                let modulus = self.modulus.ok_or_else(|| missing(key, "modulus"))?;
+                scatter::Distribution::Weibull { modulus }
+            }
+            Distribution::Normal => {
+                let given = [("modulus", self.modulus.is_some())];
+                let reason = "it has a `deviation`";
+                refuse(key, given, "distribution = \"normal\"", reason)?;
+                let deviation = self.deviation.ok_or_else(|| missing(key, "deviation"))?;
+                scatter::Distribution::Normal { deviation }
+            }
+        };
+        Ok(scatter::Scatter {
+            of: self.of.0,
+            distribution,
+            seed: self.seed,
+            correlation_length: self.correlation_length,
+        })
+    }
+}

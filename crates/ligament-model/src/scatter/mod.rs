@@ -1,0 +1,85 @@
+//! Strength or fracture energy that varies over the body at random.
+//!
+//! A [`Scatter`] gives each point a factor with the mean 1. With a correlation length it is a function of the position alone, so that a
+//! finer mesh of the same body has the same weak places; without one each point has a number of its own, by its number. The factor
+//! of a bond is the mean of those at its ends. Nothing depends on threads or on the machine: random numbers are those of SplitMix64
+//! (`random.rs`), and all functions but the four operations and the square root are those of the crate `libm`.
+
+mod distribution;
+mod gaussian;
+mod random;
+
+use rayon::prelude::*;
+
+pub use distribution::Distribution;
+
+use gaussian::RandomWaves;
+
+/// A property of the material that varies at random.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scatter {
+    /// The property.
+    pub of: Scattered,
+    /// Distribution of the factors.
+    pub distribution: Distribution,
+    /// Seed of the random numbers: another one is another specimen.
+    pub seed: u64,
+    /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
+    pub correlation_length: f64,
+}
+
+/// What varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scattered {
+    /// All strengths of the materials, and limits that are given in their place: limits of bonds are multiplied by the factor f.
+    Strength,
+    /// Fracture energies: limits that come from them are multiplied by sqrt(f), and what a bond takes after its limit follows.
+    FractureEnergy,
+}
+
+impl Scattered {
+    /// Name of the field of the factors in results.
+    pub fn field(self) -> &'static str {
+        match self {
+            Self::Strength => "strength_factor",
+            Self::FractureEnergy => "fracture_energy_factor",
+        }
+    }
+}
+
+/// Factors of a property over the points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factors {
+    /// The property.
+    pub of: Scattered,
+    /// The factors, shape (n_points).
+    pub at_points: Vec<f64>,
+}
+
+impl Scatter {
+    /// Factors at positions (n_points, 2), m.
+    pub fn factors(&self, positions: &[[f64; 2]]) -> Factors {
+        let factor = |normal: f64| self.distribution.factor(normal);
+        let at_points = if self.correlation_length > 0.0 {
+            let waves = RandomWaves::new(self.seed, self.correlation_length);
+            let values = positions.par_iter().map(|&it| factor(waves.at(it)));
+            values.collect()
+        } else {
+            let points = 0..positions.len() as u64;
+            points
+                .map(|point| factor(random::normal(self.seed, point)))
+                .collect()
+        };
+        Factors {
+            of: self.of,
+            at_points,
+        }
+    }
+}
+
+impl Factors {
+    /// Factor of a bond with these ends: the mean of theirs.
+    pub fn of_bond(&self, [a, b]: [u32; 2]) -> f64 {
+        0.5 * (self.at_points[a as usize] + self.at_points[b as usize])
+    }
+}
