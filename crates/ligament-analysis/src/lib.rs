@@ -19,6 +19,7 @@ pub mod energy_release;
 pub mod equilibrium;
 pub mod error;
 pub mod fields;
+pub mod first_bonds;
 pub mod gauges;
 pub mod history;
 pub mod internal;

@@ -5,6 +5,7 @@ use std::time::Instant;
 use ligament::setup::Analysis;
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
+use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
@@ -62,9 +63,9 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// What the user should know of the run, and its checkpoints.
-    pub(crate) fn into_parts(self) -> (Vec<String>, Checkpoints<'a>) {
-        (self.notices, self.checkpoints)
+    /// What the user should know of the run, its first bonds that gave way, and its checkpoints.
+    pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
+        (self.notices, self.writer.first_bonds(), self.checkpoints)
     }
 
     /// A notice with points given by their tags.

@@ -64,7 +64,7 @@ pub fn write_cracks(
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
     let grown: Vec<Grown<'_>> = (cracks.grown_records().into_iter())
         .map(|record| Grown {
-            lines: cracks.lines_after(record.broken_bonds),
+            lines: cracks.lines_at(record),
             record,
         })
         .collect();
