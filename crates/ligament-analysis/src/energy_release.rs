@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     /// A double cantilever beam of two arms of height h and thickness b, opened by u at their ends: F = 3 E I u/(2 a^3), I = b h^3/12, so
-    /// that G = 9 E I u^2/(4 b a^4) (Anderson 2005, example 2.2, with u the opening of both arms). Rates from differences lie between those at the two
+    /// that G = 9 E I u^2/(4 b a^4), with the arms as cantilevers. Rates from differences lie between those at the two
     /// crack lengths.
     #[test]
     fn a_double_cantilever_beam_releases_what_its_compliance_says() {

@@ -207,7 +207,7 @@ fn runs(place: &Place) -> [&'static str; 4] {
     place.call(&format!("run bar.toml --out soft --quiet --set {tension}"));
     place.call("run bar.toml --out mbb --quiet --set model.law=mbb-pd --set model.horizon_factor=3 --set fracture.stop.bonds=4");
     place.call(&format!(
-        "run {disk} --out mesh --quiet --set {tension} --set fracture.steps=6"
+        "run {disk} --out mesh --quiet --set {tension} --set fracture.steps=[0.05,0.1]"
     ));
     let modal =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../ligament-case/tests/data/modal-plate.toml");

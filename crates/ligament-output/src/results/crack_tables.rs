@@ -13,6 +13,7 @@ use ligament_model::crack::CrackLine;
 
 use super::cracks::{CrackRecord, StoredCracks};
 use crate::Error;
+use crate::atomic::remove_file;
 use crate::csv::{Table, Value};
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
@@ -96,8 +97,11 @@ fn write_lines(path: &Path, step: usize, lines: &[CrackLine]) -> Result<(), Erro
     Ok(())
 }
 
-/// Writes the lines as line cells between their places.
+/// Writes the lines as line cells between their places; no file without lines, which readers would refuse.
 fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
+    if lines.is_empty() {
+        return remove_file(path);
+    }
     let (mut points, mut cells) = (Vec::new(), Vec::new());
     let (mut numbers, mut along) = (Vec::new(), Vec::new());
     for (number, line) in (1_i64..).zip(lines) {
