@@ -192,8 +192,8 @@ fn compare(heading: &str, written: &[Vec<String>], names: &Names, wrong: &mut Ve
     }
 }
 
-/// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; modes.
-fn runs(place: &Place) -> [&'static str; 4] {
+/// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; modes.
+fn runs(place: &Place) -> [&'static str; 5] {
     fs::write(place.path("bar.toml"), BAR).unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/brazilian-disk/case.toml");
@@ -217,7 +217,8 @@ fn runs(place: &Place) -> [&'static str; 4] {
         modal.display(),
         plate.display()
     ));
-    ["brittle", "soft", "mbb", "mesh"]
+    place.call("run bar.toml --out closing --quiet --set model.closing=true");
+    ["brittle", "soft", "mbb", "mesh", "closing"]
 }
 
 #[test]
@@ -321,7 +322,7 @@ fn of_studies(place: &Place, names: &mut Names, wrong: &mut Vec<String>) {
         names,
         wrong,
     );
-    place.call("calibrate bar.toml --key material.tensile_strength --of first_break.reaction --target 1000 --tolerance 0.5 --out sought");
+    place.call("calibrate bar.toml --key material.tensile_strength --of first_break.reaction --target 1000 --within 0.5 --out sought");
     compare(
         "calibration.csv",
         &[place.header("sought/calibration.csv")],
