@@ -163,7 +163,8 @@ fn a_bar_that_softens_tells_where_that_began() {
     );
     assert!(place.call(&["crack", "out"]).status.success());
     let growth = place.table("crack_growth.csv");
-    assert_eq!(number(&growth[growth.len() - 1][6]), 0.04, "{growth:?}");
+    let length = number(&growth[growth.len() - 1][6]);
+    assert!((length - 0.04).abs() < 1e-9, "{growth:?}");
 }
 
 /// A bar without a slit that carries 1e-3 all over, read along its axis: u = 1e-3 (x - x_0) in each cell, nothing beyond the body.
