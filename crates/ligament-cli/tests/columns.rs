@@ -228,7 +228,15 @@ fn the_page_has_every_column_that_is_written() {
     let mut names = Names::new();
     names.insert(
         "GROUP",
-        set(&["left", "right", "support-2", "top", "bottom"]),
+        set(&[
+            "left",
+            "right",
+            "support-2",
+            "platen-top",
+            "platen-bottom",
+            "pole-top",
+            "pole-bottom",
+        ]),
     );
     names.insert("PROBE", set(&["elongation"]));
     names.insert("FIELD", set(&["damage", "displacement.x"]));

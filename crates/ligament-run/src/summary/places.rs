@@ -14,9 +14,9 @@ use serde::Serialize;
 /// A bond that broke or began to soften before all others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BondEvent {
-    /// Tags of its ends.
+    /// Tags of the ends of the bond.
     pub ends: [u64; 2],
-    /// Its middle, m.
+    /// Middle of the bond, m.
     pub place: [f64; 2],
     /// Load step or event.
     pub step: usize,
