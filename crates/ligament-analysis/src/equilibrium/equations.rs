@@ -80,13 +80,14 @@ impl Equations {
     pub(super) fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
+        let unknowns = unknowns.restrained_by(loads.restraints());
         let stiffness = Arc::new(Stiffness::new(system, unknowns, problem.solver)?);
         let solver: Box<dyn TangentSolver> = if stiffness.choice().unsymmetric {
             Box::new(UnsymmetricSolver::new(stiffness.clone()))
         } else {
             Box::new(DirectSolver::new(stiffness.clone()))
         };
-        let local_stiffness = LocalStiffness::new(&**system);
+        let of_bonds = LocalStiffness::new(&**system);
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
             energy_tolerance: if system.is_linear() && system.has_energy() {
@@ -94,8 +95,8 @@ impl Equations {
             } else {
                 0.0
             },
-            stiffest: local_stiffness.largest(),
-            local_stiffness,
+            stiffest: of_bonds.largest(),
+            local_stiffness: of_bonds.restrained_by(loads.restraints()),
             loaded: loaded(&**loads),
             largest_extents: Extents::default(),
             costs: Costs {
@@ -300,12 +301,20 @@ impl Equations {
         }
     }
 
-    /// F - K u at the unknowns (NHPD eq. 20), shape (n_unknowns).
+    /// F - K u at the unknowns (NHPD eq. 20), less what restraints take, shape (n_unknowns).
     fn out_of_balance(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
-        let dofs = self.degrees_of_freedom();
-        let mut force = self.problem.loads.forces(state.load_factor, dofs);
+        let (loads, dofs) = (&self.problem.loads, self.degrees_of_freedom());
+        let mut force = loads.forces(state.load_factor, dofs);
         for (value, &dof) in force.iter_mut().zip(dofs) {
             *value -= internal.values[dof as usize];
+        }
+        if loads.restraints().is_empty() {
+            return force;
+        }
+        let mut restraining = vec![0.0; state.displacement.len()];
+        (loads.restraints()).add_forces(&state.displacement, &mut restraining);
+        for (value, &dof) in force.iter_mut().zip(dofs) {
+            *value -= restraining[dof as usize];
         }
         force
     }
