@@ -12,6 +12,7 @@
 //! | failure criteria with their limits | [`Criteria`](failure::Criteria) | [`failure`] |
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
+//! | cracks as lines | [`CrackLine`](crack::CrackLine) | [`crack`] |
 //!
 //! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
 //! as NHPD or MPPD: `docs/references.md` lists the papers.
@@ -20,6 +21,7 @@ pub mod bonds;
 pub mod change;
 pub mod cloud;
 pub mod correction;
+pub mod crack;
 mod curve;
 pub mod element;
 pub mod failure;

@@ -17,6 +17,9 @@ const ENERGY_TOLERANCE: f64 = 1e-4;
 /// What the patch correction may leave of its equations, as a root mean square: above it uniform strains are off by percents.
 const LARGEST_LEFT: f64 = 5e-3;
 
+/// A body larger than this, m, was drawn in millimetres in all likelihood.
+pub const SUSPICIOUSLY_LARGE: f64 = 20.0;
+
 /// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
 
@@ -26,6 +29,15 @@ pub enum Warning {
     /// Something about the body.
     #[error("{0}")]
     Body(String),
+    /// A body as large as one in millimetres is when they are taken for metres.
+    #[error(
+        "the body is {length:.1} m across, if its lengths are in m as they should be: a mesh in mm must be scaled by 0.001 (in Gmsh: \
+         Mesh.ScalingFactor = 0.001)"
+    )]
+    LargeBody {
+        /// Longer side of the box around the body, m.
+        length: f64,
+    },
     /// Horizons for which the domain correction may not converge.
     #[error(
         "{} less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no fixed point, and peak loads then depend on the \
@@ -173,6 +185,10 @@ pub(crate) fn of_model(
 ) -> Vec<Warning> {
     let body = &*setup.body;
     let mut warnings: Vec<Warning> = body.remarks().into_iter().map(Warning::Body).collect();
+    let length = length(body);
+    if length > SUSPICIOUSLY_LARGE {
+        warnings.push(Warning::LargeBody { length });
+    }
     warnings.extend(large_horizon(body, fixed));
     if let Some(CorrectionReport::Domain(_)) = correction {
         warnings.extend(small_horizon(setup, spacing, fixed));
@@ -222,12 +238,17 @@ fn scatter_below_spacing(setup: &Setup, spacing: &[f64]) -> Option<Warning> {
     (length > 0.0 && length < spacing).then_some(Warning::ScatterBelowSpacing { length, spacing })
 }
 
-fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
+/// Longer side of the box around a body, m.
+fn length(body: &dyn Body) -> f64 {
     let extent = |axis: usize| {
         let places = body.positions().iter().map(|it| it[axis]);
         places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
     };
-    let length = extent(0).max(extent(1));
+    extent(0).max(extent(1))
+}
+
+fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
+    let length = length(body);
     let horizons = fixed.horizon.iter().enumerate();
     let (point, &horizon) = horizons.min_by(|one, other| one.1.total_cmp(other.1))?;
     (horizon > 0.5 * length).then(|| Warning::LargeHorizon {

@@ -10,10 +10,8 @@ use ligament_mesh::Mesh;
 use crate::mesh_file::{MeshFileError, bounding_box, read_mesh};
 use groups::{Ends, Spot};
 use ligament::setup::Law;
+use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
 use text::{Body, Section};
-
-/// A body larger than this, m, was drawn in millimetres in all likelihood.
-const SUSPICIOUSLY_LARGE: f64 = 20.0;
 
 /// A starter case.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,11 +84,7 @@ fn of_parsed(mesh: &Mesh, file: &str, name: &str, law: Law) -> Starter {
     let sides = [0, 1].map(|axis| extent[1][axis] - extent[0][axis]);
     let size = sides[0].max(sides[1]);
     let warnings = if size > SUSPICIOUSLY_LARGE {
-        vec![format!(
-            "the body is {} m across, if the lengths of the mesh are in m as they should be: a mesh in mm must be scaled \
-             by 0.001 (in Gmsh: Mesh.ScalingFactor = 0.001)",
-            text::short(size)
-        )]
+        vec![Warning::LargeBody { length: size }.to_string()]
     } else {
         Vec::new()
     };

@@ -13,6 +13,7 @@
 //!
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+pub mod cracks;
 mod grid;
 mod largest;
 mod model_file;

@@ -1,0 +1,216 @@
+//! Lines along the open faces.
+
+use std::collections::HashMap;
+
+use super::faces::{Faces, Part, distance};
+use super::paths::{Corner, Graph, Way, Ways};
+use super::smooth::smooth;
+
+/// A crack, or a branch of one, as a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CrackLine {
+    /// Places along the line, two or more, m.
+    pub places: Vec<[f64; 2]>,
+    /// Where the line begins and where it ends.
+    pub ends: [CrackEnd; 2],
+}
+
+/// Where a line ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CrackEnd {
+    /// In the body: from here the crack can grow.
+    Tip,
+    /// At the outline of the body or of a hole.
+    Outline,
+    /// At a pre-crack.
+    PreCrack,
+    /// At another line, from which it branches off.
+    Junction,
+}
+
+impl CrackEnd {
+    /// The word for it in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Tip => "tip",
+            Self::Outline => "outline",
+            Self::PreCrack => "pre-crack",
+            Self::Junction => "junction",
+        }
+    }
+}
+
+impl CrackLine {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        let pairs = self.places.windows(2);
+        pairs.map(|pair| distance(pair[0], pair[1])).sum()
+    }
+
+    /// The tips, m: none, one or two.
+    pub fn tips(&self) -> impl Iterator<Item = [f64; 2]> {
+        let places = [self.places.first(), self.places.last()];
+        let ends = places.into_iter().flatten().zip(self.ends);
+        ends.filter(|(_, end)| *end == CrackEnd::Tip)
+            .map(|(place, _)| *place)
+    }
+}
+
+/// The cracks of a body whose faces are in some states (n_faces), with the horizons of its points (n_points), m: the longest
+/// line of each connected part before its branches, in the order of the faces.
+pub fn crack_lines(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Vec<CrackLine> {
+    let graph = Graph::new(faces, parts, horizon).bridged();
+    let lines_of = |component: Vec<u32>| {
+        let tracer = Tracer {
+            graph: &graph,
+            component,
+        };
+        tracer.lines()
+    };
+    graph.components().into_iter().flat_map(lines_of).collect()
+}
+
+/// Finds the lines of a connected part of the open faces.
+struct Tracer<'a> {
+    graph: &'a Graph,
+    component: Vec<u32>,
+}
+
+impl Tracer<'_> {
+    /// The lines of the part: none where it is no crack.
+    fn lines(&self) -> Vec<CrackLine> {
+        if !self.graph.is_long(&self.component, 1.0) {
+            return Vec::new();
+        }
+        let ways = self.ways();
+        let lines = self.smoothed(&ways);
+        let trunk = &ways[0];
+        let is_crack = self.end(trunk.corners[0]) == CrackEnd::PreCrack
+            || lines[0].length() >= self.corner(trunk.corners[0]).horizon;
+        if is_crack { lines } else { Vec::new() }
+    }
+
+    /// The ways that lines take, one or more.
+    fn ways(&self) -> Vec<Way> {
+        let trunk = self.trunk();
+        let mut apart = self.component.clone();
+        self.cover(&mut apart, &trunk);
+        let mut ways = vec![trunk];
+        while !apart.is_empty() {
+            let starts: Vec<u32> = ways.iter().flat_map(|it| &it.corners).copied().collect();
+            let from_lines = self.graph.ways_from(&starts);
+            let end = farthest(&apart, |it| from_lines.length[it as usize]);
+            let branch = self.graph.way_to(&from_lines, end);
+            apart.retain(|it| *it != end);
+            self.cover(&mut apart, &branch);
+            let root = branch.corners[0];
+            let is_tip = self.end(root) == CrackEnd::Tip;
+            let longer = ways
+                .iter_mut()
+                .find(|way| is_tip && way.ends().contains(&root));
+            match longer {
+                Some(way) => way.append(branch),
+                None => ways.push(branch),
+            }
+        }
+        ways
+    }
+
+    /// The shortest way between two corners far from each other, with its ends drawn to a pre-crack or the outline nearby; from a
+    /// pre-crack where there is one.
+    fn trunk(&self) -> Way {
+        let is_cut = |&&it: &&u32| self.corner(it).is_cut;
+        let mut starts: Vec<u32> = self.component.iter().filter(is_cut).copied().collect();
+        if starts.is_empty() {
+            starts.clone_from(&self.component);
+        }
+        let from_any = self.graph.ways_from(&starts[..1]);
+        let end = farthest(&self.component, |it| self.gap(starts[0], it));
+        let end = self.drawn(end, starts[0], &from_any);
+        let from_end = self.graph.ways_from(&[end]);
+        let start = farthest(&starts, |it| self.gap(end, it));
+        let start = self.drawn(start, end, &from_end);
+        self.graph.way_to(&from_end, start).reversed()
+    }
+
+    /// The end of a line at a pre-crack within the horizon of a corner, of several the one with the shortest of some ways from the
+    /// `other` end; or else at the outline, nearest to the corner; or else the corner itself. A horizon around the other end is
+    /// left out.
+    fn drawn(&self, corner: u32, other: u32, from_other: &Ways) -> u32 {
+        let reach = self.corner(corner).horizon;
+        let from_here = self.graph.ways_from(&[corner]);
+        let is_near =
+            |it: u32| from_here.length[it as usize] <= reach && self.gap(other, it) > reach;
+        let near: Vec<u32> = (self.component.iter().copied())
+            .filter(|&it| is_near(it))
+            .collect();
+        let nearest = |ways: &Ways, holds: &dyn Fn(&Corner) -> bool| {
+            let candidates = near.iter().copied().filter(|&it| holds(self.corner(it)));
+            candidates.min_by(|&a, &b| ways.length[a as usize].total_cmp(&ways.length[b as usize]))
+        };
+        let at_cut = nearest(from_other, &|it| it.is_cut);
+        let at_outline = || nearest(&from_here, &|it| it.is_outside);
+        at_cut.or_else(at_outline).unwrap_or(corner)
+    }
+
+    /// Leaves of some corners those that are farther than a horizon from a way.
+    fn cover(&self, apart: &mut Vec<u32>, way: &Way) {
+        let is_near = |it: u32| {
+            let reach = self.corner(it).horizon;
+            way.corners.iter().any(|&on| self.gap(on, it) <= reach)
+        };
+        apart.retain(|&it| !is_near(it));
+    }
+
+    /// Smooth lines along the ways: a branch begins on the smooth line that it branches off from.
+    fn smoothed(&self, ways: &[Way]) -> Vec<CrackLine> {
+        let mut places_of: HashMap<u32, [f64; 2]> = HashMap::new();
+        let mut lines = Vec::new();
+        for way in ways {
+            let horizons = way.corners.iter().map(|&it| self.corner(it).horizon);
+            let reach = horizons.sum::<f64>() / way.corners.len() as f64;
+            let mut places = smooth(&way.places, reach);
+            let mut ends = way.ends().map(|it| self.end(it));
+            if let (Some(root), Some(first)) = (places_of.get(&way.corners[0]), places.first_mut())
+            {
+                *first = *root;
+                ends[0] = CrackEnd::Junction;
+            }
+            for (&corner, &place) in way.corners.iter().zip(places.iter().step_by(2)) {
+                places_of.entry(corner).or_insert(place);
+            }
+            lines.push(CrackLine { places, ends });
+        }
+        lines
+    }
+
+    fn end(&self, corner: u32) -> CrackEnd {
+        let corner = self.corner(corner);
+        match (corner.is_cut, corner.is_outside) {
+            (true, _) => CrackEnd::PreCrack,
+            (false, true) => CrackEnd::Outline,
+            (false, false) => CrackEnd::Tip,
+        }
+    }
+
+    fn corner(&self, number: u32) -> &Corner {
+        &self.graph.corners[number as usize]
+    }
+
+    /// Distance between two corners, m.
+    fn gap(&self, a: u32, b: u32) -> f64 {
+        distance(self.corner(a).place, self.corner(b).place)
+    }
+}
+
+/// The one of some corners, one or more, with the largest value, the first of several.
+fn farthest(corners: &[u32], value: impl Fn(u32) -> f64) -> u32 {
+    let farther = |best: u32, corner: u32| {
+        if value(corner) > value(best) {
+            corner
+        } else {
+            best
+        }
+    };
+    corners.iter().copied().fold(corners[0], farther)
+}

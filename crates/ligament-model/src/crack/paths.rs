@@ -1,0 +1,222 @@
+//! The graph of the open faces, and shortest ways in it.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::faces::{Faces, Part, distance};
+
+/// The open faces as ways between their corners.
+pub(super) struct Graph {
+    /// The corners, in the order of those of the faces.
+    pub(super) corners: Vec<Corner>,
+    ways: Vec<OpenFace>,
+}
+
+/// A place where open faces end.
+pub(super) struct Corner {
+    /// Position, m.
+    pub(super) place: [f64; 2],
+    /// Mean horizon of the points around, m: finer than that a crack is not told.
+    pub(super) horizon: f64,
+    /// Whether a face that a pre-crack parts ends here.
+    pub(super) is_cut: bool,
+    /// Whether it lies on the outline of the body.
+    pub(super) is_outside: bool,
+    /// Open faces that end here, ascending.
+    open: Vec<u32>,
+}
+
+struct OpenFace {
+    ends: [u32; 2],
+    middle: [f64; 2],
+    /// Length by way of the middle, m.
+    length: f64,
+}
+
+/// Shortest ways from some corners to all others.
+pub(super) struct Ways {
+    /// Length of the way to each corner, m; infinite where there is none.
+    pub(super) length: Vec<f64>,
+    /// The face by which the way comes to each corner.
+    by: Vec<Option<u32>>,
+}
+
+/// A way along open faces.
+pub(super) struct Way {
+    /// Corners from its start to its end, one or more.
+    pub(super) corners: Vec<u32>,
+    /// Places of corners and, between two of them, of the middle of their face, m.
+    pub(super) places: Vec<[f64; 2]>,
+}
+
+impl Way {
+    /// This way from its end to its start.
+    pub(super) fn reversed(mut self) -> Self {
+        self.corners.reverse();
+        self.places.reverse();
+        self
+    }
+
+    /// The corners at its start and its end.
+    pub(super) fn ends(&self) -> [u32; 2] {
+        [self.corners[0], self.corners[self.corners.len() - 1]]
+    }
+
+    /// Makes the way longer by one that starts at one of its ends.
+    pub(super) fn append(&mut self, other: Self) {
+        let [start, end] = self.ends();
+        let root = other.corners[0];
+        if root == start && root != end {
+            self.corners.reverse();
+            self.places.reverse();
+        }
+        self.corners.extend(&other.corners[1..]);
+        self.places.extend(&other.places[1..]);
+    }
+}
+
+impl Graph {
+    /// The graph of faces in some states (n_faces), of points with horizons (n_points), m.
+    pub(super) fn new(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Self {
+        let mut is_cut = vec![false; faces.corners.len()];
+        let mut numbers = vec![u32::MAX; faces.corners.len()];
+        for (ends, part) in faces.ends.iter().zip(parts) {
+            for &end in ends {
+                is_cut[end as usize] |= *part == Part::PreCrack;
+                if *part == Part::Open {
+                    numbers[end as usize] = 0;
+                }
+            }
+        }
+        let mut corners = Vec::new();
+        for (number, corner) in numbers.iter_mut().enumerate().filter(|it| *it.1 == 0) {
+            *corner = corners.len() as u32;
+            corners.push(Corner {
+                place: faces.corners[number],
+                horizon: 0.0,
+                is_cut: is_cut[number],
+                is_outside: faces.is_outside[number],
+                open: Vec::new(),
+            });
+        }
+        let mut ways = Vec::new();
+        let open = (0..faces.len()).filter(|&face| parts[face] == Part::Open);
+        for face in open {
+            let ends = faces.ends[face].map(|it| numbers[it as usize]);
+            let middle = faces.middle[face];
+            let horizon = faces.points()[face].map(|it| 0.5 * horizon[it as usize]);
+            let mut length = 0.0;
+            for end in ends {
+                let corner: &mut Corner = &mut corners[end as usize];
+                corner.open.push(ways.len() as u32);
+                corner.horizon += horizon[0] + horizon[1];
+                length += distance(corner.place, middle);
+            }
+            ways.push(OpenFace {
+                ends,
+                middle,
+                length,
+            });
+        }
+        for corner in &mut corners {
+            corner.horizon /= corner.open.len() as f64;
+        }
+        Self { corners, ways }
+    }
+
+    /// Joins two corners by a straight way.
+    pub(super) fn bridge(&mut self, ends: [u32; 2]) {
+        let [a, b] = ends.map(|it| self.corners[it as usize].place);
+        for end in ends {
+            self.corners[end as usize].open.push(self.ways.len() as u32);
+        }
+        self.ways.push(OpenFace {
+            ends,
+            middle: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
+            length: distance(a, b),
+        });
+    }
+
+    /// The corners by connected parts, both in the order of their numbers.
+    pub(super) fn components(&self) -> Vec<Vec<u32>> {
+        let mut is_found = vec![false; self.corners.len()];
+        let mut components = Vec::new();
+        for start in 0..self.corners.len() as u32 {
+            if std::mem::replace(&mut is_found[start as usize], true) {
+                continue;
+            }
+            let mut component = vec![start];
+            let mut next = 0;
+            while let Some(&corner) = component.get(next) {
+                next += 1;
+                for &face in &self.corners[corner as usize].open {
+                    let far = self.far(face, corner);
+                    if !std::mem::replace(&mut is_found[far as usize], true) {
+                        component.push(far);
+                    }
+                }
+            }
+            component.sort_unstable();
+            components.push(component);
+        }
+        components
+    }
+
+    /// Length of all open faces of a connected part, m.
+    pub(super) fn extent(&self, component: &[u32]) -> f64 {
+        let corners = component.iter().map(|&it| &self.corners[it as usize]);
+        let faces = corners.flat_map(|it| &it.open);
+        faces
+            .map(|&face| 0.5 * self.ways[face as usize].length)
+            .sum()
+    }
+
+    /// The shortest ways from some corners; of ways of one length that by the corner with the lower number.
+    pub(super) fn ways_from(&self, starts: &[u32]) -> Ways {
+        let mut ways = Ways {
+            length: vec![f64::INFINITY; self.corners.len()],
+            by: vec![None; self.corners.len()],
+        };
+        // Lengths are not negative, so that their bits stand in the same order.
+        let mut front = BinaryHeap::new();
+        for &start in starts {
+            ways.length[start as usize] = 0.0;
+            front.push(Reverse((0.0_f64.to_bits(), start)));
+        }
+        while let Some(Reverse((bits, corner))) = front.pop() {
+            let length = f64::from_bits(bits);
+            if length > ways.length[corner as usize] {
+                continue;
+            }
+            for &face in &self.corners[corner as usize].open {
+                let far = self.far(face, corner);
+                let longer = length + self.ways[face as usize].length;
+                if longer < ways.length[far as usize] {
+                    ways.length[far as usize] = longer;
+                    ways.by[far as usize] = Some(face);
+                    front.push(Reverse((longer.to_bits(), far)));
+                }
+            }
+        }
+        ways
+    }
+
+    /// The way to a corner from its start.
+    pub(super) fn way_to(&self, ways: &Ways, end: u32) -> Way {
+        let mut corners = vec![end];
+        let mut places = vec![self.corners[end as usize].place];
+        let mut corner = end;
+        while let Some(face) = ways.by[corner as usize] {
+            corner = self.far(face, corner);
+            corners.push(corner);
+            places.push(self.ways[face as usize].middle);
+            places.push(self.corners[corner as usize].place);
+        }
+        Way { corners, places }.reversed()
+    }
+
+    fn far(&self, face: u32, corner: u32) -> u32 {
+        let [a, b] = self.ways[face as usize].ends;
+        if a == corner { b } else { a }
+    }
+}
