@@ -8,18 +8,23 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::numbers;
 use crate::terminal;
+use ligament_output::results::steps::StepChoice;
 use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
-use ligament_plot::picture::{FieldRequest, Magnification, Target, draw_fields};
+use ligament_plot::picture::{
+    FieldRequest, Format, Magnification, Target, animate, draw_each, draw_fields,
+};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament plot results/disk                                damage of the last output
   ligament plot results/disk --strip 4 --scale 20           four outputs, displacements 20 times larger
   ligament plot results/disk --field displacement.x --step 40 --out ux.svg
+  ligament plot results/disk --step first peak last         three steps by what happened in them
   ligament plot results/disk --field none --crack --box -0.01,-0.02,0.01,0.02
   ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
+  ligament plot results/disk --animate crack.gif --field damage --fps 12
   ligament plot results/plate-modes                         the first six modes
 
 Fields are those of the VTU files: of a vector the norm, or NAME.x and NAME.y; of a stress NAME.xx
@@ -34,9 +39,10 @@ pub struct PlotArgs {
     /// Field to draw, or none [default: damage where bonds broke, else displacement]
     #[arg(long, value_name = "NAME")]
     pub field: Option<String>,
-    /// Steps or modes to draw [default: the last step, the first six modes]
-    #[arg(long, visible_alias = "mode", value_name = "N", num_args = 1.., value_delimiter = ',')]
-    pub step: Vec<usize>,
+    /// Steps or modes to draw: numbers, first (breakage), peak, last, or all: a picture each, in files with numbers [default: the
+    /// last step, the first six modes]
+    #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',')]
+    pub step: Vec<StepChoice>,
     /// Draw so many outputs, evenly spread, side by side
     #[arg(long, value_name = "COUNT", conflicts_with = "step", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub strip: Option<u32>,
@@ -86,16 +92,26 @@ pub struct PlotArgs {
     /// What the results are called [default: the names of their folders]
     #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
-    /// The picture, .png or .svg, replacing what is there [default: picture-NAME.png in the folder of the
+    /// The picture, .png, .svg or .pdf, replacing what is there [default: picture-NAME.png in the folder of the
     /// results; of the curves of several results, in this one]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Kind of the picture [default: as the file ends, png without one]
+    #[arg(long, value_parser = formats())]
+    pub format: Option<Format>,
+    /// An animation of the body over the steps, .gif, with fixed colours and one scale of the displacement [default steps: all, or 120
+    /// evenly spread]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "format", "curve"])]
+    pub animate: Option<PathBuf>,
+    /// Pictures of the animation a second
+    #[arg(long, value_name = "N", default_value = "10", requires = "animate", value_parser = positive)]
+    pub fps: f64,
     /// Width in mm [default: 90 for one body, 180 for several; 120 and 160 for curves]
     #[arg(long, value_name = "MM", value_parser = positive)]
     pub width: Option<f64>,
-    /// Dots per inch of a PNG
-    #[arg(long, value_name = "DPI", default_value = "300", value_parser = positive)]
-    pub dpi: f64,
+    /// Dots per inch of a PNG or an animation [default: 300, of an animation 150]
+    #[arg(long, value_name = "DPI", value_parser = positive)]
+    pub dpi: Option<f64>,
 }
 
 impl PlotArgs {
@@ -103,16 +119,21 @@ impl PlotArgs {
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let target = Target {
             out: self.out,
+            format: self.format,
             width: self.width,
             dpi: self.dpi,
         };
-        let path = if self.curve {
-            draw_curves(&CurveRequest {
+        let is_series = self.step == [StepChoice::All];
+        if !is_series && self.step.contains(&StepChoice::All) {
+            anyhow::bail!("--step all draws every stored step; leave out the others");
+        }
+        let paths = if self.curve {
+            vec![draw_curves(&CurveRequest {
                 folders: self.results,
                 labels: self.labels,
                 columns: [self.x, self.y],
                 target,
-            })?
+            })?]
         } else {
             let choice = match self.strip {
                 Some(count) => Choice::Strip(count as usize),
@@ -120,7 +141,7 @@ impl PlotArgs {
                 None if !self.displacements.is_empty() => Choice::Displacements(self.displacements),
                 None => Choice::Default,
             };
-            draw_fields(&FieldRequest {
+            let request = FieldRequest {
                 folders: self.results,
                 labels: self.labels,
                 field: self.field,
@@ -133,9 +154,18 @@ impl PlotArgs {
                 map: self.map,
                 columns: self.columns.map(|it| it as usize),
                 target,
-            })?
+            };
+            match self.animate {
+                Some(file) => vec![animate(&request, &file, self.fps)?],
+                None if is_series => draw_each(&request)?,
+                None => vec![draw_fields(&request)?],
+            }
         };
-        Ok(writeln!(terminal::stdout(), "{}", path.display())?)
+        let mut stdout = terminal::stdout();
+        for path in paths {
+            writeln!(stdout, "{}", path.display())?;
+        }
+        Ok(())
     }
 }
 
@@ -167,6 +197,15 @@ fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
         Some([x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok([[x0, y0], [x1, y1]]),
         _ => Err("expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()),
     }
+}
+
+/// Kinds of pictures by their endings.
+fn formats() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::word)).try_map(|name| {
+        let mut all = Format::ALL.into_iter();
+        all.find(|format| format.word() == name)
+            .ok_or("no such kind")
+    })
 }
 
 /// Colour maps by their names.

@@ -22,6 +22,7 @@ pub mod outputs;
 mod point_fields;
 mod rule;
 mod so_far;
+pub mod steps;
 pub mod stored;
 mod tables;
 

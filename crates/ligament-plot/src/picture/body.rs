@@ -9,6 +9,9 @@ use ligament_output::{Error, FieldLocation};
 /// Share of the body's size that the largest displacement has where the scale is chosen by the program.
 const DRAWN_SHARE: f64 = 0.05;
 
+/// Share of the body's size that the largest displacement of a mode is drawn with.
+pub(super) const MODE_SHARE: f64 = 0.1;
+
 /// Cells with the positions and displacements of their corners.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Body {
@@ -94,6 +97,12 @@ impl Body {
         }
     }
 
+    /// The largest scale that the body is drawn with where the program chooses it; None where nothing moved.
+    pub(super) fn drawn_scale(&self) -> Option<f64> {
+        let has_moved = self.largest_displacement() > 0.0;
+        has_moved.then(|| self.scale_for_share(DRAWN_SHARE))
+    }
+
     /// Where the point of a tag lies among deformed positions, shape (n); None where there is no such tag.
     pub(super) fn place(&self, tag: i64, positions: &[[f64; 2]]) -> Option<[f64; 2]> {
         let place = *self.places.get(&tag)?;
@@ -109,10 +118,13 @@ impl Body {
     }
 }
 
-/// A scale for all bodies, rounded down to 1, 2 or 5 times a power of ten: the largest displacement is 2 to 5 % of the body.
+/// A scale for all bodies: the largest displacement is 2 to 5 % of the body.
 pub(super) fn common_scale<'a>(bodies: impl Iterator<Item = &'a Body>) -> f64 {
-    let with_motion = bodies.filter(|body| body.largest_displacement() > 0.0);
-    let scales = with_motion.map(|body| body.scale_for_share(DRAWN_SHARE));
+    common_scale_of(bodies.filter_map(Body::drawn_scale))
+}
+
+/// A scale for bodies with these largest scales, the smallest rounded down to 1, 2 or 5 times a power of ten.
+pub(super) fn common_scale_of(scales: impl Iterator<Item = f64>) -> f64 {
     scales.reduce(f64::min).map_or(1.0, rounded_down)
 }
 

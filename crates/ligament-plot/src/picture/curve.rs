@@ -103,7 +103,13 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         .width
         .unwrap_or(WIDTHS[usize::from(!is_single)]);
     let svg = plot.for_paper(width)?;
-    request.target.write(file, &svg)
+    let title = format!(
+        "{} over {} of {}",
+        words(&request.columns[1]),
+        words(&request.columns[0]),
+        labels.join(", ")
+    );
+    request.target.write(file, &svg, &title)
 }
 
 impl Curve {

@@ -9,6 +9,9 @@ use ligament::suggestion::nearest;
 /// The field of the names of an output that draws no field.
 pub(super) const NONE: &str = "none";
 
+/// Quantile of a mode's field that is drawn as its largest value: the corners of a clamp outshine all else.
+const MODE_QUANTILE: f64 = 0.995;
+
 /// A field as it is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field {
@@ -117,6 +120,27 @@ fn unit_of(field: &str) -> &'static str {
         name if name.starts_with("stress") => "Pa",
         _ => "-",
     }
+}
+
+/// The quantile of the absolute values becomes 1: a mode has no size of its own.
+pub(super) fn relate_to_largest(field: &mut Field) {
+    let mut sizes: Vec<f64> = field
+        .values
+        .iter()
+        .map(|it| it.abs())
+        .filter(|it| it.is_finite())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let place = (MODE_QUANTILE * sizes.len().saturating_sub(1) as f64).round() as usize;
+    let largest = sizes
+        .get(place)
+        .copied()
+        .filter(|it| *it > 0.0)
+        .unwrap_or(1.0);
+    for value in &mut field.values {
+        *value /= largest;
+    }
+    field.unit = "-";
 }
 
 #[cfg(test)]

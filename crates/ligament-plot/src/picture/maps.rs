@@ -4,12 +4,12 @@ use ligament_output::FieldLocation;
 use ligament_output::vtu::Cell;
 
 use super::PictureError;
-use super::body::{Body, common_scale};
+use super::body::{Body, MODE_SHARE, common_scale};
 use super::colour_bar::ColourBar;
-use super::field::Field;
-use super::fields::{MODE_SHARE, magnification_words, relate_to_largest};
+use super::field::{Field, relate_to_largest};
 use super::panel::{Panel, Scale};
 use super::strip::{Entry, Strip};
+use super::style::magnification_words;
 use super::svg::PIXELS_PER_MM;
 
 /// A body with a value at each of its corners or cells.
@@ -134,6 +134,7 @@ impl Maps {
             window: None,
             columns: Some(self.columns),
             title: self.title.clone(),
+            room: None,
             panels: &panels,
         };
         Ok(strip.to_svg(width * PIXELS_PER_MM))

@@ -1,8 +1,8 @@
-//! `ligament plot`: pictures of the results of runs, as SVG or PNG.
+//! `ligament plot`: pictures of the results of runs, as SVG, PNG or PDF, and animations.
 //!
 //! Outputs are chosen ([`select`]), read (`body`, `field`, `crack`), moved by the displacement, cut into bands of colour
-//! (`levels`, `contour`, `joined`) and arranged (`strip`) in one SVG document (`svg`), from which a PNG is made
-//! ([`plots::png`](crate::plots::png)). Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in
+//! (`levels`, `contour`, `joined`) and arranged (`strip`) in one SVG document (`svg`), from which a PNG or a PDF is made
+//! ([`plots`](crate::plots)), several of them over the steps (`series`). Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in
 //! memory.
 
 mod body;
@@ -17,32 +17,30 @@ mod joined;
 mod levels;
 pub mod maps;
 mod panel;
+mod request;
 pub mod select;
+mod series;
+mod source;
 mod strip;
+mod style;
 mod svg;
+mod target;
 mod units;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use ligament_output::replace_file;
-use ligament_output::results::outputs::OutputKind;
+use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
-pub use fields::{FieldRequest, Magnification, draw_fields};
+pub use fields::draw_fields;
+pub use request::{FieldRequest, Magnification};
+pub use series::{animate, draw_each};
+pub use target::{Format, Target};
 
 use crate::plots::PlotError;
-use crate::plots::png::{PngError, to_png};
-
-/// Size and file of a picture.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Target {
-    /// File to write, `.png` or `.svg`; None: one beside the results.
-    pub out: Option<PathBuf>,
-    /// Width, mm; None: that of a column or of a page.
-    pub width: Option<f64>,
-    /// Dots per inch of a PNG.
-    pub dpi: f64,
-}
+use crate::plots::gif::GifError;
+use crate::plots::pdf::PdfError;
+use crate::plots::png::PngError;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
@@ -72,25 +70,26 @@ pub enum PictureError {
         /// Names that can be drawn.
         choices: Vec<String>,
     },
-    /// There is no output of this number.
-    #[error(
-        "{path} has no output of {} {number}; there are {}{}",
-        match kind { OutputKind::Steps => "step", OutputKind::Modes => "mode" },
-        list(known),
-        match kind {
-            OutputKind::Steps => " (run it again with --set output.fields_every=1 for all)",
-            OutputKind::Modes => "",
-        }
-    )]
-    NoSuchOutput {
+    /// A step that was asked for is not there.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// There is no mode of this number.
+    #[error("{path} has no output of mode {number}; there are {}", listed(known))]
+    NoSuchMode {
         /// The folder.
         path: PathBuf,
-        /// Kind of the outputs in the folder.
-        kind: OutputKind,
         /// The number.
         number: usize,
         /// Numbers that there are.
         known: Vec<usize>,
+    },
+    /// A picture for each step is one of each result alone.
+    #[error("{option} draws one result at a time, and there are {n_results}; name one of them")]
+    SeveralResults {
+        /// The option that asked for it.
+        option: &'static str,
+        /// Results given.
+        n_results: usize,
     },
     /// There is no history to choose or to draw from in the folder.
     #[error("{0} has no history.csv with the outputs, so none can be chosen by the displacement")]
@@ -136,54 +135,31 @@ pub enum PictureError {
         /// Unit of another.
         other: String,
     },
-    /// The file is neither PNG nor SVG.
-    #[error("{0}: a picture ends in .png or .svg")]
+    /// The file is none of the kinds that pictures are written as.
+    #[error(
+        "{0}: a picture ends in .png, .svg or .pdf, and an animation, which --animate makes, in .gif"
+    )]
     Format(PathBuf),
+    /// The file is of another kind than the one asked for.
+    #[error("{path} does not end in .{}; leave out --format, or name another file", format.word())]
+    OtherFormat {
+        /// The file.
+        path: PathBuf,
+        /// The kind asked for.
+        format: Format,
+    },
     /// A plot cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
     /// A PNG could not be made of the picture.
     #[error(transparent)]
     Png(#[from] PngError),
-}
-
-fn list(numbers: &[usize]) -> String {
-    const MOST: usize = 24;
-    let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
-    match words.as_slice() {
-        [first @ .., last] if words.len() > MOST => {
-            format!("{}, ..., {last}", first[..MOST - 2].join(", "))
-        }
-        all => all.join(", "),
-    }
-}
-
-/// Whether a file is to be a PNG, and not an SVG.
-fn is_png(path: &Path) -> Result<bool, PictureError> {
-    let extension = path.extension().and_then(|it| it.to_str());
-    match extension.map(str::to_lowercase).as_deref() {
-        Some("png") => Ok(true),
-        Some("svg") => Ok(false),
-        _ => Err(PictureError::Format(path.to_path_buf())),
-    }
-}
-
-impl Target {
-    /// The file; `default` where none is given.
-    fn file(&self, default: impl FnOnce() -> PathBuf) -> Result<PathBuf, PictureError> {
-        let path = self.out.clone().unwrap_or_else(default);
-        is_png(&path)?;
-        Ok(path)
-    }
-
-    fn write(&self, path: PathBuf, svg: &str) -> Result<PathBuf, PictureError> {
-        if is_png(&path)? {
-            replace_file(&path, &to_png(svg, self.dpi)?)?;
-        } else {
-            replace_file(&path, svg.as_bytes())?;
-        }
-        Ok(path)
-    }
+    /// A PDF could not be made of the picture.
+    #[error(transparent)]
+    Pdf(#[from] PdfError),
+    /// An animation could not be made of the pictures.
+    #[error(transparent)]
+    Gif(#[from] GifError),
 }
 
 /// Labels of results in a picture: the labels given, or the names of the folders.

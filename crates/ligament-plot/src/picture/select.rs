@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
 use ligament_output::results::outputs::{OutputKind, Outputs};
+use ligament_output::results::steps::{NamedStep, StepChoice, StepName};
 
 use super::PictureError;
 
@@ -16,8 +17,8 @@ const FIRST_MODES: usize = 6;
 pub enum Choice {
     /// The last one; of modes the first six.
     Default,
-    /// Outputs with these numbers.
-    Steps(Vec<usize>),
+    /// Outputs with these names.
+    Steps(Vec<StepChoice>),
     /// So many, evenly spread over all.
     Strip(usize),
     /// Outputs nearest to these displacements of the load.
@@ -54,21 +55,31 @@ pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureE
     Ok(rows.into_iter().collect())
 }
 
-/// The numbers of the chosen outputs, in the order of the choice, with their files.
+/// An output to draw.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Chosen {
+    /// Number of the step or the mode.
+    pub(super) number: usize,
+    /// File of the output.
+    pub(super) path: PathBuf,
+    /// Words for what happened in the step, long and short, if it was asked for by that.
+    pub(super) happened: Option<[String; 2]>,
+}
+
+/// The chosen outputs, in the order of the choice.
 pub(super) fn chosen(
     outputs: &Outputs,
     choice: &Choice,
     moments: &BTreeMap<usize, Moment>,
-) -> Result<Vec<(usize, PathBuf)>, PictureError> {
+) -> Result<Vec<Chosen>, PictureError> {
     let all: Vec<usize> = outputs.files.keys().copied().collect();
     let last = all.len() - 1;
     let numbers = match choice {
         Choice::Default if outputs.kind == OutputKind::Modes => {
             all.iter().copied().take(FIRST_MODES).collect()
         }
-        Choice::Default => vec![all[last]],
-        Choice::Steps(steps) => steps.clone(),
-        Choice::Strip(1) => vec![all[last]],
+        Choice::Default | Choice::Strip(1) => vec![all[last]],
+        Choice::Steps(steps) => return named(outputs, steps, &all),
         Choice::Strip(count) => {
             let count = (*count).min(all.len());
             let place = |it: usize| (2 * it * last + count - 1) / (2 * (count - 1)).max(1);
@@ -88,16 +99,54 @@ pub(super) fn chosen(
             found.ok_or_else(|| PictureError::NoHistory(outputs.folder.clone()))?
         }
     };
-    let file = |number: usize| match outputs.files.get(&number) {
-        Some(file) => Ok((number, file.clone())),
-        None => Err(PictureError::NoSuchOutput {
-            path: outputs.folder.clone(),
-            kind: outputs.kind,
-            number,
-            known: all.clone(),
-        }),
+    let output = |number: usize| Chosen {
+        number,
+        path: outputs.files[&number].clone(),
+        happened: None,
     };
-    numbers.into_iter().map(file).collect()
+    Ok(numbers.into_iter().map(output).collect())
+}
+
+/// The outputs with these names, of all there are.
+fn named(
+    outputs: &Outputs,
+    names: &[StepChoice],
+    all: &[usize],
+) -> Result<Vec<Chosen>, PictureError> {
+    let mut found: Vec<NamedStep> = Vec::new();
+    for name in names {
+        if outputs.kind == OutputKind::Modes {
+            require_mode(outputs, *name, all)?;
+        }
+        found.extend(name.steps(&outputs.folder, all)?);
+    }
+    let output = |it: &NamedStep| Chosen {
+        number: it.step,
+        path: outputs.files[&it.step].clone(),
+        happened: it.words(),
+    };
+    Ok(found.iter().map(output).collect())
+}
+
+/// Makes sure that modes are asked for by number, and are there.
+fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<(), PictureError> {
+    let path = outputs.folder.clone();
+    match name {
+        StepChoice::One(StepName::Number(number)) if !all.contains(&number) => {
+            let known = all.to_vec();
+            Err(PictureError::NoSuchMode {
+                path,
+                number,
+                known,
+            })
+        }
+        StepChoice::One(StepName::First | StepName::Peak) => Err(PictureError::Modes {
+            path,
+            what: "first breakage and no peak",
+            option: "--step",
+        }),
+        StepChoice::All | StepChoice::One(StepName::Last | StepName::Number(_)) => Ok(()),
+    }
 }
 
 #[cfg(test)]
@@ -129,7 +178,7 @@ mod tests {
                 )
             });
         let found = chosen(&outputs, choice, &BTreeMap::from(moments));
-        found.unwrap().into_iter().map(|it| it.0).collect()
+        found.unwrap().into_iter().map(|it| it.number).collect()
     }
 
     #[test]
@@ -145,13 +194,20 @@ mod tests {
     #[test]
     fn outputs_are_named_or_nearest_to_a_displacement() {
         assert_eq!(steps(&Choice::Default), [27]);
-        assert_eq!(steps(&Choice::Steps(vec![20, 5])), [20, 5]);
+        let numbers = |numbers: &[usize]| {
+            let names = numbers
+                .iter()
+                .map(|it| StepChoice::One(StepName::Number(*it)));
+            Choice::Steps(names.collect())
+        };
+        assert_eq!(steps(&numbers(&[20, 5])), [20, 5]);
+        assert_eq!(steps(&Choice::Steps(vec![StepChoice::All])).len(), 7);
         assert_eq!(
             steps(&Choice::Displacements(vec![1.04, 3.5, -1.0])),
             [5, 20, 0]
         );
         let few = outputs(OutputKind::Steps, &[0, 100]);
-        let error = chosen(&few, &Choice::Steps(vec![50]), &BTreeMap::new()).unwrap_err();
+        let error = chosen(&few, &numbers(&[50]), &BTreeMap::new()).unwrap_err();
         assert!(
             error
                 .to_string()

@@ -35,6 +35,15 @@ const SAMPLE: f64 = 18.0;
 /// Most of a colour bar's height, pixels.
 const LONGEST_BAR: f64 = 420.0;
 
+/// The room that is left in each picture of a series for what any of them shows, so that nothing moves from one to the next.
+#[derive(Debug)]
+pub(super) struct Room {
+    /// Lower left and upper right corner of what the bodies reach in any picture, m.
+    pub(super) extent: Option<[[f64; 2]; 2]>,
+    /// Titles of all pictures.
+    pub(super) titles: Vec<Vec<[String; 2]>>,
+}
+
 /// What a picture consists of.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
@@ -52,6 +61,8 @@ pub(super) struct Strip<'a> {
     pub(super) columns: Option<usize>,
     /// Words for the file.
     pub(super) title: String,
+    /// Room for the other pictures of a series, if it is one.
+    pub(super) room: Option<&'a Room>,
 }
 
 /// Where everything lies, in pixels.
@@ -108,7 +119,8 @@ impl Strip<'_> {
 
     /// Lower left and upper right corner of what is seen of a body, m.
     fn extent(&self, panel: &Panel) -> Option<[[f64; 2]; 2]> {
-        self.window.or_else(|| bounds(&panel.positions))
+        let of_series = self.room.and_then(|room| room.extent);
+        (self.window.or(of_series)).or_else(|| bounds(&panel.positions))
     }
 
     fn layout(&self, width: f64, below: f64) -> Layout {
@@ -135,14 +147,18 @@ impl Strip<'_> {
         let titles: Vec<Vec<String>> = (self.panels.iter())
             .map(|panel| wrapped(&panel.title, widest_cell))
             .collect();
-        let n_lines = titles.iter().map(Vec::len).max().unwrap_or(0);
+        let of_series = self.room.iter().flat_map(|room| &room.titles);
+        let roomy: Vec<Vec<String>> = (titles.iter().cloned())
+            .chain(of_series.map(|title| wrapped(title, widest_cell)))
+            .collect();
+        let n_lines = roomy.iter().map(Vec::len).max().unwrap_or(0);
         let title_height = LINE * n_lines as f64 + if n_lines > 0 { 3.0 } else { 0.0 };
         let row_gaps = MARGIN * (rows - 1.0);
         let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
         let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
         let scale = (widest_cell / body[0]).min(tallest_cell / body[1]);
         // Bodies that do not fill the width stand together in its middle.
-        let cell_width = widest_cell.min((body[0] * scale).max(widest(&titles)));
+        let cell_width = widest_cell.min((body[0] * scale).max(widest(&roomy)));
         let cell = [cell_width, body[1] * scale];
         let bodies = [
             cell[0] * columns as f64 + gaps,

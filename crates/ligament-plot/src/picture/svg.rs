@@ -4,7 +4,8 @@
 
 use std::fmt::Write as _;
 
-use crate::plots::png::{FAMILY, PIXELS_PER_INCH};
+use crate::plots::png::PIXELS_PER_INCH;
+use crate::plots::text::FAMILY;
 
 /// Pixels of a millimetre.
 pub(super) const PIXELS_PER_MM: f64 = PIXELS_PER_INCH / 25.4;

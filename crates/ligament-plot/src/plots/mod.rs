@@ -1,14 +1,17 @@
-//! Curves as SVG, and any SVG as PNG ([`png`]).
+//! Curves as SVG, and any SVG as PNG ([`png`]) or PDF ([`pdf`]), several as an animation ([`gif`]).
 //!
 //! A [`Plot`] has scales of its own along x and y; [`equal`] draws one with the same scale along both, [`polar`] draws
 //! curves around a centre.
 
 mod axis;
 pub mod equal;
+pub mod gif;
 mod outlines;
 mod paper;
+pub mod pdf;
 pub mod png;
 pub mod polar;
+pub(crate) mod text;
 
 pub(crate) use axis::rounded_up;
 use axis::{decimals, range, tick};

@@ -2,94 +2,32 @@
 
 use std::fmt::Write as _;
 
-use resvg::usvg::roxmltree::{Document, Error, Node};
-use ttf_parser::{Face, FaceParsingError, GlyphId, OutlineBuilder};
+use resvg::usvg::roxmltree::Error;
+use ttf_parser::{Face, OutlineBuilder};
+
+use super::text::{TextLine, advance, with_text_as};
 
 /// An SVG file with a path in the place of each element `text`.
-///
-/// Lines of text are laid out by the advances of the font (units of the em over the size of the letters); size and anchor may
-/// stand at an element around the text, as SVG has it. Letters that the font lacks become its box for missing ones.
 ///
 /// # Errors
 ///
 /// If the text of the file is no XML.
 pub(super) fn with_outlined_text(svg: &str, font: &Face<'_>) -> Result<String, Error> {
-    let document = Document::parse(svg)?;
-    let mut outlined = String::with_capacity(svg.len());
-    let mut done = 0;
-    let lines = document
-        .descendants()
-        .filter(|node| node.has_tag_name("text"));
-    for line in lines {
-        let place = line.range();
-        outlined.push_str(&svg[done..place.start]);
-        outlined.push_str(&path_element(line, font));
-        done = place.end;
-    }
-    outlined.push_str(&svg[done..]);
-    Ok(outlined)
-}
-
-/// The font in a file of letters.
-pub(super) fn font(bytes: &[u8]) -> Result<Face<'_>, FaceParsingError> {
-    Face::parse(bytes, 0)
+    with_text_as(svg, font, |line| path_element(&line, font))
 }
 
 /// The element `path` of a line of text.
-fn path_element(line: Node<'_, '_>, font: &Face<'_>) -> String {
-    let size = inherited(line, "font-size").map_or(16.0, |text| length(text, 16.0));
-    let place = |name: &str| line.attribute(name).map_or(0.0, |text| length(text, size));
-    let text: String = line
-        .descendants()
-        .filter_map(|node| node.is_text().then(|| node.text())?)
-        .collect();
-    let letters: Vec<GlyphId> = (text
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
-        .chars())
-    .map(|letter| font.glyph_index(letter).unwrap_or_default())
-    .collect();
-    let scale = size / f64::from(font.units_per_em());
-    let advance =
-        |&letter: &GlyphId| scale * f64::from(font.glyph_hor_advance(letter).unwrap_or_default());
-    let width: f64 = letters.iter().map(advance).sum();
-    let start = match inherited(line, "text-anchor") {
-        Some("middle") => -0.5 * width,
-        Some("end") => -width,
-        _ => 0.0,
-    };
+fn path_element(line: &TextLine, font: &Face<'_>) -> String {
     let mut outline = Outline {
         data: String::new(),
-        origin: [place("x") + start, place("y") + place("dy")],
-        scale,
+        origin: line.start,
+        scale: line.size / f64::from(font.units_per_em()),
     };
-    for letter in &letters {
-        font.outline_glyph(*letter, &mut outline);
-        outline.origin[0] += advance(letter);
+    for &(_, glyph) in &line.letters {
+        font.outline_glyph(glyph, &mut outline);
+        outline.origin[0] += advance(font, glyph, line.size);
     }
-    let mut element = "<path".to_owned();
-    for name in ["transform", "fill", "opacity"] {
-        if let Some(value) = line.attribute(name) {
-            let _ = write!(element, " {name}=\"{value}\"");
-        }
-    }
-    let _ = write!(element, " d=\"{}\"/>", outline.data);
-    element
-}
-
-/// An attribute of an element, or of the nearest one around it.
-fn inherited<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
-    node.ancestors().find_map(|around| around.attribute(name))
-}
-
-/// A length, pixels, as a number alone, in `px` or in `em` of a size of letters.
-fn length(text: &str, size: f64) -> f64 {
-    let number = |text: &str| text.trim().parse().unwrap_or(0.0);
-    match text.strip_suffix("em") {
-        Some(em) => size * number(em),
-        None => number(text.trim_end_matches("px")),
-    }
+    format!("<path{} d=\"{}\"/>", line.attributes, outline.data)
 }
 
 /// Data of a path, made of the outlines of letters one after the other.

@@ -3,13 +3,8 @@
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-use super::outlines::{font, with_outlined_text};
-
-/// The font of all text in pictures ([its origin](https://dejavu-fonts.github.io) and licence lie beside it).
-const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
-
-/// Name of the font.
-pub const FAMILY: &str = "DejaVu Sans";
+use super::outlines::with_outlined_text;
+use super::text::font;
 
 /// Pixels of SVG to the inch.
 pub const PIXELS_PER_INCH: f64 = 96.0;
@@ -47,30 +42,50 @@ pub enum PngError {
 ///
 /// If it is no SVG, or would have no or too many pixels.
 pub fn to_png(svg: &str, dpi: f64) -> Result<Vec<u8>, PngError> {
-    let outlined = with_outlined_text(svg, &font(FONT)?).map_err(resvg::usvg::Error::from)?;
-    let tree = Tree::from_str(&outlined, &Options::default())?;
-    let scale = dpi / PIXELS_PER_INCH;
-    let size = [tree.size().width(), tree.size().height()];
-    let [width, height] = size.map(|it| (f64::from(it) * scale).round());
-    let fits = |it: f64| (1.0..=MOST_PIXELS).contains(&it);
-    let pixmap = (fits(width) && fits(height)).then(|| Pixmap::new(width as u32, height as u32));
-    let mut pixmap = pixmap.flatten().ok_or(PngError::Size { width, height })?;
-    pixmap.fill(resvg::tiny_skia::Color::WHITE);
-    let transform = Transform::from_scale(
-        width as f32 / tree.size().width(),
-        height as f32 / tree.size().height(),
-    );
-    resvg::render(&tree, transform, &mut pixmap.as_mut());
-    encode(&pixmap, dpi)
+    encode(&Pixels::of(svg, dpi)?, dpi)
 }
 
-/// On white every pixel is opaque, so that three channels hold all.
-fn encode(pixmap: &Pixmap, dpi: f64) -> Result<Vec<u8>, PngError> {
-    let (pixels, _) = pixmap.data().as_chunks::<4>();
-    let colours: Vec<u8> = pixels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+/// A picture as its dots.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Pixels {
+    /// Dots along x and y.
+    pub(crate) size: [u32; 2],
+    /// Red, green and blue of the dots, row by row from the top.
+    pub(crate) colours: Vec<[u8; 3]>,
+}
+
+impl Pixels {
+    /// The dots of the text of an SVG file on white, so many to the inch of its size.
+    pub(crate) fn of(svg: &str, dpi: f64) -> Result<Self, PngError> {
+        let outlined = with_outlined_text(svg, &font()?).map_err(resvg::usvg::Error::from)?;
+        let tree = Tree::from_str(&outlined, &Options::default())?;
+        let scale = dpi / PIXELS_PER_INCH;
+        let size = [tree.size().width(), tree.size().height()];
+        let [width, height] = size.map(|it| (f64::from(it) * scale).round());
+        let fits = |it: f64| (1.0..=MOST_PIXELS).contains(&it);
+        let pixmap =
+            (fits(width) && fits(height)).then(|| Pixmap::new(width as u32, height as u32));
+        let mut pixmap = pixmap.flatten().ok_or(PngError::Size { width, height })?;
+        pixmap.fill(resvg::tiny_skia::Color::WHITE);
+        let transform = Transform::from_scale(
+            width as f32 / tree.size().width(),
+            height as f32 / tree.size().height(),
+        );
+        resvg::render(&tree, transform, &mut pixmap.as_mut());
+        // On white every pixel is opaque, so that three channels hold all.
+        let (pixels, _) = pixmap.data().as_chunks::<4>();
+        Ok(Self {
+            size: [pixmap.width(), pixmap.height()],
+            colours: pixels.iter().map(|&[r, g, b, _]| [r, g, b]).collect(),
+        })
+    }
+}
+
+fn encode(pixels: &Pixels, dpi: f64) -> Result<Vec<u8>, PngError> {
+    let [width, height] = pixels.size;
     let per_metre = (dpi / 0.0254).round() as u32;
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::High);
     encoder.set_pixel_dims(Some(png::PixelDimensions {
@@ -79,7 +94,7 @@ fn encode(pixmap: &Pixmap, dpi: f64) -> Result<Vec<u8>, PngError> {
         unit: png::Unit::Meter,
     }));
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&colours)?;
+    writer.write_image_data(pixels.colours.as_flattened())?;
     writer.finish()?;
     Ok(bytes)
 }

@@ -1,0 +1,299 @@
+//! Steps of a stored run by their names: numbers, or what happened in them.
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::Error;
+use crate::csv::read::Sheet;
+
+/// Name of a load step, or of an event of the exact path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepName {
+    /// The step in which the first bond broke or softened.
+    First,
+    /// The step at rest with the largest reaction.
+    Peak,
+    /// The last step.
+    Last,
+    /// The step with this number.
+    Number(usize),
+}
+
+/// Steps as they are asked for by a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepChoice {
+    /// All steps of which something is stored.
+    All,
+    /// One step.
+    One(StepName),
+}
+
+/// A stored step with what led to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NamedStep {
+    /// Number of the stored step.
+    pub step: usize,
+    /// What happened, by which the step was asked for, and in which step. Where nothing is stored of that one, the stored step is
+    /// the next of which something is, or the last.
+    pub happened: Option<(&'static str, usize)>,
+}
+
+/// A step that is not there.
+#[derive(Debug, thiserror::Error)]
+pub enum StepError {
+    /// The history cannot be used.
+    #[error(transparent)]
+    Results(#[from] Error),
+    /// A table without rows, or none: what happened when is not known.
+    #[error(
+        "{path} has no history.csv with steps, so that none is known as `{name}`; give a number"
+    )]
+    NoHistory {
+        /// The folder.
+        path: PathBuf,
+        /// The name that was asked for.
+        name: StepName,
+    },
+    /// The run came to its end before what the name stands for.
+    #[error(
+        "{path} has no step `{name}`: {}",
+        match name {
+            StepName::First => "no bond broke or softened; `last` and numbers are there",
+            _ => "no step under load is at rest; `last` and numbers are there",
+        }
+    )]
+    DidNotHappen {
+        /// The folder.
+        path: PathBuf,
+        /// The name that was asked for.
+        name: StepName,
+    },
+    /// Nothing is stored of the step with the number.
+    #[error(
+        "{path} has no output of step {number}; there are {} (run it again with --set output.fields_every=1 for all)",
+        listed(stored)
+    )]
+    NotStored {
+        /// The folder.
+        path: PathBuf,
+        /// The number.
+        number: usize,
+        /// Numbers of the stored steps.
+        stored: Vec<usize>,
+    },
+}
+
+impl fmt::Display for StepName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::First => f.write_str("first"),
+            Self::Peak => f.write_str("peak"),
+            Self::Last => f.write_str("last"),
+            Self::Number(number) => write!(f, "{number}"),
+        }
+    }
+}
+
+impl FromStr for StepChoice {
+    type Err = String;
+
+    /// Reads `first`, `peak`, `last`, `all` or a number.
+    fn from_str(text: &str) -> Result<Self, String> {
+        Ok(Self::One(match text.trim() {
+            "all" => return Ok(Self::All),
+            "first" => StepName::First,
+            "peak" => StepName::Peak,
+            "last" => StepName::Last,
+            number => StepName::Number(number.parse().map_err(|_| {
+                "expected the number of a step, or first (breakage), peak, last or all".to_owned()
+            })?),
+        }))
+    }
+}
+
+impl StepChoice {
+    /// The chosen ones of the steps stored in a folder, whose numbers ascend.
+    ///
+    /// # Errors
+    ///
+    /// If nothing happened that deserves the name, nothing is stored of a step given by its number, or there is no history.
+    pub fn steps(self, folder: &Path, stored: &[usize]) -> Result<Vec<NamedStep>, StepError> {
+        let numbered = |step| NamedStep {
+            step,
+            happened: None,
+        };
+        let not_stored = |number| StepError::NotStored {
+            path: folder.to_path_buf(),
+            number,
+            stored: stored.to_vec(),
+        };
+        let last = *stored.last().ok_or_else(|| not_stored(0))?;
+        Ok(match self {
+            Self::All => stored.iter().copied().map(numbered).collect(),
+            Self::One(StepName::Last) => vec![numbered(last)],
+            Self::One(StepName::Number(number)) if stored.contains(&number) => {
+                vec![numbered(number)]
+            }
+            Self::One(StepName::Number(number)) => return Err(not_stored(number)),
+            Self::One(name @ (StepName::First | StepName::Peak)) => {
+                let happened = event(name, folder)?;
+                let step = stored.iter().copied().find(|step| *step >= happened.1);
+                vec![NamedStep {
+                    step: step.unwrap_or(last),
+                    happened: Some(happened),
+                }]
+            }
+        })
+    }
+}
+
+impl NamedStep {
+    /// What a reader must know of the step, in full and in short: that it is the first breakage or the peak, or the next stored after
+    /// it.
+    pub fn words(&self) -> Option<[String; 2]> {
+        let (what, step) = self.happened?;
+        let [stored, short] = match self.step.cmp(&step) {
+            Ordering::Equal => return Some([what.to_owned(), what.to_owned()]),
+            Ordering::Greater => ["next stored after", "after"],
+            Ordering::Less => ["last stored before", "before"],
+        };
+        Some([
+            format!("{stored} the {what} in step {step}"),
+            format!("{short} the {what}"),
+        ])
+    }
+}
+
+/// What happened by a name and in which step, from the history.
+fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepError> {
+    let path = folder.join("history.csv");
+    if !path.is_file() {
+        return Err(StepError::NoHistory {
+            path: folder.to_path_buf(),
+            name,
+        });
+    }
+    let sheet = Sheet::read(&path)?;
+    let found = match name {
+        StepName::First => {
+            let rows = sheet.numbers(["step", "broken_in_step", "dissipated_energy"])?;
+            let first = rows.into_iter().find(|row| row[1] > 0.0 || row[2] > 0.0);
+            first.map(|[step, broken, _]| match broken > 0.0 {
+                true => ("first breakage", step),
+                false => ("first softening", step),
+            })
+        }
+        _ => {
+            let rows = sheet.numbers(["step", "reaction", "at_rest"])?;
+            let answers = rows.iter().filter(|row| row[2] > 0.0 && row[0] > 0.0);
+            let peak = answers.reduce(|best, row| if row[1] > best[1] { row } else { best });
+            peak.map(|row| ("peak", row[0]))
+        }
+    };
+    let found = found.map(|(what, step)| (what, step as usize));
+    found.ok_or_else(|| StepError::DidNotHappen {
+        path: folder.to_path_buf(),
+        name,
+    })
+}
+
+/// Numbers for a message: the first ones and the last.
+pub fn listed(numbers: &[usize]) -> String {
+    const MOST: usize = 24;
+    let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    match words.as_slice() {
+        [first @ .., last] if words.len() > MOST => {
+            format!("{}, ..., {last}", first[..MOST - 2].join(", "))
+        }
+        all => all.join(", "),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    const HISTORY: &str = "step,reaction,at_rest,broken_in_step,dissipated_energy\n0,0,1,0,0\n1,2,1,0,0\n2,5,1,0,1e-9\n\
+        3,4,1,3,1e-6\n4,9,0,8,2e-6\n";
+
+    fn folder(history: &str) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("history.csv"), history).unwrap();
+        folder
+    }
+
+    fn found(word: &str, stored: &[usize]) -> Vec<NamedStep> {
+        let choice: StepChoice = word.parse().unwrap();
+        choice.steps(folder(HISTORY).path(), stored).unwrap()
+    }
+
+    /// Step 2 softened first and is the largest at rest: step 4 has a larger reaction, and bonds were still breaking there.
+    #[test]
+    fn names_lead_to_the_steps_in_which_something_happened() {
+        let steps = |word| {
+            found(word, &[0, 1, 2, 3, 4])
+                .iter()
+                .map(|it| it.step)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(steps("first"), [2]);
+        assert_eq!(steps("peak"), [2]);
+        assert_eq!(steps("last"), [4]);
+        assert_eq!(steps(" 3"), [3]);
+        assert_eq!(steps("all"), [0, 1, 2, 3, 4]);
+        let brittle = HISTORY.replace("1e-9", "0");
+        let choice = StepChoice::One(StepName::First);
+        let first = choice.steps(folder(&brittle).path(), &[3]).unwrap()[0];
+        assert_eq!(first.words().unwrap()[0], "first breakage");
+    }
+
+    #[test]
+    fn the_next_stored_step_stands_in_and_says_so() {
+        let peak = found("peak", &[0, 3, 4])[0];
+        assert_eq!((peak.step, peak.happened), (3, Some(("peak", 2))));
+        let words = peak.words().unwrap();
+        assert_eq!(
+            words,
+            ["next stored after the peak in step 2", "after the peak"]
+        );
+        // A run that was killed has no fields of its last steps.
+        let before = found("first", &[0, 1])[0];
+        assert_eq!(before.step, 1);
+        let words = before.words().unwrap();
+        assert_eq!(words[0], "last stored before the first softening in step 2");
+        assert_eq!(
+            found("first", &[2])[0].words().unwrap()[0],
+            "first softening"
+        );
+        assert_eq!(found("last", &[0, 1])[0].words(), None);
+    }
+
+    #[test]
+    fn what_is_not_there_is_told() {
+        let error = |word: &str, history: &str| {
+            let choice: StepChoice = word.parse().unwrap();
+            choice
+                .steps(folder(history).path(), &[0, 1])
+                .unwrap_err()
+                .to_string()
+        };
+        assert!(error("7", HISTORY).contains("no output of step 7; there are 0, 1 ("));
+        let intact = HISTORY.lines().take(2).collect::<Vec<_>>().join("\n") + "\n";
+        assert!(error("first", &intact).contains("no bond broke or softened"));
+        assert!(error("peak", &intact).contains("no step under load is at rest"));
+        let empty = tempfile::tempdir().unwrap();
+        let none = StepChoice::One(StepName::Peak)
+            .steps(empty.path(), &[0])
+            .unwrap_err();
+        assert!(none.to_string().contains("no history.csv"), "{none}");
+        assert!(
+            "paek"
+                .parse::<StepChoice>()
+                .is_err_and(|it| it.contains("peak, last or all"))
+        );
+        assert!("-1".parse::<StepChoice>().is_err());
+    }
+}

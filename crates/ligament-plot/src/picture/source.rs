@@ -1,0 +1,263 @@
+//! The results in a folder, as pictures need them.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ligament_output::csv::read::Sheet;
+use ligament_output::results::outputs::{OutputKind, Outputs};
+use ligament_output::vtu::read::VtuFile;
+
+use super::body::{Body, MODE_SHARE};
+use super::crack::{self, Crack};
+use super::field::{Field, NONE, relate_to_largest};
+use super::panel::Panel;
+use super::request::FieldRequest;
+use super::select::{Choice, Chosen, Moment, chosen, moments};
+use super::strip::Entry;
+use super::units::{Shown, four_digits};
+use super::{PictureError, labels_of};
+use crate::stored_loading::stored_loading;
+
+/// What titles and legends call a step in which bonds were still failing.
+const NOT_AT_REST: &str = "not at rest";
+
+/// The results in a folder.
+pub(super) struct Source {
+    pub(super) outputs: Outputs,
+    pub(super) label: String,
+    moments: BTreeMap<usize, Moment>,
+    /// Units to show displacement and force in.
+    shown: Option<[Shown; 2]>,
+    pub(super) crack: Option<Crack>,
+    /// Whether broken bonds are drawn. A pre-crack in a mesh, whose cells hide it, is drawn in any case.
+    shows_broken: bool,
+    /// Frequencies of modes by number, Hz.
+    frequencies: BTreeMap<usize, f64>,
+}
+
+/// Results with the field that is drawn of them.
+pub(super) struct Subject {
+    pub(super) sources: Vec<Source>,
+    /// Name of the field, or `none`.
+    pub(super) field: String,
+    /// Whether these are natural modes.
+    pub(super) has_modes: bool,
+}
+
+/// An output that is drawn.
+pub(super) struct Output<'a> {
+    source: &'a Source,
+    chosen: Chosen,
+    is_labelled: bool,
+}
+
+/// The chosen outputs of all results, which are labelled where there are several.
+pub(super) fn outputs<'a>(
+    sources: &'a [Source],
+    choice: &Choice,
+) -> Result<Vec<Output<'a>>, PictureError> {
+    let mut outputs = Vec::new();
+    for source in sources {
+        let all = chosen(&source.outputs, choice, &source.moments)?;
+        outputs.extend(all.into_iter().map(|chosen| Output {
+            source,
+            chosen,
+            is_labelled: sources.len() > 1,
+        }));
+    }
+    Ok(outputs)
+}
+
+/// The results in the folders, with a colour for each criterion that broke bonds in them.
+fn sources(request: &FieldRequest) -> Result<Vec<Source>, PictureError> {
+    let labels = labels_of(&request.folders, &request.labels)?;
+    let mut sources = Vec::new();
+    for (folder, label) in request.folders.iter().zip(labels) {
+        sources.push(Source::open(folder, label, request)?);
+    }
+    let over_field = request.field.as_deref() != Some(NONE);
+    let cracks = sources.iter_mut().filter_map(|it| it.crack.as_mut());
+    crack::paint(cracks.collect(), over_field);
+    Ok(sources)
+}
+
+impl Subject {
+    pub(super) fn open(request: &FieldRequest) -> Result<Self, PictureError> {
+        let sources = sources(request)?;
+        let given = request.field.clone();
+        Ok(Self {
+            field: given.unwrap_or_else(|| default_field(&sources).to_owned()),
+            has_modes: (sources.iter()).any(|it| it.outputs.kind == OutputKind::Modes),
+            sources,
+        })
+    }
+
+    /// The file of a picture that has no other name. Runs write no file of such a name.
+    pub(super) fn default_file(&self, request: &FieldRequest) -> PathBuf {
+        let name = match self.field.as_str() {
+            _ if self.has_modes => "picture-modes.png".to_owned(),
+            NONE => "picture-crack.png".to_owned(),
+            field => format!("picture-{field}.png"),
+        };
+        request.folders[0].join(name)
+    }
+}
+
+fn default_field(sources: &[Source]) -> &'static str {
+    if sources[0].outputs.kind == OutputKind::Modes {
+        "strain_energy_density"
+    } else if sources.iter().any(Source::has_broken) {
+        "damage"
+    } else {
+        "displacement"
+    }
+}
+
+impl Source {
+    fn open(folder: &Path, label: String, request: &FieldRequest) -> Result<Self, PictureError> {
+        let mut source = Self {
+            outputs: Outputs::list(folder)?,
+            label,
+            moments: BTreeMap::new(),
+            shown: None,
+            crack: None,
+            shows_broken: request.crack,
+            frequencies: BTreeMap::new(),
+        };
+        if source.outputs.kind == OutputKind::Modes {
+            if request.crack {
+                return Err(PictureError::Modes {
+                    path: folder.to_path_buf(),
+                    what: "broken bonds",
+                    option: "--crack",
+                });
+            }
+            let table = Sheet::read(folder.join("modes.csv"))?;
+            let numbers = table.values::<usize>("mode")?.into_iter();
+            source.frequencies = numbers.zip(table.values("frequency_hz")?).collect();
+            return Ok(source);
+        }
+        source.moments = moments(folder)?;
+        let loading = stored_loading(folder).ok();
+        let largest = |of: fn(&Moment) -> f64| {
+            let sizes = source.moments.values().map(|it| of(it).abs());
+            sizes.fold(0.0, f64::max)
+        };
+        source.shown = loading.map(|it| {
+            [
+                Shown::new(it.units.displacement, largest(|it| it.displacement)),
+                Shown::new(it.units.force, largest(|it| it.reaction)),
+            ]
+        });
+        let follows_path = loading.is_some_and(|it| it.follows_path);
+        source.crack = Some(Crack::read(folder, follows_path, request.crack)?);
+        Ok(source)
+    }
+
+    fn has_broken(&self) -> bool {
+        let breaks = Sheet::read(self.outputs.folder.join("breaks.csv"));
+        let steps = breaks.and_then(|sheet| sheet.values::<usize>("step"));
+        steps.is_ok_and(|steps| !steps.is_empty())
+    }
+}
+
+impl Output<'_> {
+    /// Number of the step or the mode.
+    pub(super) fn number(&self) -> usize {
+        self.chosen.number
+    }
+
+    /// The row of the history of the step.
+    fn moment(&self) -> Option<&Moment> {
+        self.source.moments.get(&self.chosen.number)
+    }
+
+    /// Words of the title, long and short.
+    pub(super) fn title(&self) -> Vec<[String; 2]> {
+        let (source, number) = (self.source, self.chosen.number);
+        let same = |text: String| [text.clone(), text];
+        let mut words = Vec::new();
+        if self.is_labelled {
+            words.push(same(source.label.clone()));
+        }
+        if source.outputs.kind == OutputKind::Modes {
+            let frequency = source.frequencies.get(&number);
+            let frequency =
+                frequency.map_or(String::new(), |it| format!(": {} Hz", four_digits(*it)));
+            words.push(same(format!("mode {number}{frequency}")));
+            return words;
+        }
+        words.push(same(format!("step {number}")));
+        words.extend(self.chosen.happened.clone());
+        if let (Some(moment), Some([displacement, force])) = (self.moment(), &source.shown) {
+            // A change of temperature loads a body that nothing moves.
+            let is_heated = displacement.unit.ends_with('K');
+            let moved = displacement.value(moment.displacement);
+            let moves = if is_heated {
+                "temperature change"
+            } else {
+                "displacement"
+            };
+            words.push([format!("{moves} {moved}"), moved]);
+            if !moment.at_rest {
+                words.push(same(NOT_AT_REST.to_owned()));
+            }
+            if !is_heated {
+                let held = force.value(moment.reaction);
+                words.push([format!("reaction {held}"), held]);
+            }
+        }
+        words
+    }
+
+    /// The entry of the legend for steps that are no answer to their load, where there are such.
+    pub(super) fn warning(outputs: &[Self]) -> Option<Entry> {
+        let unsettled = |it: &Self| it.moment().is_some_and(|moment| !moment.at_rest);
+        outputs.iter().any(unsettled).then(|| Entry {
+            colour: None,
+            words: format!("{NOT_AT_REST}: no answer to this load, bonds were still failing"),
+        })
+    }
+
+    /// The undeformed body with a field.
+    pub(super) fn panel(&self, field: &str) -> Result<Panel, PictureError> {
+        let file = VtuFile::open(&self.chosen.path)?;
+        let is_drawn = field != NONE;
+        let mut field = is_drawn.then(|| Field::read(&file, field)).transpose()?;
+        if self.source.outputs.kind == OutputKind::Modes {
+            field.iter_mut().for_each(relate_to_largest);
+        }
+        Ok(Panel {
+            title: self.title(),
+            positions: Vec::new(),
+            body: Body::read(&file)?,
+            field,
+            broken: Vec::new(),
+        })
+    }
+
+    /// The panel with its body deformed and its broken bonds between the deformed ends.
+    pub(super) fn deformed(&self, mut panel: Panel, magnification: Option<f64>) -> Panel {
+        let factor = magnification.unwrap_or_else(|| panel.body.scale_for_share(MODE_SHARE));
+        let positions = panel.body.deformed(factor);
+        let line = |ends: [i64; 2]| {
+            let [a, b] = ends.map(|tag| panel.body.place(tag, &positions));
+            Some([a?, b?])
+        };
+        let source = self.source;
+        let kinds = source
+            .crack
+            .iter()
+            .flat_map(|crack| crack.kinds.iter().map(move |it| (crack, it)));
+        let shows_cut = source.shows_broken || panel.body.is_mesh();
+        let kinds = kinds.filter(|(_, kind)| shows_cut || !kind.is_cut());
+        panel.broken = kinds
+            .map(|(crack, kind)| {
+                let bonds = crack.until(kind, self.chosen.number).into_iter();
+                (kind.colour.clone(), bonds.filter_map(line).collect())
+            })
+            .collect();
+        panel.positions = positions;
+        panel
+    }
+}

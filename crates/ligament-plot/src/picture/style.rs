@@ -1,0 +1,126 @@
+//! What the bodies of one picture have in common: factor on the displacement, colours, legend.
+
+use super::PictureError;
+use super::body::MODE_SHARE;
+use super::colour_bar::ColourBar;
+use super::field::NONE;
+
+use super::panel::{Panel, Scale};
+use super::request::FieldRequest;
+use super::source::{Source, Subject};
+use super::strip::{Entry, Room, Strip};
+use super::svg::PIXELS_PER_MM;
+
+/// What all bodies of a picture, or of a series of pictures, have in common.
+pub(super) struct Style<'a> {
+    request: &'a FieldRequest,
+    /// Factor on the displacement; None: that of a mode.
+    pub(super) magnification: Option<f64>,
+    /// Colours of the field, and the range of its values; None where no field is drawn.
+    colours: Option<(Scale, [f64; 2])>,
+    quantity: String,
+    unit: &'static str,
+    /// Words for the file.
+    pub(super) title: String,
+}
+
+impl<'a> Style<'a> {
+    /// The style of a subject, whose displacements are drawn larger by a factor, and whose field has these ranges in the outputs
+    /// and an SI unit.
+    pub(super) fn new(
+        request: &'a FieldRequest,
+        subject: &Subject,
+        magnification: Option<f64>,
+        (ranges, unit): (impl Iterator<Item = [f64; 2]>, &'static str),
+    ) -> Result<Self, PictureError> {
+        let name = &subject.field;
+        let quantity = if subject.has_modes {
+            format!("{name} / its 99.5 % quantile")
+        } else {
+            name.clone()
+        };
+        let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let colours = |range: [f64; 2]| {
+            // Modes are relative to their largest values.
+            let of_modes = subject
+                .has_modes
+                .then_some([range[0].signum().min(0.0), 1.0]);
+            let asked = request.range.or(of_modes);
+            (Scale::new(range, asked, request.bands, request.map), range)
+        };
+        if name != NONE && range.is_none() {
+            return Err(PictureError::NoValues(name.clone()));
+        }
+        Ok(Self {
+            request,
+            magnification,
+            colours: range.map(colours),
+            quantity,
+            unit,
+            title: format!("{name} of {}", subject.sources[0].label),
+        })
+    }
+
+    /// The picture of bodies with a legend, beside each other; `width` (mm) is its width where none is asked for.
+    pub(super) fn svg(
+        &self,
+        panels: &[Panel],
+        legend: Vec<Entry>,
+        room: Option<&Room>,
+        width: f64,
+    ) -> String {
+        let magnification = Entry {
+            colour: None,
+            words: magnification_words(self.magnification),
+        };
+        let colours = self.colours.as_ref();
+        let bar =
+            colours.map(|(scale, range)| ColourBar::new(scale, &self.quantity, self.unit, *range));
+        let strip = Strip {
+            scale: self.colours.as_ref().map(|it| &it.0),
+            bar,
+            legend: [vec![magnification], legend].concat(),
+            window: self.request.window,
+            columns: self.request.columns,
+            title: self.title.clone(),
+            room,
+            panels,
+        };
+        strip.to_svg(self.request.target.width.unwrap_or(width) * PIXELS_PER_MM)
+    }
+}
+
+pub(super) fn magnification_words(magnification: Option<f64>) -> String {
+    match magnification {
+        Some(0.0) => "undeformed".to_owned(),
+        Some(factor) => format!("deformation × {factor}"),
+        None => format!("largest displacement drawn as {MODE_SHARE} of the body"),
+    }
+}
+
+/// The criteria by which bonds of any panel broke, each once, with the numbers of bonds if these are wanted.
+pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bool) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let kinds = sources
+        .iter()
+        .flat_map(|it| &it.crack)
+        .flat_map(|it| &it.kinds);
+    for kind in kinds {
+        let is_drawn = panels.iter().flat_map(|it| &it.broken);
+        let count: usize = is_drawn
+            .filter(|it| it.0 == kind.colour)
+            .map(|it| it.1.len())
+            .sum();
+        let words = match is_numbered {
+            true => format!("{} ({count})", kind.name),
+            false => kind.name.clone(),
+        };
+        if count > 0 && !entries.iter().any(|it| it.words == words) {
+            entries.push(Entry {
+                colour: Some(kind.colour.clone()),
+                words,
+            });
+        }
+    }
+    entries
+}

@@ -1,0 +1,89 @@
+//! The file that a picture is written to.
+
+use std::path::{Path, PathBuf};
+
+use ligament_output::replace_file;
+
+use super::PictureError;
+use crate::plots::pdf::to_pdf;
+use crate::plots::png::to_png;
+
+/// Size and file of a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// File to write; None: one beside the results.
+    pub out: Option<PathBuf>,
+    /// Kind of the file; None: the one that the file ends in, PNG where no file is given.
+    pub format: Option<Format>,
+    /// Width, mm; None: that of a column or of a page.
+    pub width: Option<f64>,
+    /// Dots per inch of a PNG or an animation; None: 300 of a picture, 150 of an animation.
+    pub dpi: Option<f64>,
+}
+
+/// The kinds of files that pictures are written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Dots, for all that shows pictures.
+    Png,
+    /// Paths and text, which can be edited.
+    Svg,
+    /// A page of its size with paths and text, for LaTeX and printers.
+    Pdf,
+}
+
+/// Dots per inch of a picture.
+const DPI: f64 = 300.0;
+
+impl Format {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Pdf];
+
+    /// The ending of the files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        }
+    }
+
+    /// The kind that a file ends in.
+    fn named_by(path: &Path) -> Result<Self, PictureError> {
+        let extension = path.extension().and_then(|it| it.to_str());
+        let extension = extension.map(str::to_lowercase);
+        let mut all = Self::ALL.into_iter();
+        let format = all.find(|format| extension.as_deref() == Some(format.word()));
+        format.ok_or_else(|| PictureError::Format(path.to_path_buf()))
+    }
+}
+
+impl Target {
+    /// The file; `default` with the ending of its kind where none is given.
+    pub(super) fn file(&self, default: impl FnOnce() -> PathBuf) -> Result<PathBuf, PictureError> {
+        let Some(path) = self.out.clone() else {
+            let format = self.format.unwrap_or(Format::Png);
+            return Ok(default().with_extension(format.word()));
+        };
+        let named = Format::named_by(&path)?;
+        match self.format {
+            Some(format) if format != named => Err(PictureError::OtherFormat { path, format }),
+            _ => Ok(path),
+        }
+    }
+
+    /// Writes the picture with a title as the kind of file that its name ends in.
+    pub(super) fn write(
+        &self,
+        path: PathBuf,
+        svg: &str,
+        title: &str,
+    ) -> Result<PathBuf, PictureError> {
+        match Format::named_by(&path)? {
+            Format::Png => replace_file(&path, &to_png(svg, self.dpi.unwrap_or(DPI))?)?,
+            Format::Svg => replace_file(&path, svg.as_bytes())?,
+            Format::Pdf => replace_file(&path, &to_pdf(svg, title)?)?,
+        }
+        Ok(path)
+    }
+}
