@@ -22,6 +22,7 @@ fn follow(
     let system = &*bench.model.system;
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let can_hold = |dof: usize| unknowns.number(dof).is_some();
+    let none = Restraints::default();
     let mut intact = vec![true; system.bonds.len()];
     let mut fixed = prescribed.to_vec();
     let mut connectivity = Connectivity::new(system);

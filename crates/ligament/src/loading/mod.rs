@@ -2,6 +2,7 @@
 
 mod boundary;
 mod places;
+mod restraints;
 mod temperature;
 mod vibration;
 
@@ -21,6 +22,7 @@ pub use vibration::Vibration;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::Setup;
 use boundary::{boundary, couples_have_stiffness};
+use restraints::restrain;
 
 /// Supports, loads and probes of a setup, for its model.
 #[derive(Debug)]
@@ -50,8 +52,10 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
+        let mut boundary = boundary.reduced(system.layout());
+        restrain(setup, system, &mut boundary)?;
         Ok(Self {
-            boundary: Arc::new(boundary.reduced(system.layout())),
+            boundary: Arc::new(boundary),
             probes,
             solver: setup.solver,
         })
