@@ -62,7 +62,7 @@ fn unrestrained(
         let place = dofs.binary_search(&(dof as usize)).ok();
         place.map_or(0.0, |place| motion[place])
     };
-    let mut stiffness = DMatrix::zeros(count, count);
+    let mut stiffness = DMatrix::<f64>::zeros(count, count);
     let mut largest: f64 = 0.0;
     for restraint in restraints {
         let own: Vec<Vec<f64>> = (motions.iter())

@@ -49,7 +49,7 @@ impl Restraint {
     /// Forces S u for displacements at its degrees of freedom (n), by degree of freedom.
     pub fn forces(&self, displacement: &[f64]) -> impl Iterator<Item = (u32, f64)> {
         let rows = self.stiffness.chunks(self.degrees_of_freedom.len());
-        let force = |row: &[f64]| row.iter().zip(displacement).map(|(s, u)| s * u).sum();
+        let force = move |row: &[f64]| row.iter().zip(displacement).map(|(s, u)| s * u).sum();
         self.degrees_of_freedom.iter().copied().zip(rows.map(force))
     }
 }
