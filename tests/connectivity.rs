@@ -1,6 +1,7 @@
 //! Fragments and holds, kept up while bonds break, against a search of the whole body after every breakage.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::Restraints;
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::unknowns::Unknowns;
