@@ -44,23 +44,24 @@ const WEIGHT: &str = "[[load]]\ngroup = \"top\"\nforce = { y = -1000.0 }";
 
 /// A block on rollers at 30 degrees that a spring along x keeps from sliding. Rollers carry W/cos(30) along their normal, the spring W
 /// tan(30); it gives way by that over its stiffness, and the block moves along the plane. Forces are those of a rigid body whatever the
-/// block's stiffness: to the residual. The spring is stretched by the mean of its points. Rollers give way by 1e-6 of what bonds do.
+/// block's stiffness: to 1e-6, as rollers are 1e6 times as stiff as points and the block moves 1e4 times as far as it deforms. The spring is
+/// stretched by the mean of its points. Rollers give way by 1e-6 of what bonds do.
 #[test]
 fn a_block_slides_down_inclined_rollers_onto_a_spring() {
     let (bench, run) = solved(INCLINED, WEIGHT);
     let rollers = run.group_force(&bench, "bottom");
     let spring = run.group_force(&bench, "support-2");
     let push = 1000.0 * 30f64.to_radians().tan();
-    assert!(relative_error(rollers[0], -push) < 1e-9, "{rollers:?}");
-    assert!(relative_error(rollers[1], 1000.0) < 1e-9, "{rollers:?}");
+    assert!(relative_error(rollers[0], -push) < 1e-6, "{rollers:?}");
+    assert!(relative_error(rollers[1], 1000.0) < 1e-6, "{rollers:?}");
     assert!(
-        relative_error(spring[0], push) < 1e-9 && spring[1] == 0.0,
+        relative_error(spring[0], push) < 1e-6 && spring[1] == 0.0,
         "{spring:?}"
     );
     let left = &bench.group("left")[1..19];
     let along_x = |&point: &u32| run.displacement()[3 * point as usize];
     let mean = left.iter().map(along_x).sum::<f64>() / left.len() as f64;
-    assert!(relative_error(mean, -push / 1e6) < 1e-9, "{mean:e}");
+    assert!(relative_error(mean, -push / 1e6) < 1e-6, "{mean:e}");
     let bottom = bench.group("bottom");
     let normal = |&point: &u32| {
         let u = &run.displacement()[3 * point as usize..];

@@ -156,15 +156,24 @@ fn stresses_are_asked_for_by_name() {
 
 #[test]
 fn supports_that_give_way_are_checked() {
-    let line = TEXT.lines().find(|it| it.starts_with("displacement")).unwrap();
+    let line = TEXT
+        .lines()
+        .find(|it| it.starts_with("displacement"))
+        .unwrap();
     for (support, message) in [
-        ("", "support.0: holds nothing: give a `displacement`, a `normal` or a `stiffness`"),
+        (
+            "",
+            "support.0: holds nothing: give a `displacement`, a `normal` or a `stiffness`",
+        ),
         (
             "displacement = { y = 0.0 }\nnormal = [1.0, 1.0]",
             "support.0.normal: a support holds components of the `displacement` or one direction between them, its `normal`: give one \
              of the two, or two supports",
         ),
-        ("normal = [0.0, 0.0]", "support.0.normal: must be a direction other than [0, 0]"),
+        (
+            "normal = [0.0, 0.0]",
+            "support.0.normal: must be a direction other than [0, 0]",
+        ),
         (
             "stiffness = { y = -1e9 }",
             "support.0.stiffness.y: must be greater than 0, found -1000000000.0",
