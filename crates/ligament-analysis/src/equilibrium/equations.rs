@@ -286,7 +286,8 @@ impl Equations {
         let gaps = self.contact.gaps(&state.displacement, expansion);
         let closed = self.contact.closed(&gaps);
         contact::add_to(&mut swept, &closed, self.layout(), expansion);
-        let energy_of_motion = swept.energy_of_motion(state.load_factor);
+        let factor = self.problem.loads.temperature_factor(state.load_factor);
+        let energy_of_motion = swept.energy_of_motion(factor);
         let BondSweep {
             deformations,
             internal,
@@ -298,7 +299,7 @@ impl Equations {
         let displacement = self.largest_displacement(state);
         let residual = self.residual(state, &internal, extents, displacement);
         self.costs.bonds += start.elapsed();
-        let of_expansions = state.load_factor.powi(2) * expansion_energy.abs();
+        let of_expansions = factor.powi(2) * expansion_energy.abs();
         let cancelled = CANCELLED * of_expansions;
         let rounding = ROUNDING * self.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + cancelled);
@@ -315,6 +316,39 @@ impl Equations {
         }
     }
 
+    /// A state that is known to be in equilibrium, as the bonds see it.
+    pub(super) fn measured(&mut self, state: &mut State) -> Balanced {
+        self.prescribe(state);
+        self.measure(state).balanced(0, Vec::new())
+    }
+
+    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state, under loads at their load factor 1.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor.
+    pub(super) fn growth(
+        &mut self,
+        state: &mut State,
+        loads: &dyn LoadProgram,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        self.prepare_solver(state)?;
+        let mut growth = vec![0.0; state.displacement.len()];
+        loads.prescribe(1.0, &mut growth);
+        let system = &self.problem.system;
+        let expansion = loads.thermal_strain(1.0);
+        let deformations = system.deformations(&state.intact, &growth, expansion);
+        let internal = system
+            .forces(state.bonds(), deformations, expansion)
+            .internal;
+        let force = self.forces_left(loads, 1.0, &growth, &internal);
+        let solution = self.solver.solve(state, force, &mut self.costs);
+        for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
+            growth[dof as usize] = value;
+        }
+        Ok(growth)
+    }
+
     /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.
     pub(super) fn slope(&self, state: &State, iterate: &Iterate, correction: &[f64]) -> f64 {
         let force = self.out_of_balance(state, &iterate.internal);
@@ -324,16 +358,31 @@ impl Equations {
 
     /// F - K u at the unknowns (NHPD eq. 20), less what restraints take, shape (n_unknowns).
     fn out_of_balance(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
-        let (loads, dofs) = (&self.problem.loads, self.degrees_of_freedom());
-        let mut force = loads.forces(state.load_factor, dofs);
+        let (loads, displacement) = (&*self.problem.loads, &state.displacement);
+        self.forces_left(loads, state.load_factor, displacement, internal)
+    }
+
+    /// What is left at the unknowns of given forces at a load factor, of those of restraints at displacements (n_degrees_of_freedom) and
+    /// of internal ones, shape (n_unknowns).
+    fn forces_left(
+        &self,
+        loads: &dyn LoadProgram,
+        load_factor: f64,
+        displacement: &[f64],
+        internal: &InternalForces,
+    ) -> Vec<f64> {
+        let dofs = self.degrees_of_freedom();
+        let mut force = loads.forces(load_factor, dofs);
         for (value, &dof) in force.iter_mut().zip(dofs) {
             *value -= internal.values[dof as usize];
         }
         if loads.restraints().is_empty() {
             return force;
         }
-        let mut restraining = vec![0.0; state.displacement.len()];
-        (loads.restraints()).add_forces(&state.displacement, &mut restraining);
+        let mut restraining = vec![0.0; displacement.len()];
+        loads
+            .restraints()
+            .add_forces(displacement, &mut restraining);
         for (value, &dof) in force.iter_mut().zip(dofs) {
             *value -= restraining[dof as usize];
         }

@@ -3,6 +3,7 @@
 use ligament_analysis::{Component, ProportionalLoading, Restraint, Restraints};
 use ligament_model::{BondSystem, Bonds};
 
+use super::boundary::Acting;
 use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Load, Setup, Support};
@@ -11,15 +12,17 @@ use crate::setup::{Action, Load, Setup, Support};
 /// of a point do, and a force loses no more digits than it can spare.
 const RIGID: f64 = 1e6;
 
-/// Adds the restraints of a setup to its loading, which has the components of its bonds.
-pub(super) fn restrain(
+/// A loading with the components of the bonds alone and the restraints of a setup; far ends move where their loads act.
+pub(super) fn restrained(
     setup: &Setup,
     system: &BondSystem,
-    boundary: &mut ProportionalLoading,
-) -> Result<(), SetupError> {
+    loading: ProportionalLoading,
+    acting: Acting,
+) -> Result<ProportionalLoading, SetupError> {
+    let loading = loading.reduced(system.layout());
     let is_restrained = setup.supports.iter().any(Support::is_restraint);
     if !is_restrained && !setup.loads.iter().any(Load::is_restraint) {
-        return Ok(());
+        return Ok(loading);
     }
     let cloud = &system.cloud;
     let mut restraining = Restraining {
@@ -38,12 +41,15 @@ pub(super) fn restrain(
     }
     for (index, load) in setup.loads.iter().enumerate() {
         if load.is_restraint() {
-            restraining.load(Field::element("loads", index), load)?;
+            let acts = acting == Acting::All || acting == Acting::Load(index);
+            restraining.load(Field::element("loads", index), load, acts)?;
         }
     }
-    boundary.restraints = Restraints::new(system.layout(), restraining.list).into();
-    boundary.driving = restraining.driving;
-    Ok(())
+    Ok(ProportionalLoading {
+        restraints: Restraints::new(system.layout(), restraining.list).into(),
+        driving: restraining.driving,
+        ..loading
+    })
 }
 
 /// Restraints so far.
@@ -82,7 +88,7 @@ impl Restraining<'_> {
         Ok(())
     }
 
-    fn load(&mut self, field: Field, load: &Load) -> Result<(), SetupError> {
+    fn load(&mut self, field: Field, load: &Load, acts: bool) -> Result<(), SetupError> {
         let points = self.places.points(field, &load.place)?;
         let motion = match load.action {
             Action::Displacement(it) => Some([it.x, it.y].map(|it| it.unwrap_or(0.0))),
@@ -119,7 +125,7 @@ impl Restraining<'_> {
                 self.list.extend(springs);
             }
         }
-        if motion.is_some() {
+        if motion.is_some() && acts {
             let factors = self.places.factors(field, load.profile.as_ref(), &points)?;
             self.drive(first, (&points, &factors), direction.map(|it| size * it));
         }
