@@ -40,6 +40,30 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// does not move among them.
     fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64>;
 
+    /// Given forces and those of restraints at displacements (n_degrees_of_freedom), less internal ones, at some degrees of freedom, in their
+    /// order, N and N m.
+    fn external_less(
+        &self,
+        time: f64,
+        displacement: &[f64],
+        internal: &InternalForces,
+        degrees_of_freedom: &[u32],
+    ) -> Vec<f64> {
+        let mut force = self.forces(time, degrees_of_freedom);
+        for (value, &dof) in force.iter_mut().zip(degrees_of_freedom) {
+            *value -= internal.values[dof as usize];
+        }
+        if self.restraints().is_empty() {
+            return force;
+        }
+        let mut restraining = vec![0.0; displacement.len()];
+        self.restraints().add_forces(displacement, &mut restraining);
+        for (value, &dof) in force.iter_mut().zip(degrees_of_freedom) {
+            *value -= restraining[dof as usize];
+        }
+        force
+    }
+
     /// Strains that the temperature gives without stress.
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_>;
 
