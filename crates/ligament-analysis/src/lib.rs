@@ -28,6 +28,7 @@ pub mod load_program;
 pub mod modal;
 pub mod probe;
 pub mod problem;
+pub mod restraints;
 pub mod serial;
 pub mod softening;
 pub mod solver;
@@ -44,9 +45,13 @@ pub use error::SetupError;
 pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
 pub use ligament_model::{Bonds, interface};
-pub use load_program::{BoundaryError, Control, ControlKind, LoadProgram, ProportionalLoading};
+pub use load_program::{
+    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, Part, Programme,
+    ProportionalLoading, StagedLoading,
+};
 pub use probe::Probe;
 pub use problem::Problem;
+pub use restraints::{Restraint, Restraints};
 pub use solver::SolverSettings;
 pub use state::State;
 pub use supports::Supports;
