@@ -17,6 +17,7 @@ mod joined;
 mod levels;
 pub mod maps;
 mod panel;
+pub mod profile;
 mod request;
 pub mod select;
 mod series;

@@ -6,9 +6,10 @@ use ligament_analysis::{
     Component, Layout, LoadCourse, MotionControl, Part, Probe, Programme, ProportionalLoading,
     StagedLoading,
 };
-use ligament_model::PointCloud;
+use ligament_model::{BondSystem, Bonds};
 
 use super::boundary::{Acting, boundary};
+use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{self, Analysis, Setup, Stage};
 
@@ -38,16 +39,14 @@ impl Setup {
     }
 }
 
-/// Each load of a setup with stages by itself, for points with these components, in the first part of the programme that the stages are;
-/// None without stages.
+/// Each load of a setup with stages by itself, in the first part of the programme that the stages are; None without stages.
 ///
 /// # Errors
 ///
 /// If two loads prescribe a motion of a point.
 pub(super) fn staged(
     setup: &Setup,
-    cloud: &PointCloud,
-    layout: Layout,
+    system: &BondSystem,
     probes: &[Probe],
 ) -> Result<Option<StagedLoading>, SetupError> {
     if setup.stages.is_empty() {
@@ -58,15 +57,18 @@ pub(super) fn staged(
     let of_loads = (0..setup.loads.len()).map(Acting::Load);
     let of_temperature = temperature.map(|_| Acting::Temperature);
     let loads: Vec<ProportionalLoading> = (of_loads.chain(of_temperature))
-        .map(|acting| Ok(boundary(setup, cloud, acting)?.reduced(layout)))
+        .map(|acting| {
+            let loading = boundary(setup, &system.cloud, acting)?;
+            restrained(setup, system, loading, acting)
+        })
         .collect::<Result<_, SetupError>>()?;
-    moved_by_one(setup, layout, &loads)?;
+    moved_by_one(setup, system.layout(), &loads)?;
     let programme = Programme {
         control: setup.curve_load().or(temperature).unwrap_or(0),
         temperature,
         stages: setup.stages.iter().map(|it| it.name.clone()).collect(),
         names,
-        parts: controlled_parts(setup, layout, probes),
+        parts: controlled_parts(setup, system.layout(), probes),
     };
     let start = vec![0.0; programme.names.len()];
     let course = LoadCourse::new(Arc::new(programme), 0, &start);
