@@ -5,6 +5,7 @@
 //! ([`plots`](crate::plots)), several of them over the steps (`series`). Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in
 //! memory.
 
+mod axes;
 mod body;
 mod colour_bar;
 pub mod colour_map;
@@ -15,6 +16,7 @@ mod field;
 mod fields;
 mod joined;
 mod levels;
+mod lines;
 pub mod maps;
 mod panel;
 mod request;
@@ -33,7 +35,7 @@ use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
 pub use fields::draw_fields;
-pub use request::{FieldRequest, Magnification};
+pub use request::{CrackDrawing, FieldRequest, Magnification};
 pub use series::{animate, draw_each};
 pub use target::{Format, Target};
 
@@ -83,6 +85,11 @@ pub enum PictureError {
         /// Numbers that there are.
         known: Vec<usize>,
     },
+    /// Lines are drawn on the body without its displacement.
+    #[error(
+        "--scale {0} moves the body away from its lines, which are drawn where it is without load; leave it out"
+    )]
+    MovedLines(f64),
     /// A picture for each step is one of each result alone.
     #[error("{option} draws one result at a time, and there are {n_results}; name one of them")]
     SeveralResults {

@@ -120,6 +120,7 @@ impl<'a> Series<'a> {
         }
         let magnification = match request.magnification {
             Magnification::Times(factor) => Some(factor),
+            Magnification::Auto if request.has_lines() => Some(0.0),
             Magnification::Auto if subject.has_modes => None,
             Magnification::Auto => Some(common_scale_of(scales.into_iter())),
         };

@@ -1,5 +1,6 @@
 //! Bodies side by side at one scale, with titles above, the colour bar at the right and the legend below.
 
+use super::axes;
 use super::body::bounds;
 use super::colour_bar::ColourBar;
 use super::panel::{Frame, Panel, Scale};
@@ -61,6 +62,8 @@ pub(super) struct Strip<'a> {
     pub(super) columns: Option<usize>,
     /// Words for the file.
     pub(super) title: String,
+    /// Whether axes in mm stand at the left of and below each body.
+    pub(super) has_axes: bool,
     /// Room for the other pictures of a series, if it is one.
     pub(super) room: Option<&'a Room>,
 }
@@ -156,10 +159,12 @@ impl Strip<'_> {
         let row_gaps = MARGIN * (rows - 1.0);
         let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
         let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
-        let scale = (widest_cell / body[0]).min(tallest_cell / body[1]);
+        let axes = axes::room(self.has_axes);
+        let scale = ((widest_cell - axes[0]).max(1.0) / body[0])
+            .min((tallest_cell - axes[1]).max(1.0) / body[1]);
         // Bodies that do not fill the width stand together in its middle.
-        let cell_width = widest_cell.min((body[0] * scale).max(widest(&roomy)));
-        let cell = [cell_width, body[1] * scale];
+        let cell_width = widest_cell.min((body[0] * scale + axes[0]).max(widest(&roomy)));
+        let cell = [cell_width, body[1] * scale + axes[1]];
         let bodies = [
             cell[0] * columns as f64 + gaps,
             (title_height + cell[1]) * rows + row_gaps,
@@ -193,9 +198,10 @@ impl Strip<'_> {
             return;
         };
         let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
+        let axes = axes::room(self.has_axes);
         let at = [
-            x + 0.5 * (cell[0] - own[0]),
-            y + layout.title_height + 0.5 * (cell[1] - own[1]),
+            x + axes[0] + 0.5 * (cell[0] - axes[0] - own[0]),
+            y + layout.title_height + 0.5 * (cell[1] - axes[1] - own[1]),
         ];
         let frame = Frame {
             low,
@@ -203,6 +209,9 @@ impl Strip<'_> {
             at,
             scale,
         };
+        if self.has_axes {
+            axes::draw(document, frame);
+        }
         if self.window.is_none() {
             panel.draw(document, frame, self.scale);
             return;
