@@ -15,7 +15,7 @@ const TICK: f64 = 3.0;
 const SIZE: f64 = 8.0;
 
 /// Most intervals between the ticks of an axis.
-const MOST: f64 = 5.0;
+const MOST: f64 = 6.0;
 
 const COLOUR: &str = "#404040";
 

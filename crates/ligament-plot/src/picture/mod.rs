@@ -18,6 +18,7 @@ mod joined;
 mod levels;
 mod lines;
 pub mod maps;
+mod of_run;
 mod panel;
 mod request;
 pub mod select;
@@ -35,6 +36,7 @@ use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
 pub use fields::draw_fields;
+pub use of_run::{asks_for_pictures, draw_run};
 pub use request::{CrackDrawing, FieldRequest, Magnification};
 pub use series::{animate, draw_each};
 pub use target::{Format, Target};

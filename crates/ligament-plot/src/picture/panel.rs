@@ -15,6 +15,9 @@ use super::svg::{Document, Paint, PathData};
 /// Colour of a body without a field, and of what has no value.
 const BARE: &str = "#dcdcdc";
 
+/// Colour of a body without a field below lines.
+const LIGHT: &str = "#f4f4f4";
+
 /// Colour of outlines.
 const OUTLINE: &str = "#404040";
 
@@ -135,13 +138,21 @@ impl Panel {
         }
     }
 
+    /// Colour of what has no value.
+    fn bare(&self) -> &'static str {
+        match self.field.is_none() && !self.lines.is_empty() {
+            true => LIGHT,
+            false => BARE,
+        }
+    }
+
     /// Contours of values at the points, each region over the one of the level below.
     fn draw_surface(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
         let triangles = || self.body.cells.iter().flat_map(halves_of);
         let reference = &self.body.reference;
         let whole = Surface::new(triangles(), reference, |_| true);
         let outline = path_of(whole.outlines(&self.positions), frame);
-        document.path(&outline, fill(BARE));
+        document.path(&outline, fill(self.bare()));
         if let Some((field, Scale { levels, colours })) = field {
             let values = &field.values;
             let surface = Surface::new(triangles(), reference, |node| {
@@ -183,7 +194,7 @@ impl Panel {
         draw(
             None,
             Paint {
-                fill: Some(BARE),
+                fill: Some(self.bare()),
                 stroke,
             },
         );

@@ -15,6 +15,9 @@ const LINE: f64 = 12.0;
 /// Room at the rim and between bodies, pixels.
 const MARGIN: f64 = 6.0;
 
+/// What is seen around a body where lines that lead out of it are cut off, pixels.
+const RIM: f64 = 0.5;
+
 /// Largest height over width of a picture.
 const TALLEST: f64 = 1.25;
 
@@ -212,14 +215,19 @@ impl Strip<'_> {
         if self.has_axes {
             axes::draw(document, frame);
         }
-        if self.window.is_none() {
+        if self.window.is_none() && !self.has_axes {
             panel.draw(document, frame, self.scale);
             return;
         }
-        document.begin_window(&format!("window-{place}"), at, own);
+        // Outlines at the rim keep their width.
+        let rim = if self.window.is_none() { RIM } else { 0.0 };
+        let (from, size) = (at.map(|it| it - rim), own.map(|it| it + 2.0 * rim));
+        document.begin_window(&format!("window-{place}"), from, size);
         panel.draw(document, frame, self.scale);
         document.end_window();
-        document.frame(at, own);
+        if self.window.is_some() {
+            document.frame(at, own);
+        }
     }
 
     fn columns_for(&self, [width, height]: [f64; 2]) -> usize {
