@@ -243,6 +243,12 @@ fn other_elements_and_loads_go_on_to_the_same_bits() {
         "fracture.stop={ bonds = 60 }",
     ];
     assert_resumes("under a force", &plate(&forced), 4);
+    let closing = [
+        "model.closing=true",
+        "load.0.displacement.y=4e-5",
+        "fracture={ steps = [0.5, 0.8, 1.0, 0.5, 0.0, -0.1, -0.5, 0.2, 1.0, -0.2] }",
+    ];
+    assert_resumes("with faces that close", &plate(&closing), 4);
 }
 
 /// Laws of bonds with a direction of the material, bars with conical weights, and beams: with load steps and along the exact path.

@@ -203,7 +203,12 @@ impl<'a> Recorder<'a> {
         fields_of.reals("damage", fields::damage(system, &state.intact));
         fields_of.reals(
             "strain_energy_density",
-            fields::strain_energy_density(system, state.bonds(), &balanced.deformations),
+            fields::strain_energy_density(
+                system,
+                state.bonds(),
+                &balanced.deformations,
+                &balanced.closed,
+            ),
         );
         fields_of.components(
             "reaction",

@@ -8,6 +8,7 @@ use ligament_analysis::driver::{Outcome, Problem, StopRules, event, stepped};
 use ligament_analysis::load_program::{Control, ControlKind, ProportionalLoading};
 use ligament_analysis::unknowns::Component;
 use ligament_analysis::{Layout, SolverSettings};
+use ligament_model::contact::Faces;
 use ligament_model::element::Rigidities;
 use ligament_model::element::pair::Pairs;
 use ligament_model::failure::{Criteria, Criterion, Measure};
@@ -115,6 +116,7 @@ impl Truss {
                 },
                 kinematics: Kinematics::Beam(Pairs::default()),
                 series: Vec::new(),
+                faces: Faces::default(),
                 cloud,
                 bonds,
             },

@@ -1,5 +1,6 @@
 //! States in equilibrium, and why there is none.
 
+use ligament_model::contact::ClosedPair;
 use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
@@ -46,6 +47,8 @@ pub struct Balanced {
     pub negative_energy: Option<f64>,
     /// Points of degrees of freedom that turned out to be mechanisms and are held from now on.
     pub mechanisms: Vec<u32>,
+    /// Pairs across cracks that are closed, in the order of their numbers; none where faces do not close.
+    pub closed: Vec<ClosedPair>,
 }
 
 impl Balanced {
@@ -64,6 +67,12 @@ impl Balanced {
             energy_floor: factor * factor * self.energy_floor,
             iterations: 0,
             mechanisms: Vec::new(),
+            closed: (self.closed.iter())
+                .map(|it| ClosedPair {
+                    gap: factor * it.gap,
+                    ..*it
+                })
+                .collect(),
             ..*self
         }
     }

@@ -1,5 +1,6 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
+mod active_set;
 mod anderson;
 mod equations;
 mod external;
@@ -14,6 +15,7 @@ use crate::balanced::{Attempt, Balanced, Stability};
 use crate::breakage::Breakage;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
+use crate::contact::Contact;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
@@ -32,6 +34,8 @@ pub(crate) use residual::ROUNDING;
 enum Iteration {
     /// Newton-Raphson, for bonds that are whole or broken.
     Newton,
+    /// Newton's method on the closed pairs, for bonds that are whole or broken and faces that close.
+    ActiveSet,
     /// Secants with mixing, for bonds that soften.
     Secants,
 }
@@ -54,7 +58,11 @@ impl Equilibrium {
         Ok(Self {
             equations: Equations::new(problem, energy_tolerance)?,
             connectivity: Connectivity::new(&*problem.system),
-            iteration: Iteration::Newton,
+            iteration: if problem.system.faces_close() {
+                Iteration::ActiveSet
+            } else {
+                Iteration::Newton
+            },
         })
     }
 
@@ -151,6 +159,7 @@ impl Equilibrium {
         let Equations {
             problem,
             stiffness,
+            contact,
             costs,
             ..
         } = &mut self.equations;
@@ -169,6 +178,7 @@ impl Equilibrium {
         for hold in &breakage.holds {
             state.held[hold.degree_of_freedom] = true;
         }
+        *contact = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
     }
@@ -188,6 +198,7 @@ impl Equilibrium {
         let equations = &mut self.equations;
         let attempt = match self.iteration {
             Iteration::Newton => newton::balance(equations, state, breakage, observer),
+            Iteration::ActiveSet => active_set::balance(equations, state, breakage, observer),
             Iteration::Secants => secant::balance(equations, state, breakage, observer),
         }?;
         let Attempt::Balanced(balanced) = &attempt else {

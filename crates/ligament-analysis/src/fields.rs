@@ -1,5 +1,6 @@
 //! Fields on the points, for output and probes.
 
+use ligament_model::contact::ClosedPair;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Weakened};
 use ligament_model::{Bonds, BondsLeft};
@@ -102,16 +103,23 @@ pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<
     })
 }
 
-/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, over its
-/// volume.
+/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, and half of that of its closed
+/// pairs, over its volume.
 pub fn strain_energy_density(
     system: &dyn Bonds,
     bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
+    closed: &[ClosedPair],
 ) -> Vec<f64> {
-    gather(system, |point| {
-        point_energy_density(system, bonds, deformations, point)
-    })
+    let mut densities = gather(system, |point| {
+        system.energy_density(bonds, deformations, point)
+    });
+    for it in closed {
+        for end in it.pair.ends.map(|end| end as usize) {
+            densities[end] += 0.5 * it.energy() / system.volumes()[end];
+        }
+    }
+    densities
 }
 
 /// Strain energy density of one point, see [`strain_energy_density`].
@@ -119,9 +127,16 @@ pub fn point_energy_density(
     system: &dyn Bonds,
     bonds: BondsLeft<'_>,
     deformations: &[BondDeformation],
+    closed: &[ClosedPair],
     point: u32,
 ) -> f64 {
-    system.energy_density(bonds, deformations, point)
+    let volume = system.volumes()[point as usize];
+    let of_point = closed.iter().filter(|it| it.pair.ends.contains(&point));
+    let of_contact = of_point.map(|it| 0.5 * it.energy() / volume);
+    of_contact.fold(
+        system.energy_density(bonds, deformations, point),
+        |sum, it| sum + it,
+    )
 }
 
 fn gather(system: &dyn Bonds, value: impl Fn(u32) -> f64) -> Vec<f64> {

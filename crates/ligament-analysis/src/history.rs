@@ -53,6 +53,8 @@ pub struct StepRecord {
     pub at_rest: bool,
     /// Negative eigenvalues of the stiffness; 0 where it is positive definite.
     pub negative_eigenvalues: usize,
+    /// Pairs of points across cracks that carry pressure; 0 where faces do not close.
+    pub closed_pairs: usize,
     /// Forces that each group of the boundary exerts on the body, and the moments on its points, as far as points turn, shape
     /// (n_groups, n_components).
     pub group_forces: Vec<Vec<f64>>,
@@ -78,6 +80,7 @@ serial!(StepRecord {
     fragments,
     at_rest,
     negative_eigenvalues,
+    closed_pairs,
     group_forces,
     probes,
 });
@@ -128,6 +131,19 @@ pub struct BreakRecord {
     /// Deformation of the bond then.
     pub deformation: BondDeformation,
 }
+
+/// The faces that passed through each other farthest in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestOverlap {
+    /// How far, m.
+    pub depth: f64,
+    /// Points on either side.
+    pub ends: [u32; 2],
+    /// Load step, or event.
+    pub step: usize,
+}
+
+serial!(LargestOverlap { depth, ends, step });
 
 /// Something that a user should know.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -190,6 +206,12 @@ pub enum Notice {
         /// Expected ones.
         expected: usize,
     },
+    /// Faces of cracks pass through each other.
+    #[error(
+        "step {}: the faces of a crack pass through each other, by {:.2e} m between points {} and {}, and nothing keeps them from \
+         it; `closing = true` in [model] lets them carry pressure", .0.step, .0.depth, .0.ends[0], .0.ends[1]
+    )]
+    Overlap(LargestOverlap),
     /// The loads move the body as a whole.
     #[error(
         "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding; hold a \

@@ -12,6 +12,7 @@ pub mod breakage;
 pub mod breaking;
 pub mod checkpoint;
 pub mod connectivity;
+mod contact;
 pub mod costs;
 pub mod dissection;
 pub mod driver;

@@ -4,6 +4,7 @@ use ligament_model::Bonds;
 use ligament_model::failure::{Criteria, Weakened};
 
 use crate::balanced::Balanced;
+use crate::contact;
 use crate::fields;
 use crate::state::State;
 use crate::unknowns::Component;
@@ -37,7 +38,8 @@ pub enum Reading {
     /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N. Only bonds of two points
     /// count.
     SectionForce {
-        /// Bonds that cross the line, and whether their first end lies on the left.
+        /// Bonds that cross the line, ascending, and whether their first end lies on the left; bonds that pre-cracks cut are numbered on
+        /// from the others.
         bonds: Vec<(u32, bool)>,
         /// Component: x or y.
         component: Component,
@@ -95,19 +97,29 @@ impl Reading {
                 PointField::Motion(component) => motion(*point, *component),
                 PointField::Stress(component) => {
                     let deformations = &balanced.deformations;
-                    let stress = system.stress(state.bonds(), deformations, *point);
+                    let mut stress = system.stress(state.bonds(), deformations, *point);
+                    contact::add_virial(system, &balanced.closed, *point, &mut stress);
                     stress[*component as usize]
                 }
                 PointField::StrainEnergyDensity => fields::point_energy_density(
                     system,
                     state.bonds(),
                     &balanced.deformations,
+                    &balanced.closed,
                     *point,
                 ),
             },
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
-                system.force_through(state.bonds(), deformations, bonds, *component)
+                // Beyond the bonds stand those that pre-cracks cut.
+                let n_bonds = system.ends().len();
+                let of_bonds = bonds.partition_point(|(bond, _)| (*bond as usize) < n_bonds);
+                let crossing = &bonds[..of_bonds];
+                let force = system.force_through(state.bonds(), deformations, crossing, *component);
+                if balanced.closed.is_empty() {
+                    return force;
+                }
+                force + contact::force_through(&balanced.closed, bonds, *component)
             }
         }
     }

@@ -11,6 +11,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::state::State;
+use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
 
 /// A solver of K du = f with the tangent stiffness K of a state.
@@ -30,6 +31,9 @@ pub(crate) trait TangentSolver {
 
     /// Takes in how far bonds have softened.
     fn weaken(&mut self, state: &State, costs: &mut Costs);
+
+    /// Takes in which pairs across cracks are closed; none are where faces do not close.
+    fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs);
 
     /// Gets ready to solve for a state; gives the unknowns that nothing holds, by their vanishing pivots. Those must be held in
     /// the state, and the solver made ready again.

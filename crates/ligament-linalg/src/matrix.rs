@@ -96,6 +96,19 @@ impl SymmetricMatrix {
         self.values[self.pattern.column_starts[index + 1] - 1]
     }
 
+    /// Adds weight g g^T, with the entries of g by row; those that the pattern has no place for are left out.
+    pub fn add_outer(&mut self, weight: f64, entries: &[(usize, f64)]) {
+        for &(column, one) in entries {
+            let start = self.pattern.column_starts[column];
+            let rows = &self.pattern.rows[start..self.pattern.column_starts[column + 1]];
+            for &(row, other) in entries.iter().filter(|(row, _)| *row <= column) {
+                if let Ok(place) = rows.binary_search(&row) {
+                    self.values[start + place] += weight * one * other;
+                }
+            }
+        }
+    }
+
     /// Adds a diagonal matrix (n), `factor` times.
     pub fn add_diagonal(&mut self, factor: f64, diagonal: &[f64]) {
         let ends = &self.pattern.column_starts[1..];

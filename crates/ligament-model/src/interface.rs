@@ -4,6 +4,7 @@
 
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
+use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::element::{BondDeformation, Remaining, Term};
 use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
@@ -178,6 +179,31 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64;
+
+    /// Whether faces of cracks carry pressure where they close.
+    fn faces_close(&self) -> bool;
+
+    /// The pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken, in the order of their numbers.
+    fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair>;
+
+    /// The pair across a crack whose faces have passed through each other farthest, beyond a depth (m), of the points that are
+    /// asked for (n_points); for displacements (n_degrees_of_freedom), and none where faces close.
+    fn overlap(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        beyond: f64,
+        asked: &[bool],
+    ) -> Option<Overlap>;
+
+    /// Adds the stresses of closed pairs to the stresses of every point in a reading.
+    fn add_contact_stresses(
+        &self,
+        reading: StressReading,
+        closed: &[ClosedPair],
+        stresses: &mut Stresses,
+    );
 
     /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
     /// the bond never gets there.

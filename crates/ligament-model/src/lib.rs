@@ -20,6 +20,7 @@
 pub mod bonds;
 pub mod change;
 pub mod cloud;
+pub mod contact;
 pub mod correction;
 pub mod crack;
 mod curve;

@@ -1,11 +1,13 @@
 //! The bond system: everything the equations are made of.
 
 mod answers;
+mod contact;
 
 use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::contact::Faces;
 use crate::element::beam::BeamBond;
 use crate::element::imaginary::{ImaginaryElements, StrainStiffness};
 use crate::element::pair::Pairs;
@@ -30,6 +32,8 @@ pub struct BondSystem {
     pub kinematics: Kinematics,
     /// Factors of the rigidities of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
     pub series: Vec<f64>,
+    /// Faces of the cracks.
+    pub faces: Faces,
 }
 
 /// The kinematics of the bonds of a body.
@@ -151,7 +155,13 @@ impl BondSystem {
             series,
             bonds,
             cloud,
+            faces: Faces::default(),
         }
+    }
+
+    /// The system with faces of cracks.
+    pub fn with_faces(self, faces: Faces) -> Self {
+        Self { faces, ..self }
     }
 }
 

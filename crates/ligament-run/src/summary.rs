@@ -65,6 +65,9 @@ pub struct Summary {
     pub last_state_not_at_rest: bool,
     /// Largest |external work - stored - released energy| over the largest external work.
     pub energy_balance_error: f64,
+    /// Faces of cracks that passed through each other farthest, where they did so farther than results bear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<OverlapSummary>,
     /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.
@@ -116,6 +119,17 @@ fn write_units<S: Serializer>(units: &Units, serializer: S) -> Result<S::Ok, S::
     map.serialize_entry("displacement", units.displacement)?;
     map.serialize_entry("force", units.force)?;
     map.end()
+}
+
+/// Faces of cracks that passed through each other.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverlapSummary {
+    /// How far, m.
+    pub depth: f64,
+    /// Load step, or event.
+    pub step: usize,
+    /// The nodes or cells on either side, and where they are.
+    pub between: [String; 2],
 }
 
 /// Inertia of the intact stiffness.
@@ -188,6 +202,11 @@ impl Summary {
             without_equilibrium,
             last_state_not_at_rest: history.last().is_some_and(|last| !last.at_rest),
             energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
+            overlap: outcome.overlap.map(|it| OverlapSummary {
+                depth: it.depth,
+                step: it.step,
+                between: it.ends.map(|end| model.body().place(end)),
+            }),
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
             provenance,

@@ -6,7 +6,7 @@ use ligament::setup::Analysis;
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
 use ligament_analysis::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_output::results::ResultWriter;
 
@@ -91,6 +91,13 @@ impl<'a> Watch<'a> {
                     points.len(),
                     self.body.tagged(),
                     tags.join(", ")
+                )
+            }
+            Notice::Overlap(LargestOverlap { depth, ends, step }) => {
+                let [a, b] = ends.map(|end| self.body.label(end));
+                format!(
+                    "step {step}: the faces of a crack pass through each other, by {depth:.2e} m between {a} and {b}, and nothing \
+                     keeps them from it; `closing = true` in [model] lets them carry pressure"
                 )
             }
             Notice::Unstable { .. }

@@ -45,6 +45,7 @@
 pub mod body;
 pub mod direction;
 pub mod error;
+mod faces;
 pub mod formulation;
 pub mod loading;
 pub mod model;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
+use ligament_model::contact::Faces;
 use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::{
@@ -13,6 +14,7 @@ use ligament_model::{
 
 use crate::body::Body;
 use crate::error::SetupError;
+use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::setup::{CorrectionDomain, Setup};
@@ -50,7 +52,7 @@ impl Model {
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
-        let (bonds, mut absent) = stage(watcher, "bonds", || {
+        let (bonds, absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
@@ -62,13 +64,13 @@ impl Model {
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
         });
-        absent.extend(absent_bonds(&bonds, &is_cut, Absence::PreCrack));
-        absent.sort_unstable_by_key(|it| it.ends);
+        let absent = with_cut(absent, &bonds, &is_cut);
         let Corrected {
             bonds,
             stiffness,
             correction,
             energy_ratios,
+            faces,
         } = stage(watcher, "correction", || {
             let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
@@ -89,7 +91,7 @@ impl Model {
             absent,
         };
         let system = stage(watcher, "rigidities", || {
-            bond_system(&setup, cloud, bonds, stiffness, &correction)
+            bond_system(&setup, cloud, bonds, stiffness, &correction, faces)
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
@@ -169,12 +171,13 @@ fn bond_system(
     bonds: BondSet,
     stiffness: BondStiffness,
     correction: &Correction,
+    faces: Faces,
 ) -> Result<BondSystem, SetupError> {
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_numbers(&*setup.body, &system)?;
-    Ok(system)
+    Ok(system.with_faces(faces))
 }
 
 /// The bonds inside the body, and those that its voids part.
@@ -193,6 +196,13 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
     let absent = absent_bonds(&bonds, &crosses, Absence::Void);
     (bonds.retained(&keep), absent)
+}
+
+/// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.
+fn with_cut(mut absent: Vec<AbsentBond>, bonds: &BondSet, is_cut: &[bool]) -> Vec<AbsentBond> {
+    absent.extend(absent_bonds(bonds, is_cut, Absence::PreCrack));
+    absent.sort_unstable_by_key(|it| it.ends);
+    absent
 }
 
 /// The bonds for which `is_absent` (n_bonds) is true, as what is none.
@@ -214,6 +224,7 @@ struct Corrected {
     stiffness: BondStiffness,
     correction: Correction,
     energy_ratios: [Vec<f64>; 4],
+    faces: Faces,
 }
 
 /// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
@@ -223,11 +234,39 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     let any_is_cut = is_cut.contains(&true);
     let cut_first = setup.correction.domain == CorrectionDomain::Cracked;
-    let bonds = if cut_first && any_is_cut {
-        bonds.retained(&survives)
-    } else {
-        bonds
-    };
+    let numbered = bonds.ends.iter().zip(is_cut);
+    let cut: Vec<[u32; 2]> = (numbered.filter(|(_, is_cut)| **is_cut))
+        .map(|(ends, _)| *ends)
+        .collect();
+    let corrected = of_bonds(
+        formulation,
+        if cut_first && any_is_cut {
+            bonds.retained(&survives)
+        } else {
+            bonds
+        },
+    );
+    if cut_first || !any_is_cut {
+        let faces = faces::faces(setup, cloud, &corrected.bonds, &cut, None);
+        return Corrected { faces, ..corrected };
+    }
+    let rigidities = setup.closing.then(|| {
+        let (bonds, stiffness) = (&corrected.bonds, &corrected.stiffness);
+        faces::rigidities(formulation, bonds, stiffness, &corrected.correction, is_cut)
+    });
+    let bonds = corrected.bonds.retained(&survives);
+    Corrected {
+        faces: faces::faces(setup, cloud, &bonds, &cut, rigidities.as_ref()),
+        bonds,
+        stiffness: corrected.stiffness.retained(&survives),
+        correction: corrected.correction.retained(&survives),
+        energy_ratios: corrected.energy_ratios,
+    }
+}
+
+/// Some bonds with their stiffness and correction, and no faces.
+fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
+    let Formulation { setup, cloud, .. } = *formulation;
     let alpha = formulation.alpha(&bonds);
     let stiffness = formulation.stiffness(&bonds, &alpha);
     let correction = formulation.correction(&bonds, &stiffness, alpha);
@@ -238,20 +277,12 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
         plane,
     };
     let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
-    let corrected = Corrected {
+    Corrected {
         bonds,
         stiffness,
         correction,
         energy_ratios,
-    };
-    if cut_first || !any_is_cut {
-        return corrected;
-    }
-    Corrected {
-        bonds: corrected.bonds.retained(&survives),
-        stiffness: corrected.stiffness.retained(&survives),
-        correction: corrected.correction.retained(&survives),
-        energy_ratios: corrected.energy_ratios,
+        faces: Faces::default(),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::balanced::Balanced;
 use crate::checkpoint::CheckpointError;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
-use crate::history::StepRecord;
+use crate::history::{LargestOverlap, StepRecord};
 use crate::problem::Problem;
 use crate::serial;
 use crate::serial::{Damaged, Serial};
@@ -22,6 +22,8 @@ pub(super) struct Course {
     /// Solves up to the last equilibrium, and up to the last record.
     pub(super) solves: [usize; 2],
     pub(super) negative_eigenvalues: usize,
+    /// Faces of cracks that passed through each other farthest.
+    pub(super) overlap: Option<LargestOverlap>,
 }
 
 serial!(Course {
@@ -32,6 +34,7 @@ serial!(Course {
     energy_was_negative,
     solves,
     negative_eigenvalues,
+    overlap,
 });
 
 /// How far a driver is.

@@ -292,14 +292,15 @@ impl Following<'_> {
         let factor = load_factor / state.load_factor;
         state.load_factor = load_factor;
         let fragments = self.path.equilibrium.fragments();
-        // A temperature strains all parts.
+        // A temperature strains all parts, and where faces close any part may press on another.
+        let faces_close = self.path.problem.system.faces_close();
         let is_heated = !self
             .path
             .problem
             .loads
             .thermal_strain(load_factor)
             .is_none();
-        let mut is_loaded = vec![is_heated; fragments.points.len()];
+        let mut is_loaded = vec![is_heated || faces_close; fragments.points.len()];
         let layout = self.path.problem.system.layout();
         for &dof in &self.loaded {
             let point = layout.point(dof as usize);

@@ -5,6 +5,7 @@ mod dissipation;
 pub mod elastic;
 pub mod event;
 mod outcome;
+mod overlap;
 mod path;
 mod recorder;
 mod start;

@@ -2,7 +2,7 @@
 
 use crate::balanced::Stability;
 use crate::costs::Costs;
-use crate::history::{StepRecord, Termination};
+use crate::history::{LargestOverlap, StepRecord, Termination};
 use crate::serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
@@ -22,6 +22,8 @@ pub struct Outcome {
     pub elastic_stiffness: f64,
     /// Where the first bond breaks, if the loading gets there.
     pub first_break: Option<LoadPoint>,
+    /// Faces of cracks that passed through each other farthest, if they did so farther than results bear.
+    pub overlap: Option<LargestOverlap>,
     /// Inertia of the intact stiffness, where it may be indefinite.
     pub stability: Option<Stability>,
     /// What the equations cost.

@@ -11,6 +11,7 @@ use ligament_model::failure::Criteria;
 use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
+use super::overlap;
 use super::recorder::{Energies, StepCounters, step_record};
 use super::start::{Start, begin, report_loose, report_mechanisms};
 use crate::balanced::{Attempt, Balanced};
@@ -19,7 +20,8 @@ use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
+    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord,
+    Termination, View,
 };
 use crate::load_program::ControlKind;
 use crate::problem::Problem;
@@ -107,6 +109,7 @@ impl<'a> Path<'a> {
                 energy_was_negative: false,
                 solves,
                 negative_eigenvalues: 0,
+                overlap: None,
             },
             collapsed: false,
             stop,
@@ -117,7 +120,9 @@ impl<'a> Path<'a> {
 
     /// Refuses loads that deform nothing; `at_one` is the equilibrium at load factor one, if there is one.
     pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
-        if at_one.is_some() && self.course.elastic.stiffness.is_nan() {
+        // Parts that the full load pulls off each other may be pressed by a part of it.
+        let may_press = self.problem.system.faces_close();
+        if at_one.is_some() && self.course.elastic.stiffness.is_nan() && !may_press {
             return Err(SetupError::NothingResists);
         }
         Ok(())
@@ -236,6 +241,7 @@ impl<'a> Path<'a> {
         self.energies.add_work(self.problem, &self.state, balanced);
         self.energies
             .add_released(self.problem, &self.state, breakage, balanced);
+        (self.energies).add_contact(self.problem, &self.state, breakage, balanced);
         dissipation::soften(self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
@@ -275,7 +281,9 @@ impl<'a> Path<'a> {
             dissipation::break_bond(self.problem, &mut self.state, record);
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
-        self.collapsed |= self.load_came_loose(&breakage.holds);
+        // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
+        let may_press = self.problem.system.faces_close();
+        self.collapsed |= !may_press && self.load_came_loose(&breakage.holds);
         let fragments = self.equilibrium.fragments();
         report_loose(step, fragments, &breakage.holds, self.observer)?;
         Ok(breakage)
@@ -346,7 +354,10 @@ impl<'a> Path<'a> {
             return Some(Termination::DisplacementReached { displacement });
         }
         let carried = self.carried_by_the_damaged(balanced)?;
-        (carried <= NO_LOAD * self.course.peak).then_some(Termination::FellApart)
+        // What fell apart carries again where its faces close.
+        let is_over = !self.problem.system.faces_close();
+        let carries_nothing = carried <= NO_LOAD * self.course.peak;
+        (is_over && carries_nothing).then_some(Termination::FellApart)
     }
 
     /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
@@ -398,6 +409,7 @@ impl<'a> Path<'a> {
             counters,
         );
         self.course.peak = self.course.peak.max(record.reaction);
+        self.report_overlap(record.step)?;
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
             system: &*self.problem.system,
@@ -412,6 +424,26 @@ impl<'a> Path<'a> {
         self.observer.step(&record, &view)?;
         self.report_energies(&record)?;
         self.course.history.push(record);
+        Ok(())
+    }
+
+    /// Tells of the first record in which faces of cracks pass through each other, and keeps the largest overlap.
+    fn report_overlap(&mut self, step: usize) -> Result<(), ObserverError> {
+        let fragments = self.equilibrium.fragments();
+        let Some(overlap) = overlap::largest(self.problem, &self.state, fragments) else {
+            return Ok(());
+        };
+        let now = LargestOverlap {
+            depth: overlap.depth,
+            ends: overlap.ends,
+            step,
+        };
+        match self.course.overlap {
+            None => self.observer.notice(&Notice::Overlap(now))?,
+            Some(before) if before.depth >= now.depth => return Ok(()),
+            Some(_) => {}
+        }
+        self.course.overlap = Some(now);
         Ok(())
     }
 
@@ -446,6 +478,7 @@ impl<'a> Path<'a> {
             termination,
             elastic_stiffness: self.course.elastic.stiffness,
             first_break: self.course.elastic.first_break,
+            overlap: self.course.overlap,
             stability: self.course.elastic.stability,
             costs: *self.equilibrium.costs(),
             solver: *self.equilibrium.choice(),

@@ -8,6 +8,7 @@ use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
+use crate::contact::ContactEnergy;
 use crate::history::StepRecord;
 use crate::problem::Problem;
 use crate::serial;
@@ -37,6 +38,8 @@ pub(super) struct Energies {
     thermal: (f64, f64),
     /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
     last: Vec<(BondDeformation, Remaining)>,
+    /// Pairs across cracks that were closed in the last state; none where faces do not close.
+    contact: ContactEnergy,
 }
 
 /// Force and displacement of a degree of freedom in the last state.
@@ -62,6 +65,7 @@ impl Energies {
             thermal,
             loaded: _,
             last: _,
+            contact: _,
         } = self;
         external_work.write(out);
         released.write(out);
@@ -89,6 +93,7 @@ impl Energies {
             return Err(CheckpointError::OtherModel);
         }
         energies.keep(state, balanced);
+        energies.contact.keep(state, balanced);
         Ok(energies)
     }
 
@@ -101,6 +106,7 @@ impl Energies {
             largest_work: 0.0,
             thermal: (0.0, 0.0),
             last: Vec::new(),
+            contact: ContactEnergy::of_unloaded(&*problem.system),
             last_loaded: vec![Loaded::default(); loaded.len()],
             loaded,
         }
@@ -152,6 +158,24 @@ impl Energies {
             }
         }
         self.keep(state, balanced);
+    }
+
+    /// Takes in which pairs across cracks opened and closed since the last state: at a fixed load, after a breakage, that releases
+    /// energy; on the way from one load to another it is what the trapezoidal rule misses of the work.
+    pub(super) fn add_contact(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        breakage: &Breakage,
+        balanced: &Balanced,
+    ) {
+        let expansion = |load_factor| problem.loads.thermal_strain(load_factor);
+        let change = self.contact.follow(state, balanced, &expansion);
+        if breakage.bonds.is_empty() {
+            self.external_work -= change;
+        } else {
+            self.released += change;
+        }
     }
 
     /// Keeps deformations and what is left of the bonds.
@@ -216,6 +240,7 @@ pub(super) fn step_record(
         fragments: fragments.points.len(),
         at_rest: counters.at_rest,
         negative_eigenvalues: counters.negative_eigenvalues,
+        closed_pairs: balanced.closed.len(),
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: problem
             .probes

@@ -4,12 +4,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::FactorKind;
+use ligament_model::contact::ClosedPair;
 use ligament_model::element::BondDeformation;
 
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::contact::{self, Contact};
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::internal::{BondSweep, InternalForces};
@@ -40,6 +42,9 @@ pub(super) struct Iterate {
     pub(super) residual: Residual,
     pub(super) extents: Extents,
     negative_energy: Option<f64>,
+    /// Gaps of the pairs across cracks, shape (n_pairs), m.
+    pub(super) gaps: Vec<f64>,
+    pub(super) closed: Vec<ClosedPair>,
 }
 
 impl Iterate {
@@ -54,6 +59,7 @@ impl Iterate {
             iterations,
             negative_energy: self.negative_energy,
             mechanisms,
+            closed: self.closed,
         }
     }
 }
@@ -72,6 +78,8 @@ pub(super) struct Equations {
     pub(super) largest_extents: Extents,
     /// Largest stiffness of a point against displacements, N/m.
     stiffest: f64,
+    /// Pairs across cracks, where faces close.
+    pub(super) contact: Contact,
     pub(super) costs: Costs,
 }
 
@@ -98,6 +106,7 @@ impl Equations {
             local_stiffness,
             loaded: loaded(&**loads),
             largest_extents: Extents::default(),
+            contact: Contact::default(),
             costs: Costs {
                 analysis: stiffness.analysis_time(),
                 ..Costs::default()
@@ -126,6 +135,7 @@ impl Equations {
             local_stiffness: _,
             loaded: _,
             stiffest: _,
+            contact: _,
         } = self;
         largest_extents.write(out);
         costs.write(out);
@@ -141,6 +151,7 @@ impl Equations {
         self.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
         self.solver.restore(from)?;
+        self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
         Ok(measured)
@@ -239,6 +250,7 @@ impl Equations {
         iterate: &Iterate,
         mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
+        self.solver.close(&iterate.closed, &mut self.costs);
         mechanisms.extend(self.prepare_solver(state)?);
         let force = self.out_of_balance(state, &iterate.internal);
         Ok(self.solver.solve(state, force, &mut self.costs))
@@ -268,11 +280,11 @@ impl Equations {
         deformations: Vec<BondDeformation>,
     ) -> Iterate {
         let start = Instant::now();
-        let swept = self.problem.system.forces(
-            state.bonds(),
-            deformations,
-            self.problem.loads.thermal_strain(state.load_factor),
-        );
+        let expansion = self.problem.loads.thermal_strain(state.load_factor);
+        let mut swept = (self.problem.system).forces(state.bonds(), deformations, expansion);
+        let gaps = self.contact.gaps(&state.displacement, expansion);
+        let closed = self.contact.closed(&gaps);
+        contact::add_to(&mut swept, &closed, self.layout(), expansion);
         let energy_of_motion = swept.energy_of_motion(state.load_factor);
         let BondSweep {
             deformations,
@@ -297,7 +309,16 @@ impl Equations {
             residual,
             extents,
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),
+            gaps,
+            closed,
         }
+    }
+
+    /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.
+    pub(super) fn slope(&self, state: &State, iterate: &Iterate, correction: &[f64]) -> f64 {
+        let force = self.out_of_balance(state, &iterate.internal);
+        let products = force.iter().zip(correction);
+        -products.map(|(force, step)| force * step).sum::<f64>()
     }
 
     /// F - K u at the unknowns (NHPD eq. 20), shape (n_unknowns).

@@ -3,6 +3,7 @@
 use super::equations::Equations;
 use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
+use crate::contact;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
@@ -39,6 +40,10 @@ pub(super) fn imbalance(
         if !state.held[dof as usize] {
             external[dof as usize] = given;
         }
+    }
+    // What other parts exert through closed faces is external to a part.
+    for (dof, force) in balanced.closed.iter().flat_map(contact::end_forces) {
+        external[dof] -= force;
     }
     let rounding = equations.rounding(state);
     let mut sums = vec![Sum::default(); n_components * fragments.points.len()];

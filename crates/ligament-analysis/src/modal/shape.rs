@@ -59,6 +59,7 @@ pub(super) fn mode(
             system,
             BondsLeft::whole(&intact),
             &deformations,
+            &[],
         ),
         shape,
     }

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, Factorisation, Inertia, SymmetricMatrix, VANISHING_PIVOT};
+use ligament_linalg::{
+    FactorError, Factorisation, Inertia, RankOne, SymmetricMatrix, VANISHING_PIVOT,
+};
+use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
 
 use super::TangentSolver;
@@ -11,12 +14,17 @@ use super::making::Making;
 use super::terms::{Coupled, due_bonds};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::contact;
 use crate::costs::Costs;
 use crate::serial::Serial;
 use crate::solver::{SolverChoice, Update};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use ligament_model::thermal::ThermalStrain;
+
+/// Share of its diagonal that a hold adds where faces close: enough to make a loose part definite, and so little that faces which
+/// close carry the part in one more iteration. What it adds stands in the tangent alone, never in the forces.
+const SOFT_HOLD: f64 = 1e-6;
 
 /// A direct solver for symmetric stiffnesses.
 pub(crate) struct DirectSolver {
@@ -28,6 +36,8 @@ pub(crate) struct DirectSolver {
     making: Making,
     /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
     remaining: Vec<Remaining>,
+    /// Pairs across cracks that are closed, in the factor if there is one.
+    closed: Vec<ClosedPair>,
     /// Elements that were lost or changed so far.
     n_changed: usize,
 }
@@ -41,6 +51,7 @@ impl DirectSolver {
             stale: None,
             making: Making::default(),
             remaining: Vec::new(),
+            closed: Vec::new(),
             n_changed: 0,
         }
     }
@@ -49,6 +60,58 @@ impl DirectSolver {
         Coupled {
             stiffness: &self.stiffness,
             cut_off: &self.making.held,
+            hold_share: self.hold_share(),
+        }
+    }
+
+    /// What a hold adds to the diagonal, as a share of it.
+    fn hold_share(&self) -> f64 {
+        if self.holds_give_way() {
+            SOFT_HOLD
+        } else {
+            1.0
+        }
+    }
+
+    /// Whether holds only keep the tangent definite, because faces that close may carry what they hold.
+    fn holds_give_way(&self) -> bool {
+        self.stiffness.system().faces_close()
+    }
+
+    /// How a factor of a state begins.
+    fn begun(&self, state: &State) -> Making {
+        if !self.holds_give_way() {
+            return Making::begun(state, state.held.clone(), Vec::new());
+        }
+        let cut_off = vec![false; state.held.len()];
+        let coupled = Coupled {
+            stiffness: &self.stiffness,
+            cut_off: &cut_off,
+            hold_share: self.hold_share(),
+        };
+        let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
+        let mut beside = coupled.of_holds(held);
+        beside.extend(coupled.of_contact(&self.closed, 1.0));
+        Making::begun(state, cut_off, beside)
+    }
+
+    /// Changes the factor in place by some terms; it is made anew where that fails.
+    fn change(
+        &mut self,
+        mut factor: Box<dyn Factorisation>,
+        terms: Vec<RankOne>,
+        costs: &mut Costs,
+    ) {
+        let start = Instant::now();
+        let changed = factor.change(&terms, &[]);
+        costs.change += start.elapsed();
+        costs.changes += 1;
+        match changed {
+            Ok(_) => {
+                self.making.changes.push(terms);
+                self.factor = Some(factor);
+            }
+            Err(_) => self.stale = Some(factor),
         }
     }
 
@@ -72,6 +135,9 @@ impl DirectSolver {
 
     /// Takes the rounding off a correction where the state is held.
     fn keep_held(&self, state: &State, correction: &mut [f64]) {
+        if self.holds_give_way() {
+            return;
+        }
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
         for (value, &dof) in correction.iter_mut().zip(dofs) {
             if state.held[dof as usize] {
@@ -133,23 +199,32 @@ impl TangentSolver for DirectSolver {
             return;
         }
         self.forget_unless_in_place(due.len());
-        let Some(mut factor) = self.factor.take() else {
+        let Some(factor) = self.factor.take() else {
             return;
         };
         let start = Instant::now();
         let mut in_factor = std::mem::take(&mut self.remaining);
         let terms = self.coupled().of_softening(&due, &mut in_factor, state);
         self.remaining = in_factor;
-        let changed = factor.change(&terms, &[]);
         costs.change += start.elapsed();
-        costs.changes += 1;
-        match changed {
-            Ok(_) => {
-                self.making.changes.push(terms);
-                self.factor = Some(factor);
-            }
-            Err(_) => self.stale = Some(factor),
+        self.change(factor, terms, costs);
+    }
+
+    fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs) {
+        let (opened, newly_closed) = contact::changes(&self.closed, closed);
+        self.closed = closed.to_vec();
+        let n_changes = opened.len() + newly_closed.len();
+        if self.factor.is_none() || n_changes == 0 {
+            return;
         }
+        self.forget_unless_in_place(n_changes);
+        let Some(factor) = self.factor.take() else {
+            return;
+        };
+        // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
+        let mut terms = self.coupled().of_contact(&newly_closed, 1.0);
+        terms.extend(self.coupled().of_contact(&opened, -1.0));
+        self.change(factor, terms, costs);
     }
 
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
@@ -157,7 +232,8 @@ impl TangentSolver for DirectSolver {
             return Ok(Vec::new());
         }
         let start = Instant::now();
-        let matrix = self.stiffness.assemble(state.bonds(), &state.held);
+        let making = self.begun(state);
+        let matrix = making.matrix(&self.stiffness);
         costs.assembly += start.elapsed();
         let start = Instant::now();
         let factor = match self.stale.take() {
@@ -178,7 +254,7 @@ impl TangentSolver for DirectSolver {
         };
         if vanishing.is_empty() {
             self.factor = factor.ok();
-            self.making = Making::begun(state);
+            self.making = making;
             self.remaining.clone_from(&state.softening.remaining);
         }
         Ok(vanishing)
@@ -220,6 +296,7 @@ impl TangentSolver for DirectSolver {
         if factor.is_some() {
             self.making.write(out);
             self.remaining.write(out);
+            self.closed.write(out);
         }
     }
 
@@ -230,6 +307,7 @@ impl TangentSolver for DirectSolver {
         };
         self.making = Serial::read(from)?;
         self.remaining = Serial::read(from)?;
+        self.closed = Serial::read(from)?;
         if !self.making.fits(&self.stiffness) {
             return Err(CheckpointError::OtherModel);
         }

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use ligament_linalg::{Factorisation, RankOne};
+use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
 use ligament_model::BondsLeft;
 use ligament_model::element::Remaining;
 
@@ -24,6 +24,8 @@ pub(super) struct Making {
     remaining: Vec<Remaining>,
     /// Degrees of freedom that were held, and so are cut off from the others, shape (n_degrees_of_freedom).
     pub(super) held: Vec<bool>,
+    /// Terms beside those of the bonds: of pairs that were closed, and of what was held without being cut off.
+    beside: Vec<RankOne>,
     /// Changes in place, in their order.
     pub(super) changes: Vec<Vec<RankOne>>,
 }
@@ -32,16 +34,18 @@ serial!(Making {
     intact,
     remaining,
     held,
+    beside,
     changes
 });
 
 impl Making {
-    /// The beginning of a factor of a state.
-    pub(super) fn begun(state: &State) -> Self {
+    /// The beginning of a factor of a state with the degrees of freedom that are cut off, and terms beside those of the bonds.
+    pub(super) fn begun(state: &State, held: Vec<bool>, beside: Vec<RankOne>) -> Self {
         Self {
             intact: state.intact.clone(),
             remaining: state.softening.remaining.clone(),
-            held: state.held.clone(),
+            held,
+            beside,
             changes: Vec::new(),
         }
     }
@@ -58,7 +62,8 @@ impl Making {
     pub(super) fn fits(&self, stiffness: &Stiffness) -> bool {
         let n_bonds = stiffness.system().ends().len();
         let n_unknowns = stiffness.unknowns().len();
-        let entries = self.changes.iter().flatten().flat_map(|it| &it.entries);
+        let terms = self.changes.iter().flatten().chain(&self.beside);
+        let entries = terms.flat_map(|it| &it.entries);
         self.intact.len() == n_bonds
             && (self.remaining.is_empty() || self.remaining.len() == n_bonds)
             && self.held.len() == stiffness.unknowns().layout().n_degrees_of_freedom()
@@ -67,9 +72,18 @@ impl Making {
                 .all(|(unknown, _)| *unknown < n_unknowns)
     }
 
+    /// The matrix that the factor was made of.
+    pub(super) fn matrix(&self, stiffness: &Stiffness) -> SymmetricMatrix {
+        let mut matrix = stiffness.assemble(self.bonds(), &self.held);
+        for term in &self.beside {
+            matrix.add_outer(term.weight, &term.entries);
+        }
+        matrix
+    }
+
     /// The factor that comes about so, with the same bits; none where there was none.
     pub(super) fn factor(&self, stiffness: &Arc<Stiffness>) -> Option<Box<dyn Factorisation>> {
-        let matrix = stiffness.assemble(self.bonds(), &self.held);
+        let matrix = self.matrix(stiffness);
         let kind = stiffness.choice().factorisation;
         let mut factor = kind.factorise(stiffness.symbolic(), &matrix).ok()?;
         for terms in &self.changes {

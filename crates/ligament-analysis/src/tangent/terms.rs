@@ -1,11 +1,12 @@
 //! Terms of rank one by which breakages, holds and softening change a factor.
 
 use ligament_linalg::RankOne;
+use ligament_model::contact::ClosedPair;
 use ligament_model::element::{Remaining, Term};
 use rayon::prelude::*;
 
 use crate::breakage::Breakage;
-use crate::connectivity::Hold;
+use crate::contact;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 
@@ -22,6 +23,8 @@ pub(super) struct Coupled<'a> {
     pub(super) stiffness: &'a Stiffness,
     /// Degrees of freedom that are cut off from the others, shape (n_degrees_of_freedom).
     pub(super) cut_off: &'a [bool],
+    /// What a hold adds to the diagonal, as a share of it.
+    pub(super) hold_share: f64,
 }
 
 impl Coupled<'_> {
@@ -33,7 +36,8 @@ impl Coupled<'_> {
 
     /// Terms of a breakage. What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
     pub(super) fn of_breakage(self, breakage: &Breakage) -> Vec<RankOne> {
-        let mut terms = self.of_holds(&breakage.holds);
+        let holds = breakage.holds.iter();
+        let mut terms = self.of_holds(holds.map(|hold| hold.degree_of_freedom));
         let gained = breakage.gained_terms();
         terms.extend(gained.filter_map(|term| self.at_unknowns(term, 1.0)));
         let lost = breakage.lost_terms();
@@ -63,15 +67,22 @@ impl Coupled<'_> {
     }
 
     /// What holds add to the matrix. They go in before bonds leave: no pivot vanishes in between.
-    fn of_holds(self, holds: &[Hold]) -> Vec<RankOne> {
-        let held = holds.iter().map(|hold| hold.degree_of_freedom);
+    pub(super) fn of_holds(self, held: impl Iterator<Item = usize>) -> Vec<RankOne> {
         let holds = held.filter_map(|dof| {
             let entries = vec![(self.number(dof)?, 1.0)];
             let diagonal = self.whole_diagonal(dof).abs();
-            let weight = if diagonal == 0.0 { 1.0 } else { diagonal };
+            let weight = self.hold_share * if diagonal == 0.0 { 1.0 } else { diagonal };
             Some(RankOne { weight, entries })
         });
         holds.collect()
+    }
+
+    /// Terms of pairs across cracks, `sign` times.
+    pub(super) fn of_contact(self, pairs: &[ClosedPair], sign: f64) -> Vec<RankOne> {
+        let terms = pairs.iter().map(|it| contact::term(&it.pair));
+        terms
+            .filter_map(|term| self.at_unknowns(term, sign))
+            .collect()
     }
 
     /// A term of an element times a factor, at the unknowns; none where it changes nothing.

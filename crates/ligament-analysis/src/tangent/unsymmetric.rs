@@ -13,6 +13,7 @@ use crate::costs::Costs;
 use crate::serial::Serial;
 use crate::state::State;
 use crate::stiffness::Stiffness;
+use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
 
 /// A direct solver for stiffnesses without symmetry, of bonds that do not break.
@@ -70,10 +71,13 @@ impl TangentSolver for UnsymmetricSolver {
         self.forget();
     }
 
+    /// Only bonds with an energy have faces that close.
+    fn close(&mut self, _: &[ClosedPair], _: &mut Costs) {}
+
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         if self.factor.is_none() {
             let start = Instant::now();
-            let making = Making::begun(state);
+            let making = Making::begun(state, state.held.clone(), Vec::new());
             let matrix = self.matrix(&making);
             costs.assembly += start.elapsed();
             let start = Instant::now();

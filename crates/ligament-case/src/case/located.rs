@@ -84,7 +84,7 @@ impl Case {
         let list = match field.name {
             "body" if self.mesh.is_some() => "mesh",
             "body" => "lattice",
-            "law" | "horizon" | "rotational_scale" => "model",
+            "law" | "horizon" | "rotational_scale" | "closing" => "model",
             "materials" => "material",
             "precracks" => "precrack",
             "supports" => "support",
@@ -99,6 +99,7 @@ impl Case {
         let Some(index) = field.index else {
             let part = match (field.name, field.part) {
                 ("law", None) => Some("law"),
+                ("closing", None) => Some("closing"),
                 ("rotational_scale", Some("length")) => Some("cosserat_length"),
                 ("rotational_scale", _) => Some("rotational_factor"),
                 (_, part) => part,

@@ -26,6 +26,9 @@ pub struct ModelSection {
     /// Whether bonds run through holes, slots and notches of a mesh, as if these were filled.
     #[serde(default)]
     pub bonds_through_voids: bool,
+    /// Whether the faces of cracks carry pressure again where they close; of laws whose points turn.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub closing: bool,
     /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
     pub calibration: Option<Word<Calibration>>,
     /// Stiffness against relative rotation; of `mppd` and `orthotropic`.

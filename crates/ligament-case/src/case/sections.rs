@@ -211,6 +211,7 @@ impl Case {
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
             precracks: each("precrack", &self.precracks, Precrack::setup)?,
+            closing: self.model.closing,
             no_fail: each("no_fail", &self.no_fail, Region::place)?,
             supports: each("support", &self.supports, Support::setup)?,
             loads: each("load", &self.loads, Load::setup)?,

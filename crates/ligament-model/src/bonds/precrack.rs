@@ -61,10 +61,54 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
         .collect()
 }
 
-/// The bonds that cross the straight line from `start` to `end` (mesh-file coordinates), by the rule of pre-cracks, and whether
-/// their first end lies on its left.
+/// Unit normals of pre-cracks where they cut some bonds, from the first end to the second, shape (n_cut): of the piece that the
+/// bond crosses, and where it crosses several of the one that it meets farthest from an end.
+pub fn normals(cracks: &[PreCrack], cut: &[[u32; 2]], cloud: &PointCloud) -> Vec<[f64; 2]> {
+    let in_cloud = |crack: &PreCrack| crack.in_local_coordinates(cloud);
+    let cracks: Vec<PreCrack> = cracks.iter().map(in_cloud).collect();
+    let of_bond = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|end| cloud.positions[end as usize]);
+        let pieces = cracks.iter().flat_map(|crack| crack.points.windows(2));
+        let crossings = pieces.map(|ends| Crossing::new([ends[0], ends[1]], [a, b]));
+        let best = crossings.reduce(|best, it| if it.depth > best.depth { it } else { best });
+        best.map_or([1.0, 0.0], |it| it.normal)
+    };
+    cut.par_iter().map(of_bond).collect()
+}
+
+/// A bond and a piece of a pre-crack.
+struct Crossing {
+    /// Unit normal of the piece, from the first end of the bond to the second.
+    normal: [f64; 2],
+    /// Distance from the nearer end of the piece, over its length, to where the line of the bond meets it; negative beyond them.
+    depth: f64,
+}
+
+impl Crossing {
+    fn new([p, q]: [[f64; 2]; 2], [a, b]: [[f64; 2]; 2]) -> Self {
+        let minus = |one: [f64; 2], other: [f64; 2]| [one[0] - other[0], one[1] - other[1]];
+        let cross = |one: [f64; 2], other: [f64; 2]| one[0] * other[1] - one[1] * other[0];
+        let (piece, bond) = (minus(q, p), minus(b, a));
+        let side = cross(piece, bond);
+        let length = piece[0].hypot(piece[1]);
+        let sign = if side < 0.0 { -1.0 } else { 1.0 };
+        let place = cross(minus(a, p), bond) / side;
+        let depth = place.min(1.0 - place);
+        Self {
+            normal: [-piece[1], piece[0]].map(|component| sign * component / length),
+            depth: if depth.is_nan() {
+                f64::NEG_INFINITY
+            } else {
+                depth
+            },
+        }
+    }
+}
+
+/// The bonds, by their ends, that cross the straight line from `start` to `end` (mesh-file coordinates), by the rule of pre-cracks,
+/// and whether their first end lies on its left.
 pub fn crossing_bonds(
-    bonds: &BondSet,
+    bonds: impl Iterator<Item = [u32; 2]>,
     cloud: &PointCloud,
     start: [f64; 2],
     end: [f64; 2],
@@ -76,7 +120,7 @@ pub fn crossing_bonds(
     .in_local_coordinates(cloud);
     let position = |point: u32| cloud.positions[point as usize];
     (0..)
-        .zip(&bonds.ends)
+        .zip(bonds)
         .filter(|(_, ends)| line.cuts(position(ends[0]), position(ends[1])))
         .map(|(bond, ends)| (bond, line.starts_on_the_left(position(ends[0]))))
         .collect()
@@ -249,6 +293,19 @@ mod tests {
         let (beside, above) = ([1.0 + 1e-10, -1.0], [1.0 + 1e-10, 1.0]);
         assert!(slot.meets(beside, above, 1e-9) && !slot.meets(beside, above, 1e-11));
         assert!(slot.meets([0.3, 1e-10], [0.3, 1.0], 1e-9));
+    }
+
+    #[test]
+    fn the_normal_is_that_of_the_piece_that_is_crossed() {
+        let bent = [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [1.0, 2.0]]];
+        let (a, b) = ([0.7, -0.2], [0.6, 0.3]);
+        let [flat, upright] = bent.map(|piece| Crossing::new(piece, [a, b]));
+        assert_eq!(flat.normal, [0.0, 1.0]);
+        assert!((flat.depth - 0.34).abs() < 1e-12, "{}", flat.depth);
+        assert!(upright.depth < 0.0);
+        assert_eq!(Crossing::new(bent[0], [b, a]).normal, [-0.0, -1.0]);
+        let along = Crossing::new(bent[0], [[0.2, 0.0], [0.4, 0.0]]);
+        assert_eq!(along.depth, f64::NEG_INFINITY);
     }
 
     #[test]

@@ -7,8 +7,9 @@ use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
 
 use crate::cloud::PointCloud;
+use crate::contact::ClosedPair;
 use crate::element::{BondDeformation, Element, Elements};
-use crate::system::{BondsLeft, Typed};
+use crate::system::{BondSystem, BondsLeft, Typed};
 
 /// Stresses of the planes with normal x (xx, yx) and with normal y (yy, xy), Pa; the first letter is the force's direction.
 pub type Tractions = [f64; 4];
@@ -51,9 +52,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
         normal: usize,
     ) -> Vec<[f64; 2]> {
         let system = self.system;
-        let cloud = &system.cloud;
-        let mut sums = vec![[0.0; 2]; cloud.len()];
-        let mut crossed: Vec<(usize, f64)> = Vec::new();
+        let mut planes = Planes::new(&system.cloud, squares, normal);
         for (bond, deformation) in deformations.iter().enumerate() {
             let Some(element) = self.left(bonds, bond) else {
                 continue;
@@ -62,29 +61,95 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
             let Some([at_a, _]) = element.end_forces(deformation) else {
                 continue;
             };
-            let [a, b] = system.bonds.ends[bond].map(|end| end as usize);
-            let band = Band {
-                ends: [cloud.positions[a], cloud.positions[b]],
-                width: 0.5 * (squares.width[a] + squares.width[b]),
-                normal,
-            };
-            for point in squares.within(band.reach(squares.largest_width)) {
-                let area = band.area_within(cloud.positions[point], squares.width[point]);
-                if area > 0.0 {
-                    crossed.push((point, area));
-                }
+            planes.share_out(system.bonds.ends[bond], [-at_a[0], -at_a[1]]);
+        }
+        planes.tractions()
+    }
+}
+
+impl BondSystem {
+    /// Adds the tractions of closed pairs to those of the bonds, shape (n_points, 4), Pa.
+    pub(crate) fn add_contact_tractions(&self, closed: &[ClosedPair], tractions: &mut [f64]) {
+        if closed.is_empty() {
+            return;
+        }
+        let squares = Squares::from_cloud(&self.cloud);
+        let on_planes = |normal| {
+            let mut planes = Planes::new(&self.cloud, &squares, normal);
+            for it in closed {
+                let force = it.pair.normal.map(|component| it.force() * component);
+                planes.share_out(it.pair.ends, force);
             }
-            let area: f64 = crossed.iter().map(|(_, area)| area).sum();
-            // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
-            let force = [-at_a[0], -at_a[1]].map(|component| component * band.extent());
-            for (point, part) in crossed.drain(..) {
-                for (sum, component) in sums[point].iter_mut().zip(force) {
-                    *sum += component * (part / area);
-                }
+            planes.tractions()
+        };
+        let of_points = on_planes(0).into_iter().zip(on_planes(1));
+        for (sums, ([xx, yx], [xy, yy])) in tractions.chunks_mut(4).zip(of_points) {
+            for (sum, value) in sums.iter_mut().zip([xx, yx, yy, xy]) {
+                *sum += value;
             }
         }
+    }
+}
+
+/// Forces through the planes of one normal at all points.
+struct Planes<'a> {
+    cloud: &'a PointCloud,
+    squares: &'a Squares,
+    /// 0: x, 1: y.
+    normal: usize,
+    /// Sums of force times extent, shape (n_points), N m.
+    sums: Vec<[f64; 2]>,
+    /// Points along the way of a bond, and areas in common.
+    crossed: Vec<(usize, f64)>,
+}
+
+impl<'a> Planes<'a> {
+    fn new(cloud: &'a PointCloud, squares: &'a Squares, normal: usize) -> Self {
+        Self {
+            cloud,
+            squares,
+            normal,
+            sums: vec![[0.0; 2]; cloud.len()],
+            crossed: Vec::new(),
+        }
+    }
+
+    /// Shares the force with which the second end pulls at the first out among the points on the way.
+    fn share_out(&mut self, ends: [u32; 2], force: [f64; 2]) {
+        let Self {
+            cloud,
+            squares,
+            normal,
+            sums,
+            crossed,
+        } = self;
+        let [a, b] = ends.map(|end| end as usize);
+        let band = Band {
+            ends: [cloud.positions[a], cloud.positions[b]],
+            width: 0.5 * (squares.width[a] + squares.width[b]),
+            normal: *normal,
+        };
+        for point in squares.within(band.reach(squares.largest_width)) {
+            let area = band.area_within(cloud.positions[point], squares.width[point]);
+            if area > 0.0 {
+                crossed.push((point, area));
+            }
+        }
+        let area: f64 = crossed.iter().map(|(_, area)| area).sum();
+        // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
+        let force = force.map(|component| component * band.extent());
+        for (point, part) in crossed.drain(..) {
+            for (sum, component) in sums[point].iter_mut().zip(force) {
+                *sum += component * (part / area);
+            }
+        }
+    }
+
+    /// The tractions, shape (n_points), Pa.
+    fn tractions(&self) -> Vec<[f64; 2]> {
         let over_volume = |(sum, volume): (&[f64; 2], &f64)| sum.map(|value| value / volume);
-        sums.iter().zip(&cloud.volumes).map(over_volume).collect()
+        let sums = self.sums.iter();
+        sums.zip(&self.cloud.volumes).map(over_volume).collect()
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{BondSystem, BondsLeft, Kinematics, Typed};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
+use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
 use crate::failure::{Criterion, Weakened};
 use crate::interface::{
@@ -69,8 +70,9 @@ impl Bonds for BondSystem {
     }
 
     fn coupled_points(&self) -> CoupledPoints<'_> {
-        match typed!(self, it => it.elements.couplings()) {
-            Some([_, points]) => CoupledPoints {
+        let of_elements = typed!(self, it => it.elements.couplings()).map(|[_, points]| points);
+        match of_elements.or(self.faces.coupled()) {
+            Some(points) => CoupledPoints {
                 lists: points,
                 ends: None,
             },
@@ -291,6 +293,37 @@ impl Bonds for BondSystem {
         component: Component,
     ) -> f64 {
         typed!(self, it => it.force_through(bonds, deformations, crossing, component))
+    }
+
+    fn faces_close(&self) -> bool {
+        self.faces.close()
+    }
+
+    fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair> {
+        BondSystem::contact_pairs(self, intact)
+    }
+
+    fn overlap(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        beyond: f64,
+        asked: &[bool],
+    ) -> Option<Overlap> {
+        if self.faces_close() {
+            return None;
+        }
+        self.largest_overlap(intact, displacement, expansion, beyond, asked)
+    }
+
+    fn add_contact_stresses(
+        &self,
+        reading: StressReading,
+        closed: &[ClosedPair],
+        stresses: &mut Stresses,
+    ) {
+        self.add_stresses_of_contact(reading, closed, &mut stresses.values);
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {

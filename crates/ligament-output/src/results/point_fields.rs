@@ -60,6 +60,7 @@ impl Motion {
                 view.system,
                 state.bonds(),
                 &balanced.deformations,
+                &balanced.closed,
             ),
             reaction: in_plane(layout, &reactions),
             fragment: (view.fragments.of_point.iter())
@@ -146,7 +147,10 @@ fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
     let wanted = readings.into_iter().filter(|(_, is_wanted, _)| *is_wanted);
     let stress = |reading| {
         let (left, deformations) = (view.state.bonds(), &view.balanced.deformations);
-        view.system.stresses(reading, left, deformations)
+        let mut stresses = view.system.stresses(reading, left, deformations);
+        let closed = &view.balanced.closed;
+        (view.system).add_contact_stresses(reading, closed, &mut stresses);
+        stresses
     };
     wanted
         .map(|(name, _, reading)| (name, stress(reading)))

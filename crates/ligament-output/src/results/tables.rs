@@ -36,6 +36,8 @@ const HISTORY: [Column<StepRecord>; 17] = [
     ("negative_eigenvalues", |it| it.negative_eigenvalues.into()),
     ("dissipated_energy", |it| it.dissipated_energy.into()),
 ];
+/// The column of a body whose crack faces close.
+const CLOSED: Column<StepRecord> = ("closed_pairs", |it| it.closed_pairs.into());
 const ITERATIONS: [&str; 7] = [
     "step",
     "round",
@@ -198,7 +200,9 @@ impl Tables {
         let group_columns = groups.flat_map(|group| {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
-        let extra: Vec<String> = group_columns
+        let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
+        let extra: Vec<String> = (of_faces.into_iter())
+            .chain(group_columns)
             .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
         let history_columns: Vec<&str> = (HISTORY.iter().map(|column| column.0))
@@ -276,6 +280,9 @@ impl Tables {
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
+        if view.system.faces_close() {
+            row.push(CLOSED.1(record));
+        }
         let layout = view.system.layout();
         let of_groups = record.group_forces.iter().flat_map(|force| {
             // The forces of a group stand as those of one point.

@@ -50,6 +50,7 @@ impl Setup {
         self.check_correction()?;
         self.check_load_factors()?;
         self.check_precracks()?;
+        self.check_closing()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
         for (index, support) in self.supports.iter().enumerate() {

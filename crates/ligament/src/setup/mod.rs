@@ -2,6 +2,7 @@
 
 mod analysis;
 mod check;
+mod closing;
 mod conditions;
 mod correction;
 mod law;
@@ -51,6 +52,8 @@ pub struct Setup {
     pub correction: Correction,
     /// Cracks that are there from the start.
     pub precracks: Vec<PreCrack>,
+    /// Whether the faces of pre-cracks and of broken bonds carry pressure again where they close; of laws whose points turn.
+    pub closing: bool,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
     /// Supports of the body; there need be none.
@@ -123,6 +126,7 @@ impl Setup {
             bonds_through_voids: false,
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
+            closing: false,
             no_fail: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),

@@ -66,9 +66,12 @@ impl Probe {
                     Axis::X => Component::X,
                     Axis::Y => Component::Y,
                 };
-                let (bonds, cloud) = (&system.bonds, &system.cloud);
+                let (faces, cloud) = (&system.faces, &system.cloud);
+                let cut = faces.cut().iter().filter(|_| faces.close());
+                let ends = system.bonds.ends.iter().copied();
+                let ends = ends.chain(cut.map(|it| it.ends));
                 probe::Reading::SectionForce {
-                    bonds: precrack::crossing_bonds(bonds, cloud, start, end),
+                    bonds: precrack::crossing_bonds(ends, cloud, start, end),
                     component,
                 }
             }

@@ -1,0 +1,208 @@
+//! Contact of crack faces in a run: which pairs there are, which of them are closed, and what closed ones exert.
+//!
+//! Which pairs are closed follows from the displacements alone: there is no history.
+
+use ligament_model::Bonds;
+use ligament_model::contact::{ClosedPair, ContactPair};
+use ligament_model::element::Term;
+use ligament_model::layout::{Component, Layout};
+use ligament_model::sweep::BondSweep;
+use ligament_model::thermal::ThermalStrain;
+
+use crate::balanced::Balanced;
+use crate::serial;
+use crate::state::State;
+
+/// The pairs across the cracks of a body, while the same bonds are left.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Contact {
+    pairs: Vec<ContactPair>,
+}
+
+impl Contact {
+    /// The pairs of the bonds that are left (n_bonds); none where faces do not close.
+    pub(crate) fn new(system: &dyn Bonds, intact: &[bool]) -> Self {
+        if !system.faces_close() {
+            return Self::default();
+        }
+        Self {
+            pairs: system.contact_pairs(intact),
+        }
+    }
+
+    /// The pairs.
+    pub(crate) fn pairs(&self) -> &[ContactPair] {
+        &self.pairs
+    }
+
+    /// Gaps of the pairs for the motions of all points, shape (n_pairs), m.
+    pub(crate) fn gaps(&self, motions: &[f64], expansion: ThermalStrain<'_>) -> Vec<f64> {
+        let pairs = self.pairs.iter();
+        pairs.map(|pair| pair.gap(motions, expansion)).collect()
+    }
+
+    /// The pairs that are closed, with their gaps (n_pairs).
+    pub(crate) fn closed(&self, gaps: &[f64]) -> Vec<ClosedPair> {
+        let closed = self.pairs.iter().zip(gaps).filter(|(_, gap)| **gap < 0.0);
+        closed
+            .map(|(&pair, &gap)| ClosedPair { pair, gap })
+            .collect()
+    }
+}
+
+/// Adds forces and energies of closed pairs to those of the bonds.
+pub(crate) fn add_to(
+    swept: &mut BondSweep,
+    closed: &[ClosedPair],
+    layout: Layout,
+    expansion: ThermalStrain<'_>,
+) {
+    for it in closed {
+        let force = it.force();
+        for (dof, value) in end_forces(it) {
+            swept.internal.values[dof] += value;
+            swept.sizes[dof] += value.abs();
+            let scale = if layout.component(dof).is_rotation() {
+                &mut swept.internal.moment_scale
+            } else {
+                &mut swept.internal.force_scale
+            };
+            *scale = scale.max(swept.sizes[dof]);
+        }
+        swept.stored_energy += it.energy();
+        if !expansion.is_none() {
+            let growth = it.pair.growth(expansion.at_full_load());
+            swept.internal.thermal -= force * growth;
+            swept.expansion_energy += 0.5 * it.pair.stiffness * growth * growth;
+        }
+    }
+}
+
+/// Internal forces and moments of a closed pair by degree of freedom, N and N m.
+pub(crate) fn end_forces(closed: &ClosedPair) -> impl Iterator<Item = (usize, f64)> {
+    let force = closed.force();
+    let row = closed.pair.row.into_iter();
+    row.map(move |(dof, factor)| (dof as usize, force * factor))
+}
+
+/// The stiffness of a pair.
+pub(crate) fn term(pair: &ContactPair) -> Term {
+    let row = pair.row.iter().filter(|(_, factor)| *factor != 0.0);
+    let entries = row.map(|&(dof, factor)| (dof as usize, factor));
+    (pair.stiffness, entries.collect())
+}
+
+/// Sum of a component of what the far ends of closed pairs exert on the near ones, N, for bonds and pairs by number and whether
+/// their first end is near.
+pub(crate) fn force_through(
+    closed: &[ClosedPair],
+    crossing: &[(u32, bool)],
+    component: Component,
+) -> f64 {
+    let pulls = closed.iter().filter_map(|it| {
+        let place = crossing.binary_search_by_key(&it.pair.number, |(number, _)| *number);
+        let (_, first_is_near) = crossing[place.ok()?];
+        let pull = it.pull(component);
+        Some(if first_is_near { pull } else { -pull })
+    });
+    pulls.sum()
+}
+
+/// Adds the virial stress of closed pairs to that of a point, Pa.
+pub(crate) fn add_virial(
+    system: &dyn Bonds,
+    closed: &[ClosedPair],
+    point: u32,
+    stress: &mut [f64],
+) {
+    let volume = system.volumes()[point as usize];
+    for it in closed.iter().filter(|it| it.pair.ends.contains(&point)) {
+        for (stress, part) in stress.iter_mut().zip(it.virial_share(volume)) {
+            *stress += part;
+        }
+    }
+}
+
+/// What closed pairs make of the energies from one equilibrium to the next.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactEnergy {
+    closed: Vec<ClosedPair>,
+    motions: Vec<f64>,
+    load_factor: f64,
+}
+
+impl ContactEnergy {
+    /// The energies of the unloaded body.
+    pub(crate) fn of_unloaded(system: &dyn Bonds) -> Self {
+        let n_degrees_of_freedom = system.layout().n_degrees_of_freedom();
+        Self {
+            motions: vec![0.0; n_degrees_of_freedom * usize::from(system.faces_close())],
+            ..Self::default()
+        }
+    }
+
+    /// Takes the next equilibrium, and gives sum 1/2 k g g' over the pairs that were closed, less that over those that are now, J.
+    ///
+    /// That is what forces that are linear between the two would have released: at a fixed load it is released, and on the way from one
+    /// load to another it is the error of the trapezoidal rule for the work, because there pairs open and close with no force.
+    pub(crate) fn follow<'a>(
+        &mut self,
+        state: &State,
+        balanced: &Balanced,
+        expansion: &dyn Fn(f64) -> ThermalStrain<'a>,
+    ) -> f64 {
+        let (closed, motions) = (&balanced.closed, &state.displacement);
+        if closed.is_empty() && self.closed.is_empty() {
+            self.keep(state, balanced);
+            return 0.0;
+        }
+        let (before, now) = (expansion(self.load_factor), expansion(state.load_factor));
+        let mutual = |it: &ClosedPair, other_gap: f64| 0.5 * it.force() * other_gap;
+        let (opened, newly_closed) = changes(&self.closed, closed);
+        let lost = opened
+            .iter()
+            .map(|it| mutual(it, it.pair.gap(motions, now)));
+        let lost: f64 = lost.sum();
+        let gained = newly_closed.iter();
+        let gained = gained.map(|it| mutual(it, it.pair.gap(&self.motions, before)));
+        let change = lost - gained.sum::<f64>();
+        self.keep(state, balanced);
+        change
+    }
+
+    /// Takes an equilibrium to go on from.
+    pub(crate) fn keep(&mut self, state: &State, balanced: &Balanced) {
+        self.closed.clone_from(&balanced.closed);
+        // Without faces that close there is none to look at them.
+        if !self.motions.is_empty() {
+            self.motions.clone_from(&state.displacement);
+        }
+        self.load_factor = state.load_factor;
+    }
+}
+
+/// The pairs that only the first of two lists has, and those that only the second has; both are in the order of the numbers.
+pub(crate) fn changes(
+    before: &[ClosedPair],
+    now: &[ClosedPair],
+) -> (Vec<ClosedPair>, Vec<ClosedPair>) {
+    let is_in = |list: &[ClosedPair], it: &ClosedPair| {
+        let place = list.binary_search_by_key(&it.pair.number, |other| other.pair.number);
+        place.is_ok_and(|place| list[place].pair == it.pair)
+    };
+    let only = |list: &[ClosedPair], other: &[ClosedPair]| {
+        let alone = list.iter().filter(|it| !is_in(other, it));
+        alone.copied().collect()
+    };
+    (only(before, now), only(now, before))
+}
+
+serial!(ContactPair {
+    number,
+    ends,
+    normal,
+    stiffness,
+    spread,
+    row
+});
+serial!(ClosedPair { pair, gap });

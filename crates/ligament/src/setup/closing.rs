@@ -1,0 +1,40 @@
+//! Faces that close ask something of law, correction and analysis.
+
+use ligament_model::ElementKind;
+
+use super::check::{Checked, contradiction};
+use super::{Analysis, CorrectionDomain, Setup};
+use crate::error::Field;
+
+impl Setup {
+    pub(super) fn check_closing(&self) -> Checked {
+        if !self.closing {
+            return Ok(());
+        }
+        let field = Field::whole("closing");
+        let law = self.law.name();
+        if self.law.element() != ElementKind::Beam {
+            let reason = format!(
+                "faces can slide on each other without turning moments only where points turn, and those of \"{law}\" do not: take \
+                 \"nhpd\", \"mppd\", \"mppd-beam\" or \"orthotropic\""
+            );
+            return contradiction(field, reason);
+        }
+        let cut_first = self.correction.domain == CorrectionDomain::Cracked;
+        if cut_first && !self.precracks.is_empty() {
+            let reason = "the bonds that pre-cracks cut have the stiffness of the whole body when their faces close: take \
+                          `CorrectionDomain::Whole`";
+            return contradiction(field, reason);
+        }
+        if matches!(self.analysis, Analysis::Modal(_)) {
+            let reason = "natural modes are of a body whose faces stay as they are: leave it out";
+            return contradiction(field, reason);
+        }
+        if self.criteria.iter().any(|it| it.after.law.softens) {
+            let reason = "faces close for bonds that are whole or broken; those that soften carry pressure all along: take `after = \
+                          \"brittle\"`";
+            return contradiction(field, reason);
+        }
+        Ok(())
+    }
+}
