@@ -23,7 +23,8 @@ pub struct Output {
     pub checkpoint_every: Option<f64>,
     /// Whether a picture of the last state, with its damage or displacement, and one of the curve of force over displacement are drawn
     /// at the end.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("default" = false))]
     pub picture: bool,
     /// Stresses at the points in the field files.
     #[schemars(extend("uniqueItems" = true))]
@@ -51,10 +52,6 @@ impl Default for Output {
             stress: Vec::new(),
         }
     }
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 impl Output {
