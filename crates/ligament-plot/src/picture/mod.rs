@@ -148,14 +148,14 @@ pub enum PictureError {
     #[error(
         "{0}: a picture ends in .png, .svg or .pdf, and an animation, which --animate makes, in .gif"
     )]
-    Format(PathBuf),
+    Ending(PathBuf),
     /// The file is of another kind than the one asked for.
-    #[error("{path} does not end in .{}; leave out --format, or name another file", format.word())]
-    OtherFormat {
+    #[error("{path} does not end in .{format}; leave out --format, or name another file")]
+    OtherEnding {
         /// The file.
         path: PathBuf,
-        /// The kind asked for.
-        format: Format,
+        /// Ending of the kind asked for.
+        format: &'static str,
     },
     /// A plot cannot be drawn.
     #[error(transparent)]
