@@ -1,9 +1,10 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
 mod active_set;
-mod anderson;
+mod curvature;
 mod equations;
 mod external;
+mod line_search;
 mod newton;
 mod residual;
 mod secant;
@@ -24,6 +25,7 @@ use crate::problem::Problem;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
+use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
@@ -36,7 +38,7 @@ enum Iteration {
     Newton,
     /// Newton's method on the closed pairs, for bonds that are whole or broken and faces that close.
     ActiveSet,
-    /// Secants with mixing, for bonds that soften.
+    /// Quasi-Newton from secants, for bonds that soften.
     Secants,
 }
 
@@ -172,6 +174,7 @@ impl Equilibrium {
         let held = &state.held;
         breakage.holds = self.connectivity.missing_holds(
             system,
+            loads.restraints(),
             |dof| loads.is_prescribed(dof) || held[dof],
             |dof| unknowns.number(dof).is_some(),
         );
@@ -181,6 +184,25 @@ impl Equilibrium {
         *contact = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
+    }
+
+    /// A state that is known to be in equilibrium at its load factor: nothing is solved.
+    pub(crate) fn measured(&mut self, state: &mut State) -> Balanced {
+        self.equations.measured(state)
+    }
+
+    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state that was balanced, under loads at their load
+    /// factor 1; they must prescribe the same degrees of freedom.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor.
+    pub(crate) fn growth(
+        &mut self,
+        state: &mut State,
+        loads: &dyn LoadProgram,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        self.equations.growth(state, loads)
     }
 
     /// Brings the state into equilibrium at its load factor, after the last breakage; an empty one where none came since the

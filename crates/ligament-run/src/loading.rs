@@ -78,12 +78,12 @@ impl LoadedBody<'_> {
         let mut watch = Watch::new(watched, is_stopped, progress, &model.setup, notices);
         let outcome = stages.time("solution", || match restored {
             None => follow(&problem, analysis, &mut watch),
-            Some(restored) => resume(&problem, analysis, restored, &mut watch),
+            Some(restored) => resume(analysis, restored, &mut watch),
         })?;
 
-        let (notices, checkpoints) = watch.into_parts();
+        let (notices, first, checkpoints) = watch.into_parts();
         let boundary = &loading.boundary;
-        let told = (provenance, notices);
+        let told = (provenance, notices, first);
         let summary = Summary::new(case, model, boundary, &outcome, told, stages.done());
         let text = serde_json::to_string_pretty(&summary)
             .context("the summary cannot be written as JSON")?;

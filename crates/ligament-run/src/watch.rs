@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use ligament::setup::Analysis;
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
+use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
     BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
@@ -37,12 +37,7 @@ impl<'a> Watch<'a> {
         setup: &'a Setup,
         notices: Vec<String>,
     ) -> Self {
-        let total = match &setup.analysis {
-            Analysis::Stepped(settings) => Some(settings.load_factors.len() as u64),
-            Analysis::Event(_) => None,
-            Analysis::Elastic { .. } | Analysis::Modal(_) => Some(1),
-        };
-        progress.begin_steps(total);
+        progress.begin_steps(setup.n_steps().map(|steps| steps as u64));
         let last = StepLine {
             step: 0,
             load_factor: 0.0,
@@ -62,9 +57,9 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// What the user should know of the run, and its checkpoints.
-    pub(crate) fn into_parts(self) -> (Vec<String>, Checkpoints<'a>) {
-        (self.notices, self.checkpoints)
+    /// What the user should know of the run, its first bonds that gave way, and its checkpoints.
+    pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
+        (self.notices, self.writer.first_bonds(), self.checkpoints)
     }
 
     /// A notice with points given by their tags.

@@ -206,6 +206,19 @@ pub enum Fault {
         /// The value here.
         second: f64,
     },
+    /// A motion of a point that two loads prescribe, where each follows a factor of its own.
+    #[error(
+        "component {component} of {place} is moved by load `{other}` as well, and in stages each load follows a factor of its own: let one \
+         load move it"
+    )]
+    MovedTwice {
+        /// The component.
+        component: &'static str,
+        /// The point, in words.
+        place: String,
+        /// The other load.
+        other: String,
+    },
     /// No load, and no point whose temperature changes.
     #[error("there is no load and no point whose temperature changes: nothing would happen")]
     NothingHappens,
@@ -214,6 +227,15 @@ pub enum Fault {
         "the first load must be other than zero: it is the axis of the force-displacement curve"
     )]
     ZeroControl,
+    /// A platen on points that lie one behind the other along the load.
+    #[error(
+        "a platen tilts about points that lie beside each other across the load, and its group has {points} in one place: give a group that \
+         is wider, or leave `tilts` out"
+    )]
+    NoPlaten {
+        /// Number of points of the group.
+        points: usize,
+    },
     /// A load that is zero at all of its points.
     #[error("the load does nothing: its profile is zero at every point that it acts on")]
     ZeroProfile,

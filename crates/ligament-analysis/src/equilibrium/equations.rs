@@ -26,9 +26,6 @@ use crate::tangent::unsymmetric::UnsymmetricSolver;
 use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 
-/// A residual above this is no equilibrium whatever the energies say.
-const LARGEST_RESIDUAL: f64 = 1e-6;
-
 /// Part of the energy of the expansions that counts as nothing in the energy of motion of a heated body: that of a body that
 /// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
@@ -88,13 +85,14 @@ impl Equations {
     pub(super) fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
+        let unknowns = unknowns.restrained_by(loads.restraints());
         let stiffness = Arc::new(Stiffness::new(system, unknowns, problem.solver)?);
         let solver: Box<dyn TangentSolver> = if stiffness.choice().unsymmetric {
             Box::new(UnsymmetricSolver::new(stiffness.clone()))
         } else {
             Box::new(DirectSolver::new(stiffness.clone()))
         };
-        let local_stiffness = LocalStiffness::new(&**system);
+        let of_bonds = LocalStiffness::new(&**system);
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
             energy_tolerance: if system.is_linear() && system.has_energy() {
@@ -102,8 +100,8 @@ impl Equations {
             } else {
                 0.0
             },
-            stiffest: local_stiffness.largest(),
-            local_stiffness,
+            stiffest: of_bonds.largest(),
+            local_stiffness: of_bonds.restrained_by(loads.restraints()),
             loaded: loaded(&**loads),
             largest_extents: Extents::default(),
             contact: Contact::default(),
@@ -211,10 +209,10 @@ impl Equations {
         }
     }
 
-    /// Adds a correction (n_unknowns) to the displacements of a state.
-    pub(super) fn add_correction(&self, state: &mut State, correction: &[f64]) {
+    /// Adds a part of a correction (n_unknowns) to the displacements of a state.
+    pub(super) fn add_correction(&self, state: &mut State, part: f64, correction: &[f64]) {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
-            state.displacement[dof as usize] += value;
+            state.displacement[dof as usize] += part * value;
         }
     }
 
@@ -224,16 +222,22 @@ impl Equations {
         let solver = &mut self.solver;
         let correction = solver.follow(breakage, state, expansion, &mut self.costs);
         if let Some(correction) = &correction {
-            self.add_correction(state, correction);
+            self.add_correction(state, 1.0, correction);
         }
         correction.is_some()
     }
 
-    /// Whether the energy of an iterate is that of the one before (NHPD eq. 21), and its residual no obstacle.
-    pub(super) fn energy_settled(&self, previous_energy: f64, iterate: &Iterate) -> bool {
+    /// Whether the energy of an iterate is that of the one before (NHPD eq. 21), and its residual not above the largest with which that
+    /// counts.
+    pub(super) fn energy_settled(
+        &self,
+        previous_energy: f64,
+        iterate: &Iterate,
+        largest_residual: f64,
+    ) -> bool {
         let energy = iterate.stored_energy;
         let change = ((energy - previous_energy) / energy).abs();
-        change < self.energy_tolerance && iterate.residual.relative <= LARGEST_RESIDUAL
+        change < self.energy_tolerance && iterate.residual.relative <= largest_residual
     }
 
     /// Whether a residual is small enough, once something was solved: where nothing is loaded yet there is none at all.
@@ -250,10 +254,20 @@ impl Equations {
         iterate: &Iterate,
         mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
-        self.solver.close(&iterate.closed, &mut self.costs);
-        mechanisms.extend(self.prepare_solver(state)?);
-        let force = self.out_of_balance(state, &iterate.internal);
-        Ok(self.solver.solve(state, force, &mut self.costs))
+        mechanisms.extend(self.make_ready(state, iterate)?);
+        let force = self.out_of_balance(state, iterate);
+        Ok(self.solve(state, force))
+    }
+
+    /// F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns).
+    pub(super) fn out_of_balance(&self, state: &State, iterate: &Iterate) -> Vec<f64> {
+        self.external_less(state, &iterate.internal)
+    }
+
+    /// The displacements K^-1 f for forces f (n_unknowns), shape (n_unknowns), with the stiffness K that the solver was
+    /// [made ready](Self::make_ready) with.
+    pub(super) fn solve(&mut self, state: &State, force: Vec<f64>) -> Vec<f64> {
+        self.solver.solve(state, force, &mut self.costs)
     }
 
     /// Deformations, forces, residual and energy of a state.
@@ -285,7 +299,8 @@ impl Equations {
         let gaps = self.contact.gaps(&state.displacement, expansion);
         let closed = self.contact.closed(&gaps);
         contact::add_to(&mut swept, &closed, self.layout(), expansion);
-        let energy_of_motion = swept.energy_of_motion(state.load_factor);
+        let factor = self.problem.loads.temperature_factor(state.load_factor);
+        let energy_of_motion = swept.energy_of_motion(factor);
         let BondSweep {
             deformations,
             internal,
@@ -297,7 +312,7 @@ impl Equations {
         let displacement = self.largest_displacement(state);
         let residual = self.residual(state, &internal, extents, displacement);
         self.costs.bonds += start.elapsed();
-        let of_expansions = state.load_factor.powi(2) * expansion_energy.abs();
+        let of_expansions = factor.powi(2) * expansion_energy.abs();
         let cancelled = CANCELLED * of_expansions;
         let rounding = ROUNDING * self.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + cancelled);
@@ -314,21 +329,51 @@ impl Equations {
         }
     }
 
+    /// A state that is known to be in equilibrium, as the bonds see it.
+    pub(super) fn measured(&mut self, state: &mut State) -> Balanced {
+        self.prescribe(state);
+        self.measure(state).balanced(0, Vec::new())
+    }
+
+    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state, under loads at their load factor 1.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor.
+    pub(super) fn growth(
+        &mut self,
+        state: &mut State,
+        loads: &dyn LoadProgram,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        self.prepare_solver(state)?;
+        let mut growth = vec![0.0; state.displacement.len()];
+        loads.prescribe(1.0, &mut growth);
+        let system = &self.problem.system;
+        let expansion = loads.thermal_strain(1.0);
+        let deformations = system.deformations(&state.intact, &growth, expansion);
+        let internal = system
+            .forces(state.bonds(), deformations, expansion)
+            .internal;
+        let force = loads.external_less(1.0, &growth, &internal, self.degrees_of_freedom());
+        let solution = self.solver.solve(state, force, &mut self.costs);
+        for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
+            growth[dof as usize] = value;
+        }
+        Ok(growth)
+    }
+
     /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.
     pub(super) fn slope(&self, state: &State, iterate: &Iterate, correction: &[f64]) -> f64 {
-        let force = self.out_of_balance(state, &iterate.internal);
+        let force = self.out_of_balance(state, iterate);
         let products = force.iter().zip(correction);
         -products.map(|(force, step)| force * step).sum::<f64>()
     }
 
-    /// F - K u at the unknowns (NHPD eq. 20), shape (n_unknowns).
-    fn out_of_balance(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
-        let dofs = self.degrees_of_freedom();
-        let mut force = self.problem.loads.forces(state.load_factor, dofs);
-        for (value, &dof) in force.iter_mut().zip(dofs) {
-            *value -= internal.values[dof as usize];
-        }
-        force
+    /// External less internal forces at the unknowns, shape (n_unknowns).
+    fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
+        let (dofs, displacement) = (self.degrees_of_freedom(), &state.displacement);
+        let loads = &self.problem.loads;
+        loads.external_less(state.load_factor, displacement, internal, dofs)
     }
 
     /// F - K u relative to what may act at each degree of freedom, and what of it rests on holds.
@@ -344,7 +389,7 @@ impl Equations {
         let given = || self.loaded.iter().copied().zip(given.iter().copied());
         let largest = self.largest_extents;
         let scales = (self.local_stiffness).scales(extents, largest, given(), displacement);
-        let out_of_balance = self.out_of_balance(state, internal);
+        let out_of_balance = self.external_less(state, internal);
         let of_unknowns = (self.degrees_of_freedom().iter().copied()).zip(out_of_balance);
         // No bond resists these: what loads them is carried by nothing.
         let is_known = |dof: usize| unknowns.number(dof).is_none();
@@ -373,6 +418,16 @@ impl Equations {
     /// Keeps the size of the forces of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
         self.largest_extents = self.largest_extents.or(extents);
+    }
+
+    /// Makes the solver ready for an iterate of a state. Gives the points of mechanisms that are held from now on.
+    pub(super) fn make_ready(
+        &mut self,
+        state: &mut State,
+        iterate: &Iterate,
+    ) -> Result<Vec<u32>, Unbalanced> {
+        self.solver.close(&iterate.closed, &mut self.costs);
+        self.prepare_solver(state)
     }
 
     /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.

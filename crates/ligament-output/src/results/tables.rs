@@ -72,7 +72,7 @@ pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.cs
 const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
 
 /// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
-pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+pub fn criterion_labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     let mut seen: Vec<&str> = Vec::new();
     for name in names {
@@ -86,8 +86,8 @@ pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
 }
 
 /// Names of the failure criteria of a problem in results.
-fn labels_of(problem: &Problem) -> Vec<String> {
-    labels(problem.criteria.list.iter().map(|criterion| criterion.name))
+pub(super) fn labels_of(problem: &Problem) -> Vec<String> {
+    criterion_labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
 /// Writes the table of what each criterion looks at and what happens after its limit.
@@ -105,6 +105,16 @@ fn write_criteria(
         ])?;
     }
     Ok(())
+}
+
+/// Columns of the history that stages add: the stage, and the factor of each load.
+fn stage_columns(problem: &Problem) -> Vec<String> {
+    let Some(loads) = problem.loads.course() else {
+        return Vec::new();
+    };
+    let names = loads.programme.names.iter();
+    let factors = names.map(|name| format!("{name}_factor"));
+    std::iter::once("stage".to_owned()).chain(factors).collect()
 }
 
 /// How a table is opened, by its place in [`FILES`] and its columns.
@@ -201,7 +211,8 @@ impl Tables {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
         let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
-        let extra: Vec<String> = (of_faces.into_iter())
+        let extra: Vec<String> = (stage_columns(problem).into_iter())
+            .chain(of_faces)
             .chain(group_columns)
             .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
@@ -280,6 +291,11 @@ impl Tables {
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
+        if let Some(loads) = view.loads.course() {
+            let stage = loads.programme.stage_name(record.part);
+            row.push(stage.into());
+            row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
+        }
         if view.system.faces_close() {
             row.push(CLOSED.1(record));
         }
@@ -306,13 +322,13 @@ impl Tables {
 
 #[cfg(test)]
 mod tests {
-    use super::labels;
+    use super::criterion_labels;
 
     #[test]
     fn criteria_of_one_name_are_told_apart() {
         let names = ["tension", "sliding", "tension", "tension"];
         assert_eq!(
-            labels(names.into_iter()),
+            criterion_labels(names.into_iter()),
             ["tension", "sliding", "tension-2", "tension-3"]
         );
     }

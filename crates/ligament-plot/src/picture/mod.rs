@@ -20,6 +20,7 @@ mod lines;
 pub mod maps;
 mod of_run;
 mod panel;
+pub mod profile;
 mod request;
 pub mod select;
 mod series;
