@@ -3,9 +3,11 @@
 mod course;
 mod dissipation;
 pub mod elastic;
+mod ends;
 pub mod event;
 mod outcome;
 mod overlap;
+mod parts;
 mod path;
 mod recorder;
 mod start;
