@@ -84,8 +84,7 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         ),
         (
             "kind = \"tension\"\nend = 3.0",
-            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in a \
-             straight line, after = \"linear\", has an end; remove it",
+            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in straight lines, after = \"linear\" or \"two-branch\", has an end; remove it",
         ),
         (
             "kind = \"tension\"\nafter = \"linear\"\nscale = 3.0",
@@ -105,7 +104,8 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         (
             "kind = \"critical-stretch\"\nafter = \"linear\"",
             "59:1: fracture.criterion.0.end: missing key `end`: it is required with kind = \"critical-stretch\": up to the limit \
-             a bond takes all of the fracture energy",
+             a bond takes all of the fracture energy, and nothing is left to soften by; or take kind = \"bond-energy\", whose limit \
+             comes from the `tensile_strength`",
         ),
     ];
     for (lines, message) in cases {
