@@ -16,9 +16,11 @@ mod contact;
 pub mod costs;
 pub mod dissection;
 pub mod driver;
+pub mod energy_release;
 pub mod equilibrium;
 pub mod error;
 pub mod fields;
+pub mod first_bonds;
 pub mod gauges;
 pub mod history;
 pub mod internal;
@@ -44,7 +46,7 @@ pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
 pub use ligament_model::{Bonds, interface};
 pub use load_program::{
-    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, Part, Programme,
+    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, MotionControl, Part, Programme,
     ProportionalLoading, StagedLoading,
 };
 pub use probe::Probe;
