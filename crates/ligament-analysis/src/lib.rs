@@ -16,9 +16,11 @@ mod contact;
 pub mod costs;
 pub mod dissection;
 pub mod driver;
+pub mod energy_release;
 pub mod equilibrium;
 pub mod error;
 pub mod fields;
+pub mod first_bonds;
 pub mod gauges;
 pub mod history;
 pub mod internal;
@@ -26,6 +28,7 @@ pub mod load_program;
 pub mod modal;
 pub mod probe;
 pub mod problem;
+pub mod restraints;
 pub mod serial;
 pub mod softening;
 pub mod solver;
@@ -43,11 +46,12 @@ pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
 pub use ligament_model::{Bonds, interface};
 pub use load_program::{
-    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, Part, Programme,
+    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, MotionControl, Part, Programme,
     ProportionalLoading, StagedLoading,
 };
 pub use probe::Probe;
 pub use problem::Problem;
+pub use restraints::{Restraint, Restraints};
 pub use solver::SolverSettings;
 pub use state::State;
 pub use supports::Supports;

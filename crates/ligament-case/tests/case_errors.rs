@@ -52,7 +52,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
          `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, `acceleration`, \
-         `moment`, `body_couple`, `pressure`, `profile`"
+         `moment`, `body_couple`, `pressure`, `profile`, `stiffness`, `tilts`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
@@ -210,7 +210,7 @@ fn missing_keys_are_at_their_table() {
     );
     assert_eq!(
         error_with("displacement = { x = 0 }", ""),
-        "26:1: support.1.displacement: missing key `displacement` in [[support]]"
+        "26:1: support.1: holds nothing: give a `displacement`, a `normal` or a `stiffness`"
     );
     assert_eq!(
         error_with("tensile_strength = 3.81e6\n", ""),
@@ -376,7 +376,7 @@ fn supports_and_loads_that_make_no_sense_are_refused() {
     );
     assert_eq!(
         error_with("{ x = 0 }", "{}"),
-        "28:16: support.1.displacement: needs one of `x`, `y`, `rotation` or more"
+        "28:16: support.1.displacement: holds nothing: give a `displacement`, a `normal` or a `stiffness`"
     );
     assert_eq!(
         error_with(load, "at = [0, 0]\nforce_per_length = { y = 1 }"),

@@ -14,7 +14,7 @@ model = { law = "nhpd", horizon_factor = 3 }
 solver = "auto"
 correction = {}
 precrack = [{ points = [[0, 0], [1, 0]] }, { centre = [0, 0], length = 0.1, angle = 0.5 }]
-support = [{ group = "bottom", displacement = { x = 0.0 } }]
+support = [{ group = "bottom", displacement = { x = 0.0 } }, { at = [0, 0], normal = [1, 1], stiffness = { normal = 1e9 } }]
 no_fail = [{ box = [[0, 0], [1, 1]] }]
 [[load]]
 group = "top"
@@ -46,8 +46,11 @@ field = "damage"
 name = "force"
 section = [[0, 0], [1, 0]]
 component = "y"
-[fracture]
+[[stage]]
+loads = { top = 1 }
 steps = 10
+control = { probes = { opening = 1.0 }, to = 1e-4 }
+[fracture]
 stop = { load_fraction = 0.5 }
 scatter = { of = "strength", modulus = 12 }
 criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4 }]
