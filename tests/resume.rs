@@ -128,7 +128,7 @@ fn assert_resumes(name: &str, bench: &Bench, every: usize) -> usize {
         let mut rest = Recorder::default();
         let outcome = on_threads(threads, || {
             let restored = run::restore(&problem, analysis, checkpoint).unwrap();
-            run::resume(&problem, analysis, restored, &mut rest).unwrap()
+            run::resume(analysis, restored, &mut rest).unwrap()
         });
         let place = format!("{name}, moment {}", number * every);
         let differs = (rest.lines.iter().zip(&whole.lines[*from..])).position(|(a, b)| a != b);
@@ -322,8 +322,7 @@ fn a_run_that_a_rule_ended_can_be_prolonged() {
         assert!(ended.termination.is_by_rule(), "{}", ended.termination);
         let (problem, analysis) = (long.problem(), &long.model.setup.analysis);
         let restored = run::restore(&problem, analysis, &last.0).unwrap();
-        let prolonged =
-            run::resume(&problem, analysis, restored, &mut Recorder::default()).unwrap();
+        let prolonged = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
         let whole = run::follow(&problem, analysis, &mut Recorder::default()).unwrap();
         assert!(prolonged.state.broken_bonds() > ended.state.broken_bonds());
         assert_eq!(words(prolonged), words(whole));
@@ -365,7 +364,7 @@ fn an_observer_stops_a_run() {
         "the last state is told as the last"
     );
     let restored = run::restore(&problem, analysis, &stopped.moments[0].1).unwrap();
-    let outcome = run::resume(&problem, analysis, restored, &mut Recorder::default()).unwrap();
+    let outcome = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
     assert_eq!(words(outcome), words(whole));
 }
 

@@ -57,7 +57,7 @@ impl Target for Solutions {
             return false;
         };
         // What it comes to is nobody's concern; some moments are enough.
-        run::resume(&problem, analysis, restored, &mut Few(4)).is_ok()
+        run::resume(analysis, restored, &mut Few(4)).is_ok()
     }
 }
 

@@ -24,6 +24,7 @@ use crate::problem::Problem;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
+use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
@@ -181,6 +182,25 @@ impl Equilibrium {
         *contact = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
+    }
+
+    /// A state that is known to be in equilibrium at its load factor: nothing is solved.
+    pub(crate) fn measured(&mut self, state: &mut State) -> Balanced {
+        self.equations.measured(state)
+    }
+
+    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state that was balanced, under loads at their load
+    /// factor 1; they must prescribe the same degrees of freedom.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor.
+    pub(crate) fn growth(
+        &mut self,
+        state: &mut State,
+        loads: &dyn LoadProgram,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        self.equations.growth(state, loads)
     }
 
     /// Brings the state into equilibrium at its load factor, after the last breakage; an empty one where none came since the

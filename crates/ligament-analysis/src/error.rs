@@ -20,12 +20,27 @@ pub enum SetupError {
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
     )]
     Softening,
+    /// The exact path through stages was asked for with a criterion whose measure has no closed form along a line.
+    #[error(
+        "the exact path through stages needs to know where a bond reaches its limit along a line, which the criterion \"{criterion}\" \
+         does not tell: take load steps"
+    )]
+    UnknownAlongLines {
+        /// Name of the criterion.
+        criterion: &'static str,
+    },
     /// The loads of a body that is to break deform nothing.
     #[error(
         "nothing resists the loads: they move the body as a whole and do not deform it, so that no bond would ever break; hold a \
          part of it by a [[support]]"
     )]
     NothingResists,
+    /// The exact path through stages was asked for with faces of cracks that close.
+    #[error(
+        "faces of cracks open and close on the way from breakage to breakage where one load stays and another grows, which the exact path \
+         through stages does not follow: take load steps, or leave the faces open"
+    )]
+    ClosingFaces,
     /// A run cannot go on from its checkpoint.
     #[error("the run cannot go on from its checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),

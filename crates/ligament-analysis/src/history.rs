@@ -20,8 +20,12 @@ use crate::unbalanced::{Place, Unbalanced};
 pub struct StepRecord {
     /// Number of the step; 0 is the unloaded body.
     pub step: usize,
-    /// Load factor.
+    /// Load factor; in a programme of stages the share of the stage that is over.
     pub load_factor: f64,
+    /// Part of the programme of stages; 0 without one.
+    pub part: usize,
+    /// Factors of the loads of a programme of stages; empty without one.
+    pub factors: Vec<f64>,
     /// Displacement of the control load along its direction, m; rad with a couple, m^3 with a pressure.
     pub displacement: f64,
     /// Force of the control load along its direction, N; a couple, N m, or a pressure, Pa.
@@ -65,6 +69,8 @@ pub struct StepRecord {
 serial!(StepRecord {
     step,
     load_factor,
+    part,
+    factors,
     displacement,
     reaction,
     stored_energy,

@@ -42,7 +42,10 @@ pub use error::SetupError;
 pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
 pub use ligament_model::{Bonds, interface};
-pub use load_program::{BoundaryError, Control, ControlKind, LoadProgram, ProportionalLoading};
+pub use load_program::{
+    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, Part, Programme,
+    ProportionalLoading, StagedLoading,
+};
 pub use probe::Probe;
 pub use problem::Problem;
 pub use solver::SolverSettings;

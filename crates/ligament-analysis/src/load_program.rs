@@ -1,14 +1,19 @@
 //! Programmes of loading: what acts on a body at each pseudo-time.
 
+mod programme;
 mod proportional;
+mod staged;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use crate::internal::InternalForces;
 use crate::unknowns::Layout;
 use ligament_model::thermal::ThermalStrain;
 
+pub use programme::{LoadCourse, Part, Programme};
 pub use proportional::{BoundaryError, ProportionalLoading};
+pub use staged::StagedLoading;
 
 /// A programme of loading: supports, prescribed motions, forces and temperatures as functions of a pseudo-time t.
 ///
@@ -31,6 +36,22 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Changes of the temperature, shape (n_points), K; empty where no temperature changes at any time.
     fn temperature_change(&self, time: f64) -> Vec<f64>;
 
+    /// Factor of the temperature: its changes are those at factor 1 times this.
+    fn temperature_factor(&self, time: f64) -> f64;
+
+    /// Factor of the control load.
+    fn control_factor(&self, time: f64) -> f64;
+
+    /// Factors of the loads in the present part of a programme of stages; None where all loads grow with one load factor.
+    fn course(&self) -> Option<&LoadCourse> {
+        None
+    }
+
+    /// The same loads in another course of their factors; None where all grow with one load factor.
+    fn in_course(&self, _course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
+        None
+    }
+
     /// Degrees of freedom that something moves or loads at some time, ascending: no other one does work.
     fn loaded_degrees_of_freedom(&self) -> Vec<u32>;
 
@@ -41,8 +62,8 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Groups whose resultants the history reports.
     fn groups(&self) -> &[BoundaryGroup];
 
-    /// Resultant of the given forces that act through a group, shape (n_components), N and N m.
-    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> Vec<f64>;
+    /// Resultants of the given forces that act through the groups, shape (n_groups, n_components), N and N m.
+    fn given_resultants(&self, time: f64) -> Vec<Vec<f64>>;
 
     /// The load whose displacement and force are the axes of the force-displacement curve.
     fn control(&self) -> &Control;

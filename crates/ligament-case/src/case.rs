@@ -32,6 +32,7 @@ mod schema;
 mod sections;
 mod solver;
 pub mod source;
+mod stage;
 mod temperature;
 pub mod values;
 mod word;

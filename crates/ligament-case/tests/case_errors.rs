@@ -51,7 +51,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
-         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, \
+         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, `acceleration`, \
          `moment`, `body_couple`, `pressure`, `profile`"
     );
     assert_eq!(
@@ -362,7 +362,7 @@ fn keys_that_exclude_each_other_are_listed() {
             "force = { y = 1 }\nforce_per_length = { y = 1 }"
         ),
         "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
-         `body_force`, `moment`, `body_couple`, `pressure`; found `force`, `force_per_length`"
+         `body_force`, `acceleration`, `moment`, `body_couple`, `pressure`; found `force`, `force_per_length`"
     );
 }
 

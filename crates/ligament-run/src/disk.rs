@@ -41,7 +41,8 @@ impl FieldsOnDisk {
             _ if every == 0 => Some(2),
             Analysis::Event(_) => None,
             Analysis::Stepped(settings) => {
-                let refined = settings.load_factors.len() + settings.refine_first_break;
+                let steps = model.setup.n_steps().unwrap_or(0);
+                let refined = steps + settings.refine_first_break;
                 Some(refined / every + 2)
             }
             Analysis::Elastic { .. } | Analysis::Modal(_) => Some(2),

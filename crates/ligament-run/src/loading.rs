@@ -78,7 +78,7 @@ impl LoadedBody<'_> {
         let mut watch = Watch::new(watched, is_stopped, progress, &model.setup, notices);
         let outcome = stages.time("solution", || match restored {
             None => follow(&problem, analysis, &mut watch),
-            Some(restored) => resume(&problem, analysis, restored, &mut watch),
+            Some(restored) => resume(analysis, restored, &mut watch),
         })?;
 
         let (notices, checkpoints) = watch.into_parts();

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use ligament::setup::Analysis;
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
 use ligament_analysis::history::{
@@ -37,12 +36,7 @@ impl<'a> Watch<'a> {
         setup: &'a Setup,
         notices: Vec<String>,
     ) -> Self {
-        let total = match &setup.analysis {
-            Analysis::Stepped(settings) => Some(settings.load_factors.len() as u64),
-            Analysis::Event(_) => None,
-            Analysis::Elastic { .. } | Analysis::Modal(_) => Some(1),
-        };
-        progress.begin_steps(total);
+        progress.begin_steps(setup.n_steps().map(|steps| steps as u64));
         let last = StepLine {
             step: 0,
             load_factor: 0.0,

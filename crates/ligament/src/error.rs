@@ -206,6 +206,19 @@ pub enum Fault {
         /// The value here.
         second: f64,
     },
+    /// A motion of a point that two loads prescribe, where each follows a factor of its own.
+    #[error(
+        "component {component} of {place} is moved by load `{other}` as well, and in stages each load follows a factor of its own: let one \
+         load move it"
+    )]
+    MovedTwice {
+        /// The component.
+        component: &'static str,
+        /// The point, in words.
+        place: String,
+        /// The other load.
+        other: String,
+    },
     /// No load, and no point whose temperature changes.
     #[error("there is no load and no point whose temperature changes: nothing would happen")]
     NothingHappens,

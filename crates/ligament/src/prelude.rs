@@ -14,7 +14,7 @@ pub use crate::error::{Error, Fault, Field, SetupError};
 pub use crate::model::Model;
 pub use crate::run::{Solution, Unobserved};
 pub use crate::setup::{
-    Action, Analysis, Calibration, Correction, Displacement, Form, Horizon, Law, Load,
-    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Strains, Support, Temperature,
-    TemperatureChange, event, stepped,
+    Action, Analysis, Calibration, Correction, Course, Displacement, Form, Horizon, Law, Load,
+    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Stage, Strains, Support,
+    Temperature, TemperatureChange, event, stepped,
 };

@@ -108,16 +108,13 @@ pub fn restore(
 ///
 /// If the run is of another driver, or the observer fails.
 pub fn resume(
-    problem: &Problem,
     analysis: &Analysis,
     restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     Ok(match analysis {
-        Analysis::Stepped(settings) => {
-            driver::stepped::resume(problem, settings, restored, observer)?
-        }
-        Analysis::Event(settings) => driver::event::resume(problem, settings, restored, observer)?,
+        Analysis::Stepped(settings) => driver::stepped::resume(settings, restored, observer)?,
+        Analysis::Event(settings) => driver::event::resume(settings, restored, observer)?,
         Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
     })
 }

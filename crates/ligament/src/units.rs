@@ -33,11 +33,10 @@ impl Units {
 }
 
 impl Setup {
-    /// Units of the displacement and the force in the history, which are those of the first load, or of the temperature where
-    /// there is none.
+    /// Units of the displacement and the force in the history, which are those of the load of the curve, or of the temperature.
     pub fn units(&self) -> Units {
-        let first = self.loads.first();
-        first.map_or(Units::TEMPERATURE, |load| load.action.units())
+        let load = self.curve_load();
+        load.map_or(Units::TEMPERATURE, |load| self.loads[load].action.units())
     }
 }
 
@@ -49,7 +48,8 @@ impl Action {
             Self::Displacement(_)
             | Self::Force(_)
             | Self::ForcePerLength(_)
-            | Self::BodyForce(_) => Units::FORCE,
+            | Self::BodyForce(_)
+            | Self::Acceleration(_) => Units::FORCE,
             Self::Moment(_) | Self::BodyCouple(_) => Units::COUPLE,
             Self::Pressure(_) => Units::PRESSURE,
         }

@@ -7,6 +7,7 @@ use crate::checkpoint::CheckpointError;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{LargestOverlap, StepRecord};
+use crate::load_program::LoadCourse;
 use crate::problem::Problem;
 use crate::serial;
 use crate::serial::{Damaged, Serial};
@@ -22,6 +23,12 @@ pub(super) struct Course {
     /// Solves up to the last equilibrium, and up to the last record.
     pub(super) solves: [usize; 2],
     pub(super) negative_eigenvalues: usize,
+    /// Factors of the loads at the start of the present part of a programme; empty without one.
+    pub(super) part_start: Vec<f64>,
+    /// Part of the programme; 0 without one.
+    pub(super) part: usize,
+    /// Largest force at a point in any record, N.
+    pub(super) largest_force: f64,
     /// Faces of cracks that passed through each other farthest.
     pub(super) overlap: Option<LargestOverlap>,
 }
@@ -34,16 +41,45 @@ serial!(Course {
     energy_was_negative,
     solves,
     negative_eigenvalues,
+    part_start,
+    part,
+    largest_force,
     overlap,
 });
 
+impl Course {
+    /// The problem with the loads of the present part of its programme; None where the course is of another one.
+    fn problem(&self, problem: &Problem) -> Option<Problem> {
+        let mut problem = problem.clone();
+        let Some(first) = problem.loads.course() else {
+            return self.part_start.is_empty().then_some(problem);
+        };
+        let programme = first.programme.clone();
+        let fits =
+            self.part < programme.parts.len() && self.part_start.len() == programme.names.len();
+        let here = fits.then(|| LoadCourse::new(programme, self.part, &self.part_start))?;
+        problem.loads = problem.loads.in_course(here)?;
+        Some(problem)
+    }
+}
+
 /// How far a driver is.
 pub(super) enum Place {
-    /// On the way to the event of this number of the exact path.
-    Event(usize),
+    /// On the way to an event of the exact path.
+    Event(ToEvent),
     /// In a load step.
     LoadStep(InLoadStep),
 }
+
+/// The way to an event.
+pub(super) struct ToEvent {
+    /// Number of the event.
+    pub(super) step: usize,
+    /// What the displacements grow by with the load factor, shape (n_degrees_of_freedom); empty where they are in proportion to it.
+    pub(super) growth: Vec<f64>,
+}
+
+serial!(ToEvent { step, growth });
 
 /// How far a load step is.
 pub(super) struct InLoadStep {
@@ -60,9 +96,9 @@ serial!(InLoadStep {
 impl Serial for Place {
     fn write(&self, out: &mut Vec<u8>) {
         match self {
-            Self::Event(step) => {
+            Self::Event(place) => {
                 false.write(out);
-                step.write(out);
+                place.write(out);
             }
             Self::LoadStep(place) => {
                 true.write(out);
@@ -82,6 +118,7 @@ impl Serial for Place {
 
 /// A run as it was at a moment, in equilibrium and ready to go on.
 pub struct Restored {
+    pub(super) problem: Problem,
     pub(super) place: Place,
     pub(super) state: State,
     pub(super) course: Course,
@@ -114,12 +151,14 @@ impl Restored {
         if !state.fits(&*problem.system, &problem.criteria) {
             return Err(CheckpointError::OtherModel.into());
         }
-        let course = Serial::read(from).map_err(damaged)?;
+        let course: Course = Serial::read(from).map_err(damaged)?;
+        let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
         let (equilibrium, balanced) =
-            Equilibrium::restored(problem, energy_tolerance, &state, from)?;
-        let energies = Energies::read(problem, &state, &balanced, from)?;
+            Equilibrium::restored(&problem, energy_tolerance, &state, from)?;
+        let energies = Energies::read(&problem, &state, &balanced, from)?;
         let proof_then = <[u64; 2]>::read(from).map_err(damaged)?;
         let restored = Self {
+            problem,
             place,
             state,
             course,
@@ -139,11 +178,11 @@ impl Restored {
     /// Whether what stands twice is the same: a record a step, the broken bonds, the solves.
     fn agrees(&self) -> bool {
         let step = match &self.place {
-            Place::Event(step) => *step,
+            Place::Event(it) => it.step,
             Place::LoadStep(it) => it.counters.step,
         };
         let is_in_steps = match &self.place {
-            Place::Event(step) => *step > 0,
+            Place::Event(it) => it.step > 0,
             Place::LoadStep(it) => it.load_factors.len().checked_sub(1) == Some(step),
         };
         let Course {

@@ -1,4 +1,4 @@
-//! Linear elastic answer: one solve at load factor one.
+//! Linear elastic answer: one solve at load factor one, or one at the end of each part of a programme.
 
 use super::outcome::{Outcome, Rows};
 use super::path::{Path, StopRules};
@@ -9,7 +9,8 @@ use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
 
-/// Solves the problem at load factor one; no bond breaks. The history has the unloaded body as step 0.
+/// Solves the problem at load factor one, or at the end of each part of its programme; no bond breaks. The history has the unloaded
+/// body as step 0.
 pub fn run(
     problem: &Problem,
     energy_tolerance: f64,
@@ -18,7 +19,9 @@ pub fn run(
     let (mut path, _) = Path::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
     let nothing = Breakage::default();
     let mut termination = Termination::StepsDone;
-    for (step, load_factor) in [0.0, 1.0].into_iter().enumerate() {
+    let ends = ends(problem);
+    for (step, &(part, load_factor)) in ends.iter().enumerate() {
+        path.begin_part(part);
         path.state.load_factor = load_factor;
         path.enter(step, 0)?;
         let balanced = match path.balance(step, &nothing)? {
@@ -34,7 +37,19 @@ pub fn run(
             at_rest: true,
             ..Default::default()
         };
-        path.record(&balanced, counters, load_factor == 1.0)?;
+        path.record(&balanced, counters, step + 1 == ends.len())?;
     }
     Ok(path.into_outcome(termination, Rows::LoadSteps))
+}
+
+/// The part of a programme and the load factor of each solution, the unloaded body first.
+fn ends(problem: &Problem) -> Vec<(usize, f64)> {
+    let ends: Vec<(usize, f64)> = match problem.loads.course() {
+        None => vec![(0, 1.0)],
+        Some(loads) => {
+            let parts = loads.programme.parts.iter().enumerate();
+            parts.map(|(part, it)| (part, it.span.1)).collect()
+        }
+    };
+    std::iter::once((0, 0.0)).chain(ends).collect()
 }

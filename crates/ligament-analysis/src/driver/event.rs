@@ -1,28 +1,30 @@
-//! The exact equilibrium path under proportional loading, from breakage to breakage.
+//! The exact equilibrium path, from breakage to breakage.
 //!
-//! Between two breakages the body is linear and its state proportional to the load factor, and so are the measures of all
-//! criteria (s/s_0 stands here for measure over limit): the next bond breaks where
-//! the largest s/s_0 reaches one, lambda_next = lambda / max(s/s_0) over the intact bonds with s > 0. It breaks there, the
-//! load held; the new equilibrium is in general no longer admissible at this load (or admissible beyond it), and the path
+//! Between two breakages the body is linear, and where the next bond reaches its limit is known in closed form: in proportion to
+//! the load factor ([`proportional`]), or along the line A + w B of a part of a programme ([`affine`]). It breaks there, the load
+//! held; the new equilibrium is in general no longer admissible at this load (or admissible beyond it), and the path
 //! goes on along its line to the next critical load factor, which may be lower. So the path snaps back as it must, and
 //! there is no step size. A stepped test in displacement follows its envelope, [`super::Outcome::envelope`].
 
-use std::mem;
-use std::time::Instant;
+mod affine;
+mod proportional;
+mod way;
 
-use super::course::{Place, Restored};
+use std::mem;
+
+use super::course::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
-use super::path::{NO_LOAD, Path, StopRules};
+use super::path::{Path, StopRules};
 use super::recorder::{Energies, StepCounters, largest_ratio};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
-use crate::breaking::{FirstToBreak, first_to_break};
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
+use way::{Goal, Way};
 
-/// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case.
+/// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventSettings {
     /// Bonds whose s/s_0 is within this relative distance of the largest break together with it.
@@ -45,6 +47,15 @@ pub fn run(
     if problem.criteria.soften() {
         return Err(SetupError::Softening);
     }
+    let is_staged = problem.loads.course().is_some();
+    if is_staged && problem.system.faces_close() {
+        return Err(SetupError::ClosingFaces);
+    }
+    if let Some(criterion) = problem.criteria.unknown_along_lines().filter(|_| is_staged) {
+        return Err(SetupError::UnknownAlongLines {
+            criterion: criterion.name,
+        });
+    }
     let (mut path, at_one) =
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     path.require_resistance(at_one.as_ref())?;
@@ -61,15 +72,12 @@ pub fn run(
     };
     path.record(&unloaded, counters, false)?;
     // Where there is no equilibrium at load factor one, the first event finds it out again and says why.
-    match at_one {
+    match at_one.filter(|_| !is_staged) {
         Some(at_one) => path.state = at_one,
+        None if is_staged => {}
         None => path.state.load_factor = 1.0,
     }
-    let mut following = Following {
-        loaded: problem.loads.loaded_degrees_of_freedom(),
-        path,
-        settings,
-    };
+    let mut following = Following::new(path, settings, Vec::new());
     let termination = following.follow()?;
     Ok(following.path.into_outcome(termination, Rows::Events))
 }
@@ -97,20 +105,16 @@ pub fn restore(
 ///
 /// If the run is of another driver, or an observer fails.
 pub fn resume(
-    problem: &Problem,
     settings: &EventSettings,
-    restored: Restored,
+    mut restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Place::Event(step) = restored.place else {
+    let Place::Event(ToEvent { step, growth }) = &mut restored.place else {
         return Err(CheckpointError::OtherDriver.into());
     };
-    let (path, line) = Path::go_on(problem, settings.stop, restored, observer);
-    let mut following = Following {
-        loaded: problem.loads.loaded_degrees_of_freedom(),
-        path,
-        settings,
-    };
+    let (step, growth) = (*step, mem::take(growth));
+    let (path, line) = Path::go_on(settings.stop, restored, observer);
+    let mut following = Following::new(path, settings, growth);
     let termination = following.go_on(step, line)?;
     Ok(following.path.into_outcome(termination, Rows::Events))
 }
@@ -118,9 +122,7 @@ pub fn resume(
 /// The run on its way.
 struct Following<'a> {
     path: Path<'a>,
-    settings: &'a EventSettings,
-    /// Degrees of freedom that something moves or loads.
-    loaded: Vec<u32>,
+    way: Box<dyn Way>,
 }
 
 /// What the way along a line changes, as it was before.
@@ -147,18 +149,16 @@ impl Before {
     }
 }
 
-/// Where the line of the present bonds is followed to.
-struct Goal {
-    load_factor: f64,
-    /// s/s_0 of the first bonds to break, there.
-    ratio: f64,
-    /// The first bonds to break, if the load factor is their critical one.
-    bonds: Vec<u32>,
-    /// The reason why the run ends there, if it does.
-    end: Option<Termination>,
-}
+impl<'a> Following<'a> {
+    fn new(path: Path<'a>, settings: &EventSettings, growth: Vec<f64>) -> Self {
+        let (loads, tie_tolerance) = (&*path.problem.loads, settings.tie_tolerance);
+        let way: Box<dyn Way> = match loads.course() {
+            Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
+            None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),
+        };
+        Self { path, way }
+    }
 
-impl Following<'_> {
     /// Follows the path from an equilibrium of the whole body to the end of the run.
     fn follow(&mut self) -> Result<Termination, SetupError> {
         let step = 1;
@@ -172,35 +172,32 @@ impl Following<'_> {
     /// Follows the path from an equilibrium on the line to an event.
     fn go_on(&mut self, mut step: usize, mut line: Balanced) -> Result<Termination, SetupError> {
         loop {
+            let goal = match self.way.goal(&mut self.path, &line) {
+                Ok(goal) => goal,
+                Err(reason) => {
+                    let end = self.path.without_equilibrium(step, reason);
+                    return self.end(step, &line, end);
+                }
+            };
             let before = Before::new(&self.path);
-            let Goal {
-                load_factor,
-                ratio,
-                bonds,
-                end,
-            } = self.goal(&line);
-            let critical = self.move_along_line(&line, load_factor);
+            let critical = self.way.follow(&mut self.path, &line, goal.load_factor);
             self.path.account(step, &Breakage::default(), &critical)?;
-            let end = end
+            let end = (goal.end.clone())
                 .or_else(|| self.path.interruption())
                 .or_else(|| self.path.end_at_rest(&critical))
                 .or_else(|| self.path.end_by_load_fraction(&critical));
             let end = self.offer(before, step, &line, end)?;
-            self.path.enter(step, 0)?;
-            let goes_on = usize::from(end.is_none());
-            let counters = StepCounters {
-                step,
-                broken_in_step: goes_on * bonds.len(),
-                rounds: goes_on,
-                at_rest: true,
-                largest_ratio: ratio,
-                ..Default::default()
-            };
-            self.path.record(&critical, counters, end.is_some())?;
+            self.record(step, &goal, &critical, end.is_some())?;
             if let Some(end) = end {
                 return Ok(end);
             }
-            let breakage = self.path.break_bonds(&bonds, &critical, step, 1)?;
+            if goal.ends_part {
+                self.path.begin_part(self.path.course.part + 1);
+                line = critical;
+                step += 1;
+                continue;
+            }
+            let breakage = self.path.break_bonds(&goal.bonds, &critical, step, 1)?;
             if self.path.collapsed {
                 return self.end(step + 1, &critical, Termination::Collapsed);
             }
@@ -220,6 +217,27 @@ impl Following<'_> {
         }
     }
 
+    /// Records the state at the end of the way along a line.
+    fn record(
+        &mut self,
+        step: usize,
+        goal: &Goal,
+        critical: &Balanced,
+        is_last: bool,
+    ) -> Result<(), SetupError> {
+        self.path.enter(step, 0)?;
+        let breaks = usize::from(!is_last && !goal.ends_part);
+        let counters = StepCounters {
+            step,
+            broken_in_step: breaks * goal.bonds.len(),
+            rounds: breaks,
+            at_rest: !goal.is_held,
+            largest_ratio: goal.ratio,
+            ..Default::default()
+        };
+        self.path.record(critical, counters, is_last)
+    }
+
     /// Offers the moment before the way along a line, when it is known whether the run ends there.
     fn offer(
         &mut self,
@@ -229,92 +247,14 @@ impl Following<'_> {
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         before.swap(&mut self.path);
-        let end = self.path.offer(&|| Place::Event(step), line, end)?;
+        let growth = self.way.growth();
+        let place = || {
+            let growth = growth.to_vec();
+            Place::Event(ToEvent { step, growth })
+        };
+        let end = self.path.offer(&place, line, end)?;
         before.swap(&mut self.path);
         Ok(end)
-    }
-
-    /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
-    fn goal(&mut self, line: &Balanced) -> Goal {
-        let start = Instant::now();
-        let FirstToBreak { ratio, bonds } = first_to_break(
-            self.settings.tie_tolerance,
-            &line.deformations,
-            &self.path.criteria(line),
-            &self.path.state.intact,
-        );
-        self.path.equilibrium.count_bond_work(start);
-        let now = self.path.state.load_factor;
-        let mut goal = Goal {
-            load_factor: now / ratio,
-            ratio: 1.0,
-            bonds,
-            end: None,
-        };
-        if goal.load_factor > 1.0 {
-            // Loose parts have stretches of rounding size, which are none.
-            let is_stretched = ratio > NO_LOAD * now;
-            let end = if is_stretched {
-                Termination::FullLoad
-            } else {
-                Termination::NothingBreaks
-            };
-            (goal.load_factor, goal.end) = (1.0, Some(end));
-        }
-        let loads = &self.path.problem.loads;
-        let displacement = loads.control_displacement(now, &self.path.state.displacement);
-        if let Some(wanted) = self.settings.stop.displacement
-            && displacement > 0.0
-        {
-            let load_factor = now * wanted / displacement;
-            if load_factor <= goal.load_factor {
-                goal.load_factor = load_factor;
-                goal.end = Some(Termination::DisplacementReached {
-                    displacement: wanted,
-                });
-            }
-        }
-        if goal.end.is_some() {
-            goal.ratio = ratio * (goal.load_factor / now);
-        }
-        goal
-    }
-
-    /// Moves to another load factor with the same bonds, where no solution is needed.
-    ///
-    /// A part that something moves or loads has strains in proportion to the load factor, so its displacements are scaled.
-    /// Where it may move freely, with just this motion held, the motion is scaled with the rest: it costs nothing, and its
-    /// size is arbitrary. A part that nothing moves or loads has no strains and stays where it is, to the last bit.
-    /// The residual after the next breakage covers the whole state, and so tells if this did not hold.
-    fn move_along_line(&mut self, line: &Balanced, load_factor: f64) -> Balanced {
-        let start = Instant::now();
-        let state = &mut self.path.state;
-        let factor = load_factor / state.load_factor;
-        state.load_factor = load_factor;
-        let fragments = self.path.equilibrium.fragments();
-        // A temperature strains all parts, and where faces close any part may press on another.
-        let faces_close = self.path.problem.system.faces_close();
-        let is_heated = !self
-            .path
-            .problem
-            .loads
-            .thermal_strain(load_factor)
-            .is_none();
-        let mut is_loaded = vec![is_heated || faces_close; fragments.points.len()];
-        let layout = self.path.problem.system.layout();
-        for &dof in &self.loaded {
-            let point = layout.point(dof as usize);
-            is_loaded[fragments.of_point[point as usize] as usize] = true;
-        }
-        let of_points = state.displacement.chunks_mut(layout.components.len());
-        for (motion, &fragment) in of_points.zip(&fragments.of_point) {
-            if is_loaded[fragment as usize] {
-                motion.iter_mut().for_each(|value| *value *= factor);
-            }
-        }
-        let critical = line.scaled(factor);
-        self.path.equilibrium.count_bond_work(start);
-        critical
     }
 
     /// Ends the run with a last record after a breakage; at rest only where the body fell apart.

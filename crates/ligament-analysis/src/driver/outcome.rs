@@ -89,9 +89,10 @@ impl Outcome {
     /// lies beyond all displacements before it.
     ///
     /// Where the exact path comes back from a snap-back, the curve falls at the largest displacement so far, onto the line
-    /// through the origin that leads to the next event.
+    /// through the origin that leads to the next event; in stages, whose lines lead elsewhere, the next event follows as it is.
     pub fn envelope(&self) -> Vec<LoadPoint> {
         let at_rest = self.history.iter().filter(|step| step.at_rest);
+        let is_proportional = self.history.iter().all(|step| step.factors.is_empty());
         let points = at_rest.map(LoadPoint::from);
         if self.rows == Rows::LoadSteps {
             return points.collect();
@@ -100,7 +101,7 @@ impl Outcome {
         for point in points {
             match curve.last() {
                 Some(last) if point.displacement <= last.displacement => {}
-                Some(last) if last.displacement > 0.0 => {
+                Some(last) if last.displacement > 0.0 && is_proportional => {
                     curve.push(point.scaled(last.displacement / point.displacement));
                     curve.push(point);
                 }

@@ -23,7 +23,7 @@ use crate::history::{
     BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord,
     Termination, View,
 };
-use crate::load_program::ControlKind;
+use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
 use crate::serial::Serial;
 use crate::softening::Softening;
@@ -68,7 +68,8 @@ const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
 /// A run on its way.
 pub(super) struct Path<'a> {
-    pub(super) problem: &'a Problem,
+    /// The problem, with the loads of the present part of its programme.
+    pub(super) problem: Problem,
     pub(super) observer: &'a mut dyn Observer,
     pub(super) equilibrium: Equilibrium,
     pub(super) state: State,
@@ -76,7 +77,7 @@ pub(super) struct Path<'a> {
     pub(super) course: Course,
     /// Whether a given force acts on a part that nothing holds any more.
     pub(super) collapsed: bool,
-    stop: StopRules,
+    pub(super) stop: StopRules,
     started: Instant,
 }
 
@@ -96,7 +97,7 @@ impl<'a> Path<'a> {
         } = begin(problem, &mut equilibrium, observer)?;
         let solves = [equilibrium.costs().solves; 2];
         let path = Self {
-            problem,
+            problem: problem.clone(),
             observer,
             equilibrium,
             state: unloaded,
@@ -109,6 +110,12 @@ impl<'a> Path<'a> {
                 energy_was_negative: false,
                 solves,
                 negative_eigenvalues: 0,
+                part_start: problem
+                    .loads
+                    .course()
+                    .map_or_else(Vec::new, LoadCourse::start),
+                part: 0,
+                largest_force: 0.0,
                 overlap: None,
             },
             collapsed: false,
@@ -130,13 +137,12 @@ impl<'a> Path<'a> {
 
     /// Goes on from a checkpoint; also gives the equilibrium there.
     pub(super) fn go_on(
-        problem: &'a Problem,
         stop: StopRules,
         restored: Restored,
         observer: &'a mut dyn Observer,
     ) -> (Self, Balanced) {
         let path = Self {
-            problem,
+            problem: restored.problem,
             observer,
             equilibrium: restored.equilibrium,
             state: restored.state,
@@ -154,6 +160,31 @@ impl<'a> Path<'a> {
         let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equilibrium.soften();
+    }
+
+    /// Goes over to the part of this index of a programme, which begins where the present one ends.
+    pub(super) fn begin_part(&mut self, part: usize) {
+        let Some(here) = self.problem.loads.course().filter(|it| it.part != part) else {
+            return;
+        };
+        let start = here.factors(self.state.load_factor);
+        let next = LoadCourse::new(here.programme.clone(), part, &start);
+        let (begins, _) = next.programme.parts[part].span;
+        let Some(loads) = self.problem.loads.in_course(next) else {
+            return;
+        };
+        self.state.load_factor = begins;
+        (self.course.part, self.course.part_start) = (part, start);
+        self.problem.loads = loads.clone();
+        self.equilibrium.load_with(loads);
+    }
+
+    /// Factor of the control load in a record.
+    pub(super) fn control_factor(&self, record: &StepRecord) -> f64 {
+        match self.problem.loads.course() {
+            Some(loads) => record.factors[loads.programme.control],
+            None => record.load_factor,
+        }
     }
 
     /// Tells the observer what comes next.
@@ -238,11 +269,11 @@ impl<'a> Path<'a> {
         breakage: &Breakage,
         balanced: &Balanced,
     ) -> Result<(), SetupError> {
-        self.energies.add_work(self.problem, &self.state, balanced);
+        self.energies.add_work(&self.problem, &self.state, balanced);
         self.energies
-            .add_released(self.problem, &self.state, breakage, balanced);
-        (self.energies).add_contact(self.problem, &self.state, breakage, balanced);
-        dissipation::soften(self.problem, &mut self.state);
+            .add_released(&self.problem, &self.state, breakage, balanced);
+        (self.energies).add_contact(&self.problem, &self.state, breakage, balanced);
+        dissipation::soften(&self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
         Ok(())
     }
@@ -278,7 +309,7 @@ impl<'a> Path<'a> {
         self.course.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
-            dissipation::break_bond(self.problem, &mut self.state, record);
+            dissipation::break_bond(&self.problem, &mut self.state, record);
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
         // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
@@ -317,6 +348,9 @@ impl<'a> Path<'a> {
 
     /// Whether the load of an equilibrium is rounding against the largest so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
+        if let Some(loads) = self.problem.loads.course() {
+            return self.carries_no_part(loads, balanced);
+        }
         let (_, reaction) = self.control(balanced);
         reaction <= NO_LOAD * self.course.peak
     }
@@ -356,8 +390,18 @@ impl<'a> Path<'a> {
         let carried = self.carried_by_the_damaged(balanced)?;
         // What fell apart carries again where its faces close.
         let is_over = !self.problem.system.faces_close();
-        let carries_nothing = carried <= NO_LOAD * self.course.peak;
+        let carries_nothing = match self.problem.loads.course() {
+            None => carried <= NO_LOAD * self.course.peak,
+            Some(course) => self.carries_no_part(course, balanced),
+        };
         (is_over && carries_nothing).then_some(Termination::FellApart)
+    }
+
+    /// Whether no point of a body carries anything of the loads of a programme that act on it.
+    fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
+        let factors = course.factors(self.state.load_factor);
+        let acts = factors.iter().any(|factor| *factor != 0.0);
+        acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force
     }
 
     /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
@@ -379,11 +423,8 @@ impl<'a> Path<'a> {
         }
         // A load the other way is carried the other way.
         let (_, reaction) = self.control(balanced);
-        Some(if self.state.load_factor < 0.0 {
-            -reaction
-        } else {
-            reaction
-        })
+        let factor = self.problem.loads.control_factor(self.state.load_factor);
+        Some(if factor < 0.0 { -reaction } else { reaction })
     }
 
     /// Records an equilibrium.
@@ -401,7 +442,7 @@ impl<'a> Path<'a> {
         };
         self.course.solves[1] = self.equilibrium.costs().solves;
         let record = step_record(
-            self.problem,
+            &self.problem,
             &self.state,
             balanced,
             &self.energies,
@@ -409,6 +450,8 @@ impl<'a> Path<'a> {
             counters,
         );
         self.course.peak = self.course.peak.max(record.reaction);
+        let force = balanced.internal.force_scale;
+        self.course.largest_force = self.course.largest_force.max(force);
         self.report_overlap(record.step)?;
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
@@ -430,7 +473,7 @@ impl<'a> Path<'a> {
     /// Tells of the first record in which faces of cracks pass through each other, and keeps the largest overlap.
     fn report_overlap(&mut self, step: usize) -> Result<(), ObserverError> {
         let fragments = self.equilibrium.fragments();
-        let Some(overlap) = overlap::largest(self.problem, &self.state, fragments) else {
+        let Some(overlap) = overlap::largest(&self.problem, &self.state, fragments) else {
             return Ok(());
         };
         let now = LargestOverlap {

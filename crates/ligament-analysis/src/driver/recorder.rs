@@ -34,7 +34,7 @@ pub(super) struct Energies {
     loaded: Vec<u32>,
     /// Forces and displacements of the loaded degrees of freedom in the last state.
     last_loaded: Vec<Loaded>,
-    /// Load factor and [`InternalForces::thermal`] in the last state.
+    /// Factor of the temperature and [`InternalForces::thermal`] in the last state.
     thermal: (f64, f64),
     /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
     last: Vec<(BondDeformation, Remaining)>,
@@ -127,9 +127,10 @@ impl Energies {
             work += mean_force * (state.displacement[dof] - last.displacement);
             (last.force, last.displacement) = (force, state.displacement[dof]);
         }
-        let (load_factor, force) = self.thermal;
-        self.thermal = (state.load_factor, balanced.internal.thermal);
-        work += 0.5 * (force + self.thermal.1) * (state.load_factor - load_factor);
+        let (factor, force) = self.thermal;
+        let factor_now = problem.loads.temperature_factor(state.load_factor);
+        self.thermal = (factor_now, balanced.internal.thermal);
+        work += 0.5 * (force + self.thermal.1) * (factor_now - factor);
         self.external_work += work;
         self.largest_work = self.largest_work.max(self.external_work.abs());
     }
@@ -225,6 +226,10 @@ pub(super) fn step_record(
     StepRecord {
         step: counters.step,
         load_factor: state.load_factor,
+        part: loads.course().map_or(0, |it| it.part),
+        factors: loads
+            .course()
+            .map_or_else(Vec::new, |it| it.factors(state.load_factor)),
         displacement: loads.control_displacement(state.load_factor, &state.displacement),
         reaction: loads.control_force(state.load_factor, &balanced.internal),
         stored_energy: balanced.stored_energy,
@@ -257,8 +262,8 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
     let layout = problem.system.layout();
     let groups = problem.loads.groups().iter();
     groups
-        .map(|group| {
-            let mut sum = problem.loads.given_resultant(group, load_factor);
+        .zip(problem.loads.given_resultants(load_factor))
+        .map(|(group, mut sum)| {
             for &point in &group.points {
                 for (sum, reaction) in sum.iter_mut().zip(&reactions[layout.range(point)]) {
                     *sum += reaction;

@@ -36,7 +36,30 @@ serial!(ElasticAnswer {
 });
 
 /// Holds what nothing holds, and solves once at load factor one for the stiffness, the first breakage and the inertia.
+///
+/// Of a programme of stages that is the answer to the load of the curve alone, which foretells no breakage.
 pub(super) fn begin(
+    problem: &Problem,
+    equilibrium: &mut Equilibrium,
+    observer: &mut dyn Observer,
+) -> Result<Start, SetupError> {
+    let course = problem.loads.course();
+    let alone = course.and_then(|it| problem.loads.in_course(it.control_alone()));
+    let Some(loads) = alone else {
+        return begin_proportional(problem, equilibrium, observer);
+    };
+    let alone = Problem {
+        loads,
+        ..problem.clone()
+    };
+    equilibrium.load_with(alone.loads.clone());
+    let mut start = begin_proportional(&alone, equilibrium, observer)?;
+    equilibrium.load_with(problem.loads.clone());
+    start.elastic.first_break = None;
+    Ok(start)
+}
+
+fn begin_proportional(
     problem: &Problem,
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,

@@ -3,7 +3,6 @@
 //! In a load step: equilibrium; the bonds beyond their critical stretch in order; the first of them break; equilibrium
 //! again; until none is left to break.
 
-use std::mem;
 use std::time::Instant;
 
 use super::course::{InLoadStep, Place, Restored};
@@ -17,12 +16,14 @@ use crate::breaking::{BreakingRule, next_to_break};
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::load_program::Part;
 use crate::problem::Problem;
 
 /// How to step and when to stop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteppedSettings {
-    /// Load factor at the end of each step; where it falls, the body is unloaded.
+    /// Load factor at the end of each step; where it falls, the body is unloaded. None with a programme of stages, which has its own
+    /// steps.
     pub load_factors: Vec<f64>,
     /// Divide what is left of the first breakage's step, after a step that ends exactly there, into so many; 0: off.
     pub refine_first_break: usize,
@@ -46,11 +47,11 @@ pub fn run(
         Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     path.require_resistance(at_one.as_ref())?;
     path.soften();
-    let load_factors = load_factors(settings, &path.course.elastic);
+    let plan = plan(problem, settings, &path.course.elastic);
     let mut stepping = Stepping {
         path,
         settings,
-        load_factors: &load_factors,
+        plan: &plan,
     };
     let termination = stepping.steps_from(0)?;
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
@@ -73,9 +74,9 @@ pub fn restore(
     else {
         return Err(CheckpointError::OtherDriver.into());
     };
-    let planned = load_factors(settings, &restored.course.elastic);
-    let is_same =
-        |step: &usize| planned.get(*step).map(|it| it.to_bits()) == Some(done[*step].to_bits());
+    let planned = plan(problem, settings, &restored.course.elastic);
+    let planned = |step: usize| planned.get(step).map(|it| it.load_factor.to_bits());
+    let is_same = |step: &usize| planned(*step) == Some(done[*step].to_bits());
     match (0..done.len()).find(|step| !is_same(step)) {
         None => Ok(restored),
         Some(step) => Err(CheckpointError::OtherLoading {
@@ -92,21 +93,19 @@ pub fn restore(
 ///
 /// If the run is of another driver, or an observer fails.
 pub fn resume(
-    problem: &Problem,
     settings: &SteppedSettings,
-    mut restored: Restored,
+    restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let place = mem::replace(&mut restored.place, Place::Event(0));
-    let Place::LoadStep(InLoadStep { counters, .. }) = place else {
+    let Place::LoadStep(InLoadStep { counters, .. }) = restored.place else {
         return Err(CheckpointError::OtherDriver.into());
     };
-    let load_factors = load_factors(settings, &restored.course.elastic);
-    let (path, balanced) = Path::go_on(problem, settings.stop, restored, observer);
+    let plan = plan(&restored.problem, settings, &restored.course.elastic);
+    let (path, balanced) = Path::go_on(settings.stop, restored, observer);
     let mut stepping = Stepping {
         path,
         settings,
-        load_factors: &load_factors,
+        plan: &plan,
     };
     let termination = match stepping.come_to_rest(counters, balanced)? {
         Some(end) => end,
@@ -115,10 +114,31 @@ pub fn resume(
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
 }
 
-/// The load factors of all steps, that of the unloaded body first.
-fn load_factors(settings: &SteppedSettings, elastic: &ElasticAnswer) -> Vec<f64> {
-    let steps = refined(settings, elastic.first_break);
-    std::iter::once(0.0).chain(steps).collect()
+/// A load step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct LoadStep {
+    /// Part of the programme of stages; 0 without one.
+    part: usize,
+    /// Load factor at its end.
+    load_factor: f64,
+}
+
+/// All load steps, the unloaded body first.
+fn plan(problem: &Problem, settings: &SteppedSettings, elastic: &ElasticAnswer) -> Vec<LoadStep> {
+    let step = |part: usize| move |load_factor: f64| LoadStep { part, load_factor };
+    let steps: Vec<LoadStep> = match problem.loads.course() {
+        None => refined(settings, elastic.first_break)
+            .into_iter()
+            .map(step(0))
+            .collect(),
+        Some(loads) => {
+            let parts = loads.programme.parts.iter().enumerate();
+            let of_part =
+                |(part, it): (usize, &Part)| it.load_factors().into_iter().map(step(part));
+            parts.flat_map(of_part).collect()
+        }
+    };
+    std::iter::once(step(0)(0.0)).chain(steps).collect()
 }
 
 /// The load factors with the step of the first breakage divided.
@@ -156,14 +176,14 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 struct Stepping<'a> {
     path: Path<'a>,
     settings: &'a SteppedSettings,
-    /// Load factors of all steps, that of the unloaded body first.
-    load_factors: &'a [f64],
+    /// All load steps, the unloaded body first.
+    plan: &'a [LoadStep],
 }
 
 impl Stepping<'_> {
     /// Does the load steps from one on, and gives the reason why the run ends.
     fn steps_from(&mut self, first: usize) -> Result<Termination, SetupError> {
-        for step in first..self.load_factors.len() {
+        for step in first..self.plan.len() {
             if let Some(end) = self.load_step(step)? {
                 return Ok(end);
             }
@@ -173,7 +193,9 @@ impl Stepping<'_> {
 
     /// Does one load step, and gives the reason why the run ends, if it does.
     fn load_step(&mut self, step: usize) -> Result<Option<Termination>, SetupError> {
-        self.path.state.load_factor = self.load_factors[step];
+        let LoadStep { part, load_factor } = self.plan[step];
+        self.path.begin_part(part);
+        self.path.state.load_factor = load_factor;
         let counters = StepCounters {
             step,
             ..Default::default()
@@ -255,13 +277,16 @@ impl Stepping<'_> {
     /// What ends the run in an equilibrium that is at rest. A load that is taken back is no failure, and shows what the body
     /// can carry only when it is again as large as it was.
     fn end_at_rest(&self, balanced: &Balanced, step: usize) -> Option<Termination> {
-        let size = |step: usize| self.load_factors[step].abs();
-        let is_unloading = size(step) < size(step.saturating_sub(1));
-        if is_unloading || (step > 0 && size(step) == 0.0) {
+        let loads = &self.path.problem.loads;
+        let size = loads.control_factor(self.path.state.load_factor).abs();
+        let before = self.path.course.history[..step].iter();
+        let mut before = before.map(|it| self.path.control_factor(it).abs());
+        let is_unloading = before.next_back().is_some_and(|last| size < last);
+        if is_unloading || (step > 0 && size == 0.0) {
             return None;
         }
         let end = self.path.end_at_rest(balanced);
-        let was_larger = (0..step).any(|earlier| size(earlier) > size(step));
+        let was_larger = before.any(|earlier| earlier > size);
         let fallen = (!was_larger).then(|| self.path.end_by_load_fraction(balanced));
         end.or(fallen.flatten())
     }
@@ -273,12 +298,14 @@ impl Stepping<'_> {
         counters: StepCounters,
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
-        let is_last = counters.at_rest && counters.step + 1 == self.load_factors.len();
+        let is_last = counters.at_rest && counters.step + 1 == self.plan.len();
         let done = end.is_none() && is_last;
         let place = || {
             Place::LoadStep(InLoadStep {
                 counters,
-                load_factors: self.load_factors[..=counters.step].to_vec(),
+                load_factors: (self.plan[..=counters.step].iter())
+                    .map(|it| it.load_factor)
+                    .collect(),
             })
         };
         let end = end.or(done.then_some(Termination::StepsDone));

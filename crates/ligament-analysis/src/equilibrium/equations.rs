@@ -285,7 +285,8 @@ impl Equations {
         let gaps = self.contact.gaps(&state.displacement, expansion);
         let closed = self.contact.closed(&gaps);
         contact::add_to(&mut swept, &closed, self.layout(), expansion);
-        let energy_of_motion = swept.energy_of_motion(state.load_factor);
+        let factor = self.problem.loads.temperature_factor(state.load_factor);
+        let energy_of_motion = swept.energy_of_motion(factor);
         let BondSweep {
             deformations,
             internal,
@@ -297,7 +298,7 @@ impl Equations {
         let displacement = self.largest_displacement(state);
         let residual = self.residual(state, &internal, extents, displacement);
         self.costs.bonds += start.elapsed();
-        let of_expansions = state.load_factor.powi(2) * expansion_energy.abs();
+        let of_expansions = factor.powi(2) * expansion_energy.abs();
         let cancelled = CANCELLED * of_expansions;
         let rounding = ROUNDING * self.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + cancelled);
@@ -312,6 +313,42 @@ impl Equations {
             gaps,
             closed,
         }
+    }
+
+    /// A state that is known to be in equilibrium, as the bonds see it.
+    pub(super) fn measured(&mut self, state: &mut State) -> Balanced {
+        self.prescribe(state);
+        self.measure(state).balanced(0, Vec::new())
+    }
+
+    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state, under loads at their load factor 1.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor.
+    pub(super) fn growth(
+        &mut self,
+        state: &mut State,
+        loads: &dyn LoadProgram,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        self.prepare_solver(state)?;
+        let mut growth = vec![0.0; state.displacement.len()];
+        loads.prescribe(1.0, &mut growth);
+        let system = &self.problem.system;
+        let expansion = loads.thermal_strain(1.0);
+        let deformations = system.deformations(&state.intact, &growth, expansion);
+        let internal = system
+            .forces(state.bonds(), deformations, expansion)
+            .internal;
+        let dofs = self.stiffness.unknowns().degrees_of_freedom();
+        let given = loads.forces(1.0, dofs);
+        let force = dofs.iter().zip(given);
+        let force = force.map(|(&dof, given)| given - internal.values[dof as usize]);
+        let solution = self.solver.solve(state, force.collect(), &mut self.costs);
+        for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
+            growth[dof as usize] = value;
+        }
+        Ok(growth)
     }
 
     /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.

@@ -171,6 +171,14 @@ impl LoadProgram for ProportionalLoading {
         changes.map(|change| time * change).collect()
     }
 
+    fn temperature_factor(&self, time: f64) -> f64 {
+        time
+    }
+
+    fn control_factor(&self, time: f64) -> f64 {
+        time
+    }
+
     fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
         let is_moved = |dof: usize| self.prescribed[dof].is_some_and(|value| value != 0.0);
         let is_loaded = |&dof: &u32| self.force[dof as usize] != 0.0 || is_moved(dof as usize);
@@ -191,8 +199,10 @@ impl LoadProgram for ProportionalLoading {
         &self.groups
     }
 
-    fn given_resultant(&self, group: &BoundaryGroup, time: f64) -> Vec<f64> {
-        group.force.iter().map(|force| time * force).collect()
+    fn given_resultants(&self, time: f64) -> Vec<Vec<f64>> {
+        let at_time =
+            |group: &BoundaryGroup| group.force.iter().map(|force| time * force).collect();
+        self.groups.iter().map(at_time).collect()
     }
 
     fn control(&self) -> &Control {

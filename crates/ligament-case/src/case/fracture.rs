@@ -29,7 +29,7 @@ pub struct Fracture {
     /// What drives the load.
     #[serde(default)]
     pub control: Control,
-    /// The load steps: so many equal ones up to load factor 1, or a list of load factors.
+    /// The load steps: so many equal ones up to load factor 1, or a list of load factors. With a [[stage]] each stage has its own.
     pub steps: Option<Steps>,
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = stepped().rule.bonds_per_iteration))]
@@ -128,11 +128,16 @@ impl Default for Stop {
 }
 
 impl Fracture {
-    /// Fills in what is not given; `law` is the law of the bonds.
-    pub(super) fn complete(&mut self, key: &KeyPath, law: &setup::Law) -> Result<(), KeyFault> {
+    /// Fills in what is not given; `law` is the law of the bonds, and the load steps are those of stages where there are any.
+    pub(super) fn complete(
+        &mut self,
+        key: &KeyPath,
+        law: &setup::Law,
+        is_staged: bool,
+    ) -> Result<(), KeyFault> {
         match self.control {
             Control::Stepped => {
-                let settings = self.stepping(key)?;
+                let settings = self.stepping(key, is_staged)?;
                 let rule = settings.rule;
                 self.bonds_per_iteration = Some(rule.bonds_per_iteration as u32);
                 self.order = Some(Word(rule.order));
@@ -165,9 +170,9 @@ impl Fracture {
         refuse(key, given, "control = \"event\"", reason)
     }
 
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<Analysis, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath, is_staged: bool) -> Result<Analysis, KeyFault> {
         Ok(match self.control {
-            Control::Stepped => Analysis::Stepped(self.stepping(key)?),
+            Control::Stepped => Analysis::Stepped(self.stepping(key, is_staged)?),
             Control::Event => Analysis::Event(EventSettings {
                 tie_tolerance: self.tie_tolerance,
                 energy_tolerance: self.energy_tolerance,
@@ -176,13 +181,22 @@ impl Fracture {
         })
     }
 
-    fn stepping(&self, key: &KeyPath) -> Result<SteppedSettings, KeyFault> {
-        let steps = self.steps.as_ref().ok_or_else(|| missing(key, "steps"))?;
+    fn stepping(&self, key: &KeyPath, is_staged: bool) -> Result<SteppedSettings, KeyFault> {
+        let load_factors = match &self.steps {
+            Some(_) if is_staged => {
+                let reason = "the load steps are those of the stages: each takes its `steps`";
+                refuse(key, [("steps", true)], "[[stage]]", reason)?;
+                Vec::new()
+            }
+            Some(steps) => steps.load_factors(),
+            None if is_staged => Vec::new(),
+            None => return Err(missing(key, "steps")),
+        };
         let default = stepped();
         let count = |given: Option<u32>, default: usize| given.map_or(default, |it| it as usize);
         let bonds_per_iteration = count(self.bonds_per_iteration, default.rule.bonds_per_iteration);
         Ok(SteppedSettings {
-            load_factors: steps.load_factors(),
+            load_factors,
             refine_first_break: count(self.refine_first_break, default.refine_first_break),
             rule: BreakingRule {
                 order: self.order.map_or(default.rule.order, |it| it.0),

@@ -14,8 +14,9 @@ use super::values::RANGE;
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
 
 /// Units as they stand in the description of a key, after a comma: "Thickness of the body, m."
-const UNITS: [&str; 13] = [
-    "1/K", "J/m^2", "K", "N", "N m", "N m/m^3", "N/m", "N/m^3", "Pa", "kg/m^3", "m", "rad", "s",
+const UNITS: [&str; 14] = [
+    "1/K", "J/m^2", "K", "N", "N m", "N m/m^3", "N/m", "N/m^3", "Pa", "kg/m^3", "m", "m/s^2",
+    "rad", "s",
 ];
 
 /// Unit of the number at a key path, where it has one: its own, or that of the table or list which it is in.
@@ -201,6 +202,7 @@ mod tests {
             ("load.0.force.x", "N"),
             ("load.0.force_per_length.y", "N/m"),
             ("load.1.body_force.y", "N/m^3"),
+            ("load.1.acceleration.x", "m/s^2"),
             ("load.0.displacement.rotation", "rad"),
             ("load.0.displacement.x", "m"),
             ("load.0.moment", "N m"),

@@ -14,7 +14,7 @@ use ligament::setup::{self, Action, Axis, Place};
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["displacement", "force", "force_per_length", "body_force", "moment", "body_couple", "pressure"])))]
+#[schemars(extend("oneOf" = exactly_one(&["displacement", "force", "force_per_length", "body_force", "acceleration", "moment", "body_couple", "pressure"])))]
 pub struct Load {
     /// Heads its column in `history.csv`; without it the name of the group.
     #[schemars(length(min = 1))]
@@ -33,6 +33,9 @@ pub struct Load {
     pub force_per_length: Option<Vector>,
     /// A force in the volume, N/m^3; on the whole body without a place.
     pub body_force: Option<Vector>,
+    /// An acceleration that acts on all masses, as gravity does, m/s^2; on the whole body without a place, and the materials need a
+    /// `density`.
+    pub acceleration: Option<Vector>,
     /// A couple in total over the points, counter-clockwise, N m.
     pub moment: Option<f64>,
     /// A couple in the volume, counter-clockwise, N m/m^3; on the whole body without a place.
@@ -91,7 +94,7 @@ impl Load {
         place(key, self.group.as_ref(), self.r#box, self.at)
     }
 
-    fn actions(&self) -> [(&'static str, Option<Action>); 7] {
+    fn actions(&self) -> [(&'static str, Option<Action>); 8] {
         let displacement = self.displacement.map(|it| setup::Displacement {
             x: it.x,
             y: it.y,
@@ -106,6 +109,10 @@ impl Load {
                 vector(self.force_per_length).map(Action::ForcePerLength),
             ),
             ("body_force", vector(self.body_force).map(Action::BodyForce)),
+            (
+                "acceleration",
+                vector(self.acceleration).map(Action::Acceleration),
+            ),
             ("moment", self.moment.map(Action::Moment)),
             ("body_couple", self.body_couple.map(Action::BodyCouple)),
             ("pressure", self.pressure.map(Action::Pressure)),

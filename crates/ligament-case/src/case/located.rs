@@ -89,6 +89,7 @@ impl Case {
             "precracks" => "precrack",
             "supports" => "support",
             "loads" => "load",
+            "stages" => "stage",
             "temperatures" => "temperature",
             "probes" => "probe",
             "criteria" => "fracture.criterion",

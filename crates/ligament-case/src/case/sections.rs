@@ -28,6 +28,7 @@ use super::precrack::Precrack;
 use super::probe::Probe;
 use super::region::Region;
 use super::solver::{self, Solver};
+use super::stage::Stage;
 use super::temperature::Temperature;
 use super::values::{exactly_one, refuse};
 
@@ -41,6 +42,9 @@ pub struct Case {
     pub title: String,
     /// What is computed; without it `fracture` where there is a `[fracture]` section, else `static`.
     pub analysis: Option<Analysis>,
+    /// Name of the load, or `temperature`, that is the axis of the force-displacement curve; without it the first load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curve: Option<String>,
     /// The body, meshed by Gmsh; or a `[lattice]`.
     pub mesh: Option<MeshSection>,
     /// The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`.
@@ -67,6 +71,9 @@ pub struct Case {
     /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
     #[serde(rename = "load", default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<Load>,
+    /// Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor.
+    #[serde(rename = "stage", default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<Stage>,
     /// Changes of temperature at load factor 1; where several reach, the last holds.
     #[serde(rename = "temperature", default, skip_serializing_if = "Vec::is_empty")]
     pub temperatures: Vec<Temperature>,
@@ -108,6 +115,9 @@ impl Case {
         for (index, load) in case.loads.iter_mut().enumerate() {
             load.complete(&loads.child(index), index + 1)?;
         }
+        for (index, stage) in case.stages.iter_mut().enumerate() {
+            stage.complete(&root().child("stage").child(index), index + 1)?;
+        }
         for (index, temperature) in case.temperatures.iter_mut().enumerate() {
             temperature.complete(&temperatures.child(index), folder)?;
         }
@@ -116,7 +126,8 @@ impl Case {
         case.correction
             .complete(&root().child("correction"), &law)?;
         if let Some(fracture) = &mut case.fracture {
-            fracture.complete(&root().child("fracture"), &law)?;
+            let is_staged = !case.stages.is_empty();
+            fracture.complete(&root().child("fracture"), &law, is_staged)?;
         }
         let on_exact_path = (case.fracture.as_ref()).is_some_and(|it| it.control == Control::Event);
         (case.output).complete(&root().child("output"), on_exact_path)?;
@@ -157,6 +168,8 @@ impl Case {
                 let held = "modes are free vibrations without loads; supports hold";
                 refuse("load", !loads.is_empty(), held)?;
                 refuse("temperature", !self.temperatures.is_empty(), free)?;
+                refuse("stage", !self.stages.is_empty(), free)?;
+                refuse("curve", self.curve.is_some(), free)?;
                 let reason = "modes have no history to read";
                 refuse("probe", !self.probes.is_empty(), reason)?;
                 let reason = "every mode is written, to a file of its own";
@@ -215,6 +228,8 @@ impl Case {
             no_fail: each("no_fail", &self.no_fail, Region::place)?,
             supports: each("support", &self.supports, Support::setup)?,
             loads: each("load", &self.loads, Load::setup)?,
+            curve: self.curve.clone(),
+            stages: each("stage", &self.stages, Stage::setup)?,
             temperatures: each("temperature", &self.temperatures, Temperature::setup)?,
             criteria: each(
                 "fracture.criterion",
@@ -229,7 +244,9 @@ impl Case {
             probes: each("probe", &self.probes, Probe::setup)?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
-                (None, Some(fracture)) => fracture.setup(&root().child("fracture"))?,
+                (None, Some(fracture)) => {
+                    fracture.setup(&root().child("fracture"), !self.stages.is_empty())?
+                }
                 (None, None) => setup::Analysis::default(),
             },
             solver: self.solver.setup(),

@@ -81,6 +81,11 @@ group = "top"
 moment = 1
 [[temperature]]
 change = 10
+[[stage]]
+name = "heat"
+loads = { temperature = [[0.5, 2], [1, 1.5]] }
+[[stage]]
+loads = { top = [1, -1, 0.5], temperature = 0 }
 [fracture]
 control = "event"
 stop = { wall_time = 10 }
@@ -125,6 +130,12 @@ body_couple = 1.0
 [[load]]
 name = "upward"
 body_force = { y = 1 }
+[[load]]
+name = "weight"
+acceleration = { y = -9.81 }
+[[load]]
+name = "thrown"
+acceleration = { x = 1 }
 [[load]]
 at = [0, 0]
 force = { y = 1 }

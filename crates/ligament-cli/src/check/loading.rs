@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
-use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE};
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Setup};
 use ligament_analysis::gauges;
 use ligament_analysis::probe::Reading;
 use ligament_analysis::{ControlKind, Equilibrium};
@@ -41,7 +41,7 @@ pub(super) fn check(
     for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
         writeln!(out, "  not held: {}", words(&free, model.body()))?;
     }
-    write_loading(out, &model.setup.analysis)?;
+    write_loading(out, &model.setup)?;
     write_room(out, case, model)?;
     if let Some(equilibrium) = &equilibrium {
         equations::write(out, case, model, equilibrium.stiffness())?;
@@ -106,9 +106,20 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
     Ok(())
 }
 
-fn write_loading(out: &mut dyn Write, analysis: &Analysis) -> io::Result<()> {
-    let loading = match analysis {
-        Analysis::Stepped(settings) => format!("{} load steps", settings.load_factors.len()),
+fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
+    let steps = setup.n_steps().unwrap_or(0);
+    let stages: Vec<&str> = setup.stages.iter().map(|it| it.name.as_str()).collect();
+    if !stages.is_empty() {
+        entry(out, "stages", stages.join(", "))?;
+    }
+    let loading = match &setup.analysis {
+        Analysis::Stepped(_) => format!("{steps} load steps"),
+        Analysis::Event(_) if !stages.is_empty() => {
+            "exact path from breakage to breakage, through all stages".to_owned()
+        }
+        Analysis::Elastic { .. } if !stages.is_empty() => {
+            format!("{steps} elastic solutions, one at the end of each part of a stage")
+        }
         Analysis::Event(_) => {
             "exact path from breakage to breakage, up to load factor 1".to_owned()
         }

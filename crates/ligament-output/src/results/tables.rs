@@ -107,6 +107,16 @@ fn write_criteria(
     Ok(())
 }
 
+/// Columns of the history that stages add: the stage, and the factor of each load.
+fn stage_columns(problem: &Problem) -> Vec<String> {
+    let Some(loads) = problem.loads.course() else {
+        return Vec::new();
+    };
+    let names = loads.programme.names.iter();
+    let factors = names.map(|name| format!("{name}_factor"));
+    std::iter::once("stage".to_owned()).chain(factors).collect()
+}
+
 /// How a table is opened, by its place in [`FILES`] and its columns.
 type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
@@ -201,7 +211,8 @@ impl Tables {
             ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
         });
         let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
-        let extra: Vec<String> = (of_faces.into_iter())
+        let extra: Vec<String> = (stage_columns(problem).into_iter())
+            .chain(of_faces)
             .chain(group_columns)
             .chain(problem.probes.iter().map(|probe| probe.name.clone()))
             .collect();
@@ -280,6 +291,11 @@ impl Tables {
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
         let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
+        if let Some(loads) = view.loads.course() {
+            let stage = loads.programme.stage_name(record.part);
+            row.push(stage.into());
+            row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
+        }
         if view.system.faces_close() {
             row.push(CLOSED.1(record));
         }

@@ -3,20 +3,34 @@
 use ligament_analysis::{
     BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
+use ligament_model::mass::LumpedMass;
 use ligament_model::{BondSystem, Bonds, PointCloud};
 
 use super::places::Places;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Load, Place, Profile, Setup};
+use crate::setup::{Action, Load, MaterialRegion, Place, Profile, Setup};
 
 /// A force along x and along y and a couple, or their directions.
 type Wrench = [f64; 3];
 
-/// Supports and loads on the points with all components of the plane, whichever of them the bonds have.
+/// Loads that act.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Acting {
+    /// All loads and the temperature.
+    All,
+    /// The load with this index, without temperature.
+    Load(usize),
+    /// The temperature alone.
+    Temperature,
+}
+
+/// Supports and the loads that act on the points with all components of the plane, whichever of them the bonds have; the groups and
+/// the control are the same whatever acts.
 pub(super) fn boundary(
     setup: &Setup,
     cloud: &PointCloud,
+    acting: Acting,
 ) -> Result<ProportionalLoading, SetupError> {
     let places = Places { setup, cloud };
     let heating = heating(&places)?;
@@ -25,7 +39,8 @@ pub(super) fn boundary(
         components: &Component::ALL,
     };
     let mut boundary = ProportionalLoading::new(plane, places.control(heating.as_ref())?);
-    if let Some(Heating { change, strain }) = heating {
+    let is_heated = matches!(acting, Acting::All | Acting::Temperature);
+    if let Some(Heating { change, strain }) = heating.filter(|_| is_heated) {
         boundary.temperature_change = change;
         boundary.thermal_strain = strain;
     }
@@ -45,13 +60,17 @@ pub(super) fn boundary(
     for (index, load) in setup.loads.iter().enumerate() {
         let field = Field::element("loads", index);
         let points = places.points(field, &load.place)?;
+        let mut total = vec![0.0; Component::ALL.len()];
+        if acting != Acting::All && acting != Acting::Load(index) {
+            boundary.report_group(&load.name, points, total);
+            continue;
+        }
         let factors = places.factors(field, load.profile.as_ref(), &points)?;
         if let Action::Displacement(displacement) = &load.action {
             for given in displacement.components() {
                 places.prescribe(&mut boundary, field, (&points, &factors), given)?;
             }
         }
-        let mut total = vec![0.0; Component::ALL.len()];
         for (point, force) in places.forces(field, load, &points)?.at_points {
             for ((component, value), sum) in Component::ALL.into_iter().zip(force).zip(&mut total) {
                 boundary.add_force(point, component, value);
@@ -129,10 +148,11 @@ impl Places<'_> {
         })
     }
 
-    /// The first load is the axis of the force-displacement curve; the temperature where there is none.
+    /// The axis of the force-displacement curve.
     fn control(&self, heating: Option<&Heating>) -> Result<Control, SetupError> {
-        let field = Field::element("loads", 0);
-        let Some(load) = self.setup.loads.first() else {
+        let index = self.setup.curve_load();
+        let field = Field::element("loads", index.unwrap_or(0));
+        let Some(load) = index.map(|index| &self.setup.loads[index]) else {
             let changes = heating.map_or(&[][..], |it| &it.change);
             let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
             if magnitude == 0.0 {
@@ -217,6 +237,10 @@ impl Places<'_> {
             Action::Displacement(_) => return Ok(Given::default()),
             Action::Pressure(pressure) => return self.pressures(field, load, *pressure),
             Action::BodyForce(force) => (volumes, in_plane(force)),
+            Action::Acceleration(acceleration) => {
+                let masses = self.masses(points)?;
+                (masses, in_plane(acceleration))
+            }
             Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
             Action::ForcePerLength(_) if curve.is_empty() => {
                 return Err(field.part("place").error(Fault::NoLength));
@@ -243,6 +267,25 @@ impl Places<'_> {
             at_points: at_points.map(share).collect(),
             size: norm(density.map(|value| value * total)),
         })
+    }
+
+    /// Points with their masses, kg.
+    fn masses(&self, points: &[u32]) -> Result<Vec<(u32, f64)>, SetupError> {
+        let density = |(index, region): (usize, &MaterialRegion)| {
+            region.material.density.ok_or_else(|| {
+                let fault = Fault::Missing {
+                    property: "density",
+                    reason: "(in kg/m^3) because an acceleration acts on masses".to_owned(),
+                };
+                Field::element("materials", index)
+                    .part("density")
+                    .error(fault)
+            })
+        };
+        let materials = self.setup.materials.iter().enumerate();
+        let densities: Vec<f64> = materials.map(density).collect::<Result<_, _>>()?;
+        let mass = LumpedMass::new(self.cloud, &densities).mass;
+        Ok((points.iter().map(|&point| (point, mass[point as usize]))).collect())
     }
 
     /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward

@@ -2,15 +2,16 @@
 
 mod boundary;
 mod places;
+mod programme;
 mod temperature;
 mod vibration;
 
 use std::sync::Arc;
 
-use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
+use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::failure::Criteria;
 use ligament_model::{BondSystem, Bonds};
 
@@ -20,13 +21,16 @@ pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::Setup;
-use boundary::{boundary, couples_have_stiffness};
+use boundary::{Acting, boundary, couples_have_stiffness};
+use programme::staged;
 
 /// Supports, loads and probes of a setup, for its model.
 #[derive(Debug)]
 pub struct Loading {
-    /// Supports and loads.
+    /// Supports and loads as they are at load factor 1.
     pub boundary: Arc<ProportionalLoading>,
+    /// Supports and loads in the first part of the stages, if there are any.
+    pub staged: Option<Arc<StagedLoading>>,
     /// Probes.
     pub probes: Arc<[Probe]>,
     /// How the equations are solved.
@@ -41,7 +45,7 @@ impl Loading {
     /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
     /// each other, or a couple acts on nothing.
     pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
-        let boundary = boundary(setup, &system.cloud)?;
+        let boundary = boundary(setup, &system.cloud, Acting::All)?;
         couples_have_stiffness(setup, &boundary, system)?;
         let places = Places {
             setup,
@@ -50,7 +54,9 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
+        let staged = staged(setup, &system.cloud, system.layout())?;
         Ok(Self {
+            staged: staged.map(Arc::new),
             boundary: Arc::new(boundary.reduced(system.layout())),
             probes,
             solver: setup.solver,
@@ -59,10 +65,14 @@ impl Loading {
 
     /// The problem that it makes of the bonds and their failure criteria.
     pub fn problem(&self, system: &Arc<BondSystem>, criteria: &Arc<Criteria>) -> Problem {
+        let loads: Arc<dyn LoadProgram> = match &self.staged {
+            None => self.boundary.clone(),
+            Some(staged) => staged.clone(),
+        };
         Problem {
             system: system.clone(),
             criteria: criteria.clone(),
-            loads: self.boundary.clone(),
+            loads,
             solver: self.solver,
             probes: self.probes.clone(),
         }

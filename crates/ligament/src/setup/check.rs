@@ -49,6 +49,7 @@ impl Setup {
         self.check_rotational_scale()?;
         self.check_correction()?;
         self.check_load_factors()?;
+        self.check_stages()?;
         self.check_precracks()?;
         self.check_closing()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
@@ -279,6 +280,9 @@ impl Setup {
         let Analysis::Stepped(settings) = &self.analysis else {
             return Ok(());
         };
+        if !self.stages.is_empty() {
+            return Ok(());
+        }
         let (list, factors) = ("analysis.load_factors", &settings.load_factors);
         require(
             !factors.is_empty(),
@@ -405,7 +409,8 @@ fn check_load(field: Field, load: &Load) -> Checked {
         }
         Action::Force([0.0, 0.0])
         | Action::ForcePerLength([0.0, 0.0])
-        | Action::BodyForce([0.0, 0.0]) => {
+        | Action::BodyForce([0.0, 0.0])
+        | Action::Acceleration([0.0, 0.0]) => {
             let reason = "this load does nothing: neither `x` nor `y` is given a value";
             return contradiction(action, reason);
         }
@@ -416,10 +421,12 @@ fn check_load(field: Field, load: &Load) -> Checked {
         _ => {}
     }
     match (load.action, &load.place) {
-        (Action::BodyForce(_) | Action::BodyCouple(_), Place::At(_)) => contradiction(
-            field.part("place"),
-            "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
-        ),
+        (Action::BodyForce(_) | Action::Acceleration(_) | Action::BodyCouple(_), Place::At(_)) => {
+            contradiction(
+                field.part("place"),
+                "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
+            )
+        }
         (Action::ForcePerLength(_) | Action::Pressure(_), Place::Group(_)) => Ok(()),
         (Action::ForcePerLength(_), _) => contradiction(
             action,
@@ -464,7 +471,10 @@ fn missing(field: Field, property: &'static str, reason: &str) -> Checked {
         .error(Fault::Missing { property, reason }))
 }
 
-fn require_unique<'a>(list: &'static str, names: impl Iterator<Item = &'a str> + Clone) -> Checked {
+pub(super) fn require_unique<'a>(
+    list: &'static str,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Checked {
     for (index, name) in names.clone().enumerate() {
         if let Some(first) = names.clone().take(index).position(|it| it == name) {
             let fault = Fault::NameTwice {

@@ -69,6 +69,8 @@ pub enum Action {
     ForcePerLength([f64; 2]),
     /// A force in the volume, N/m^3.
     BodyForce([f64; 2]),
+    /// An acceleration that acts on the masses in the volume, as gravity does, m/s^2.
+    Acceleration([f64; 2]),
     /// A couple in total over the points, counter-clockwise, N m.
     Moment(f64),
     /// A couple in the volume, counter-clockwise, N m/m^3.

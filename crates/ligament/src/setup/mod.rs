@@ -2,6 +2,7 @@
 
 mod analysis;
 mod check;
+mod check_stages;
 mod closing;
 mod conditions;
 mod correction;
@@ -9,6 +10,7 @@ mod law;
 mod probe;
 mod rotation;
 mod scatter;
+pub mod stage;
 mod temperature;
 
 use std::sync::Arc;
@@ -26,6 +28,7 @@ pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, Support};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};
+pub use stage::{Course, Stage};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 
 /// Description of a computation: body, section, materials, law, corrections, supports, loads and the analysis.
@@ -58,8 +61,13 @@ pub struct Setup {
     pub no_fail: Vec<Place>,
     /// Supports of the body; there need be none.
     pub supports: Vec<Support>,
-    /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
+    /// Loads as they are at load factor 1.
     pub loads: Vec<Load>,
+    /// Name of the load that is the axis of the force-displacement curve; without it the first, or the temperature where there is
+    /// none.
+    pub curve: Option<String>,
+    /// Stages one after the other, in which each load follows a factor of its own; without any all loads grow with one load factor.
+    pub stages: Vec<Stage>,
     /// Changes of temperature at load factor 1; where several reach, the last holds.
     pub temperatures: Vec<Temperature>,
     /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
@@ -130,6 +138,8 @@ impl Setup {
             no_fail: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
+            curve: None,
+            stages: Vec::new(),
             temperatures: Vec::new(),
             criteria: Vec::new(),
             scatter: None,

@@ -1,0 +1,185 @@
+//! Lines A + w B of a part of a programme, between its start and its end.
+//!
+//! What the displacements grow by with the load factor is one solution; with it the load factors at which a bond is within its
+//! limits are an interval in closed form. The path goes on to the upper end of what all bonds admit, which may lie below the
+//! present load factor (snap-back), or to the end of the part. Where no load factor of the part is admissible, A alone breaks
+//! bonds: the load is held, and the bonds farthest beyond their limits break with those tied with them, group after group, until
+//! some load is admissible again. That is how sequentially linear analyses redistribute what was applied first (DeJong, Hendriks and
+//! Rots 2008; Elias, Frantik and Vorechovsky 2010).
+
+use std::mem;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::way::{Goal, Way};
+use crate::balanced::Balanced;
+use crate::breaking::{FirstToBreak, first_to_break};
+use crate::driver::path::Path;
+use crate::history::Termination;
+use crate::load_program::LoadProgram;
+use crate::unbalanced::Unbalanced;
+use ligament_model::element::BondDeformation;
+use ligament_model::failure::Criteria;
+use ligament_model::failure::along_line::Interval;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 4096;
+
+/// Lines of the parts of a programme.
+pub(super) struct Affine {
+    tie_tolerance: f64,
+    growth: Vec<f64>,
+    /// Whether the growth is that of the present bonds.
+    is_present: bool,
+}
+
+impl Affine {
+    /// With the growth of a checkpoint; it is empty at the start.
+    pub(super) fn new(tie_tolerance: f64, growth: Vec<f64>) -> Self {
+        Self {
+            tie_tolerance,
+            is_present: !growth.is_empty(),
+            growth,
+        }
+    }
+
+    /// Growth of the deformations (n_bonds) with the load factor.
+    fn slopes(
+        &mut self,
+        path: &mut Path<'_>,
+        rate: &dyn LoadProgram,
+    ) -> Result<Vec<BondDeformation>, Unbalanced> {
+        if !mem::replace(&mut self.is_present, false) {
+            self.growth = path.equilibrium.growth(&mut path.state, rate)?;
+            path.course.solves[0] = path.equilibrium.costs().solves;
+        }
+        let expansion = rate.thermal_strain(1.0);
+        let system = &path.problem.system;
+        Ok(system.deformations(&path.state.intact, &self.growth, expansion))
+    }
+}
+
+impl Way for Affine {
+    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
+        let loads = path.problem.loads.clone();
+        let Some((course, rate)) =
+            (loads.course()).and_then(|it| Some((it, loads.in_course(it.rate())?)))
+        else {
+            unreachable!("lines of a programme are followed under a programme");
+        };
+        let slopes = self.slopes(path, &*rate)?;
+        let start = Instant::now();
+        let now = path.state.load_factor;
+        let (programme, part) = (&course.programme, course.part);
+        let (begins, ends) = programme.parts[part].span;
+        let criteria = path.criteria(line).into_owned();
+        let intact = &path.state.intact;
+        let reach = [begins - now, ends - now];
+        let goal = match admissible(&criteria, intact, [&line.deformations, &slopes], reach) {
+            None => held(self.tie_tolerance, line, &criteria, path),
+            Some([_, upper]) => {
+                let at = deformations_at(line, &slopes, upper);
+                let tie = self.tie_tolerance;
+                let FirstToBreak { ratio, bonds } = first_to_break(tie, &at, &criteria, intact);
+                let ends_part = upper == reach[1];
+                let is_last = part + 1 == programme.parts.len();
+                Goal {
+                    load_factor: if ends_part { ends } else { now + upper },
+                    ratio,
+                    bonds,
+                    is_held: false,
+                    ends_part,
+                    end: (ends_part && is_last).then_some(Termination::FullLoad),
+                }
+            }
+        };
+        path.equilibrium.count_bond_work(start);
+        Ok(up_to_displacement(goal, path, &self.growth))
+    }
+
+    fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
+        let by = load_factor - path.state.load_factor;
+        for (value, growth) in path.state.displacement.iter_mut().zip(&self.growth) {
+            *value += by * growth;
+        }
+        path.state.load_factor = load_factor;
+        path.equilibrium.measured(&mut path.state)
+    }
+
+    fn growth(&self) -> &[f64] {
+        &self.growth
+    }
+}
+
+/// The goal where no load is admissible: the load stays.
+fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
+    let intact = &path.state.intact;
+    let FirstToBreak { ratio, bonds } = first_to_break(tie, &line.deformations, criteria, intact);
+    Goal {
+        load_factor: path.state.load_factor,
+        ratio,
+        bonds,
+        // A bond that just reached its limit breaks as on any other line.
+        is_held: ratio > 1.0 + tie,
+        ends_part: false,
+        end: None,
+    }
+}
+
+/// The goal, or the load before it at which the control load reaches the displacement that ends the run.
+fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
+    let (state, loads) = (&path.state, &path.problem.loads);
+    let at = |load_factor: f64| {
+        let by = load_factor - state.load_factor;
+        let moved = state.displacement.iter().zip(growth);
+        let moved: Vec<f64> = moved.map(|(value, growth)| value + by * growth).collect();
+        loads.control_displacement(load_factor, &moved)
+    };
+    let Some(wanted) = path.stop.displacement else {
+        return goal;
+    };
+    let [here, there] = [at(state.load_factor), at(goal.load_factor)];
+    if there < wanted || there <= here {
+        return goal;
+    }
+    let share = (wanted - here) / (there - here);
+    let displacement = wanted;
+    Goal {
+        load_factor: state.load_factor + share * (goal.load_factor - state.load_factor),
+        ends_part: false,
+        end: Some(Termination::DisplacementReached { displacement }),
+        ..goal
+    }
+}
+
+fn deformations_at(line: &Balanced, slopes: &[BondDeformation], by: f64) -> Vec<BondDeformation> {
+    let both = line.deformations.par_iter().zip(slopes);
+    both.map(|(here, slope)| here.less(&slope.scaled(-by)))
+        .collect()
+}
+
+/// The changes of the load factor, within `reach`, at which all intact bonds are within their limits; None where there are none.
+fn admissible(
+    criteria: &Criteria,
+    intact: &[bool],
+    [here, slopes]: [&[BondDeformation]; 2],
+    reach: Interval,
+) -> Option<Interval> {
+    let of_task = |(task, (here, slopes)): (usize, (&[BondDeformation], &[BondDeformation]))| {
+        let bonds = (task * TASK..).zip(here.iter().zip(slopes));
+        let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
+        of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
+            both(interval, criteria.within(bond, [here, slope])?)
+        })
+    };
+    let tasks = here.par_chunks(TASK).zip(slopes.par_chunks(TASK));
+    let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
+    let mut of_tasks = of_tasks.into_iter();
+    of_tasks.try_fold(reach, |interval, of_task| both(interval, of_task?))
+}
+
+fn both(one: Interval, other: Interval) -> Option<Interval> {
+    let both = [one[0].max(other[0]), one[1].min(other[1])];
+    (both[0] <= both[1]).then_some(both)
+}

@@ -1,0 +1,116 @@
+//! Lines through the unloaded state: everything is in proportion to one load factor.
+//!
+//! So are the measures of all criteria (s/s_0 stands here for measure over limit): the next bond breaks where the largest s/s_0
+//! reaches one, lambda_next = lambda / max(s/s_0) over the intact bonds with s > 0.
+
+use std::time::Instant;
+
+use super::way::{Goal, Way};
+use crate::balanced::Balanced;
+use crate::breaking::{FirstToBreak, first_to_break};
+use crate::driver::path::{NO_LOAD, Path};
+use crate::history::Termination;
+use crate::load_program::LoadProgram;
+use crate::unbalanced::Unbalanced;
+
+/// Lines through the unloaded state.
+pub(super) struct Proportional {
+    tie_tolerance: f64,
+    /// Degrees of freedom that something moves or loads.
+    loaded: Vec<u32>,
+}
+
+impl Proportional {
+    pub(super) fn new(tie_tolerance: f64, loads: &dyn LoadProgram) -> Self {
+        Self {
+            tie_tolerance,
+            loaded: loads.loaded_degrees_of_freedom(),
+        }
+    }
+}
+
+impl Way for Proportional {
+    /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
+    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
+        let start = Instant::now();
+        let FirstToBreak { ratio, bonds } = first_to_break(
+            self.tie_tolerance,
+            &line.deformations,
+            &path.criteria(line),
+            &path.state.intact,
+        );
+        path.equilibrium.count_bond_work(start);
+        let now = path.state.load_factor;
+        let mut goal = Goal {
+            load_factor: now / ratio,
+            ratio: 1.0,
+            bonds,
+            is_held: false,
+            ends_part: false,
+            end: None,
+        };
+        if goal.load_factor > 1.0 {
+            // Loose parts have stretches of rounding size, which are none.
+            let is_stretched = ratio > NO_LOAD * now;
+            let end = if is_stretched {
+                Termination::FullLoad
+            } else {
+                Termination::NothingBreaks
+            };
+            (goal.load_factor, goal.end) = (1.0, Some(end));
+        }
+        let loads = &path.problem.loads;
+        let displacement = loads.control_displacement(now, &path.state.displacement);
+        if let Some(wanted) = path.stop.displacement
+            && displacement > 0.0
+        {
+            let load_factor = now * wanted / displacement;
+            if load_factor <= goal.load_factor {
+                goal.load_factor = load_factor;
+                goal.end = Some(Termination::DisplacementReached {
+                    displacement: wanted,
+                });
+            }
+        }
+        if goal.end.is_some() {
+            goal.ratio = ratio * (goal.load_factor / now);
+        }
+        Ok(goal)
+    }
+
+    /// Moves to another load factor with the same bonds, where no solution is needed.
+    ///
+    /// A part that something moves or loads has strains in proportion to the load factor, so its displacements are scaled.
+    /// Where it may move freely, with just this motion held, the motion is scaled with the rest: it costs nothing, and its
+    /// size is arbitrary. A part that nothing moves or loads has no strains and stays where it is, to the last bit.
+    /// The residual after the next breakage covers the whole state, and so tells if this did not hold.
+    fn follow(&self, path: &mut Path<'_>, line: &Balanced, load_factor: f64) -> Balanced {
+        let start = Instant::now();
+        let state = &mut path.state;
+        let factor = load_factor / state.load_factor;
+        state.load_factor = load_factor;
+        let fragments = path.equilibrium.fragments();
+        // A temperature strains all parts, and where faces close any part may press on another.
+        let faces_close = path.problem.system.faces_close();
+        let is_heated = !path.problem.loads.thermal_strain(load_factor).is_none();
+        let mut is_loaded = vec![is_heated || faces_close; fragments.points.len()];
+        let layout = path.problem.system.layout();
+        for &dof in &self.loaded {
+            let point = layout.point(dof as usize);
+            is_loaded[fragments.of_point[point as usize] as usize] = true;
+        }
+        let of_points = state.displacement.chunks_mut(layout.components.len());
+        for (motion, &fragment) in of_points.zip(&fragments.of_point) {
+            if is_loaded[fragment as usize] {
+                motion.iter_mut().for_each(|value| *value *= factor);
+            }
+        }
+        let critical = line.scaled(factor);
+        path.equilibrium.count_bond_work(start);
+        critical
+    }
+
+    fn growth(&self) -> &[f64] {
+        &[]
+    }
+}

@@ -1,0 +1,180 @@
+//! One part of a programme: everything is A + w B, with w from 0 at its start to 1 at its end.
+
+use std::sync::Arc;
+
+use super::programme::Pair;
+use super::{BoundaryGroup, Control, ControlKind, LoadCourse, LoadProgram, ProportionalLoading};
+use crate::internal::InternalForces;
+use ligament_model::thermal::ThermalStrain;
+
+/// What acts in one part of a programme: A, what acts at its start, and B, what grows in it.
+///
+/// At the load factor lambda, which runs from lambda_a to lambda_b in the part, all is A + w B with
+/// w = (lambda - lambda_a)/(lambda_b - lambda_a); beyond the ends of the part as well.
+#[derive(Debug, Clone)]
+pub struct StagedLoading {
+    /// Each load by itself at factor 1, with all supports, and all groups of the history; shape (n_loads).
+    loads: Arc<[ProportionalLoading]>,
+    course: LoadCourse,
+    /// Prescribed value of each degree of freedom, shape (n_degrees_of_freedom), m or rad; zero where none is prescribed.
+    prescribed: Vec<Pair>,
+    /// External force or moment on each degree of freedom, shape (n_degrees_of_freedom), N or N m.
+    force: Vec<Pair>,
+}
+
+impl StagedLoading {
+    /// Loads (n_loads), each by itself at factor 1 with all supports and all groups of the history, in a course of their factors.
+    pub fn new(loads: Arc<[ProportionalLoading]>, course: LoadCourse) -> Self {
+        let n = loads[0].layout.n_degrees_of_freedom();
+        let mut prescribed = vec![Pair::default(); n];
+        let mut force = vec![Pair::default(); n];
+        for (load, &factor) in loads.iter().zip(&course.factors) {
+            for (sum, value) in prescribed.iter_mut().zip(&load.prescribed) {
+                sum.add(factor, value.unwrap_or(0.0));
+            }
+            for (sum, &value) in force.iter_mut().zip(&load.force) {
+                sum.add(factor, value);
+            }
+        }
+        Self {
+            loads,
+            course,
+            prescribed,
+            force,
+        }
+    }
+
+    fn force_at(&self, load_factor: f64, dof: usize) -> f64 {
+        self.force[dof].at(self.course.share(load_factor))
+    }
+
+    fn temperature(&self, load_factor: f64) -> Option<(usize, f64)> {
+        let load = self.course.programme.temperature?;
+        Some((load, self.course.factor(load, load_factor)))
+    }
+}
+
+impl LoadProgram for StagedLoading {
+    fn is_prescribed(&self, degree_of_freedom: usize) -> bool {
+        let mut loads = self.loads.iter();
+        loads.any(|it| it.prescribed[degree_of_freedom].is_some())
+    }
+
+    fn prescribe(&self, time: f64, displacement: &mut [f64]) {
+        let share = self.course.share(time);
+        for load in &*self.loads {
+            for (dof, value) in load.prescribed.iter().enumerate() {
+                if value.is_some() {
+                    displacement[dof] = self.prescribed[dof].at(share);
+                }
+            }
+        }
+    }
+
+    fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64> {
+        let share = self.course.share(time);
+        let force = |&dof: &u32| self.force[dof as usize].at(share);
+        degrees_of_freedom.iter().map(force).collect()
+    }
+
+    fn thermal_strain(&self, time: f64) -> ThermalStrain<'_> {
+        match self.temperature(time) {
+            Some((load, factor)) => {
+                ThermalStrain::proportional(&self.loads[load].thermal_strain, factor)
+            }
+            None => ThermalStrain::NONE,
+        }
+    }
+
+    fn temperature_change(&self, time: f64) -> Vec<f64> {
+        let Some((load, factor)) = self.temperature(time) else {
+            return Vec::new();
+        };
+        let changes = self.loads[load].temperature_change.iter();
+        changes.map(|change| factor * change).collect()
+    }
+
+    fn temperature_factor(&self, time: f64) -> f64 {
+        self.temperature(time).map_or(0.0, |(_, factor)| factor)
+    }
+
+    fn control_factor(&self, time: f64) -> f64 {
+        self.course.factor(self.course.programme.control, time)
+    }
+
+    fn course(&self) -> Option<&LoadCourse> {
+        Some(&self.course)
+    }
+
+    fn in_course(&self, course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
+        Some(Arc::new(Self::new(self.loads.clone(), course)))
+    }
+
+    fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
+        let of_loads = self.loads.iter();
+        let mut loaded: Vec<u32> = of_loads
+            .flat_map(LoadProgram::loaded_degrees_of_freedom)
+            .collect();
+        loaded.sort_unstable();
+        loaded.dedup();
+        loaded
+    }
+
+    fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64> {
+        let reaction = |(dof, internal): (usize, &f64)| match self.is_prescribed(dof) {
+            true => internal - self.force_at(time, dof),
+            false => 0.0,
+        };
+        internal_forces.iter().enumerate().map(reaction).collect()
+    }
+
+    fn groups(&self) -> &[BoundaryGroup] {
+        &self.loads[0].groups
+    }
+
+    fn given_resultants(&self, time: f64) -> Vec<Vec<f64>> {
+        let mut sums: Vec<Vec<f64>> = (self.groups().iter())
+            .map(|group| vec![0.0; group.force.len()])
+            .collect();
+        for (load, factor) in self.loads.iter().zip(self.course.factors(time)) {
+            for (sum, group) in sums.iter_mut().zip(&load.groups) {
+                for (sum, force) in sum.iter_mut().zip(&group.force) {
+                    *sum += factor * force;
+                }
+            }
+        }
+        sums
+    }
+
+    fn control(&self) -> &Control {
+        &self.loads[0].control
+    }
+
+    fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
+        let control = self.control();
+        match control.kind {
+            ControlKind::Displacement | ControlKind::Temperature => {
+                control.magnitude * self.control_factor(time)
+            }
+            ControlKind::Force => {
+                let layout = self.loads[0].layout;
+                control.along(layout, |dof| displacement[dof])
+            }
+        }
+    }
+
+    fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {
+        let control = self.control();
+        match control.kind {
+            ControlKind::Force => control.magnitude * self.control_factor(time),
+            ControlKind::Temperature => internal.thermal / control.magnitude,
+            ControlKind::Displacement => {
+                let layout = self.loads[0].layout;
+                control.along(layout, |dof| match self.is_prescribed(dof) {
+                    true => internal.values[dof] - self.force_at(time, dof),
+                    false => 0.0,
+                })
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! `[[stage]]`: what happens one after the other.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::require_column_name;
+use ligament::setup;
+
+/// Load steps of a stage at most: each has a row in the history.
+const MOST_STEPS: u32 = 1_000_000;
+
+/// A stage of the loading: loads that go to other factors, each times the load as it is at factor 1.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Stands in `history.csv`; without it `stage-1` and so on.
+    #[schemars(length(min = 1))]
+    pub name: Option<String>,
+    /// Factors that loads go to, by the names of the loads; `temperature` for the temperatures. All others keep theirs, which is 0 at
+    /// first.
+    #[schemars(extend("minProperties" = 1))]
+    pub loads: BTreeMap<String, Factors>,
+    /// Equal load steps of the stage; not on the exact path, nor in an elastic analysis.
+    #[schemars(range(min = 1, max = MOST_STEPS))]
+    pub steps: Option<u32>,
+}
+
+/// The factors that a load goes to in a stage.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Factors {
+    /// The factor at the end of the stage.
+    End(f64),
+    /// Factors at the ends of equal parts of the stage.
+    EqualParts(Vec<f64>),
+    /// Shares of the stage, 0 to 1, with the factors there.
+    Table(Vec<[f64; 2]>),
+}
+
+impl Stage {
+    /// Names the stage; `number` counts from 1 and names one without a name.
+    pub(super) fn complete(&mut self, key: &KeyPath, number: usize) -> Result<(), KeyFault> {
+        let name = self.name.get_or_insert_with(|| format!("stage-{number}"));
+        require_column_name(|| key.child("name"), name)
+    }
+
+    pub(super) fn setup(&self, _: &KeyPath) -> Result<setup::Stage, KeyFault> {
+        let course = |(name, factors): (&String, &Factors)| (name.clone(), factors.course());
+        Ok(setup::Stage {
+            name: self.name.clone().unwrap_or_default(),
+            loads: self.loads.iter().map(course).collect(),
+            steps: self.steps.map(|steps| steps as usize),
+        })
+    }
+}
+
+impl Factors {
+    fn course(&self) -> setup::Course {
+        match self {
+            Self::End(factor) => setup::Course::to(*factor),
+            Self::EqualParts(factors) => setup::Course::through(factors),
+            Self::Table(points) => setup::Course {
+                points: points.clone(),
+            },
+        }
+    }
+}
+
+const EXPECTED: &str = "a factor, a list of factors one after the other, or a list of pairs [share of the stage, factor]";
+
+impl<'de> Deserialize<'de> for Factors {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(FactorsVisitor)
+    }
+}
+
+struct FactorsVisitor;
+
+impl<'de> Visitor<'de> for FactorsVisitor {
+    type Value = Factors;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(EXPECTED)
+    }
+
+    fn visit_i64<E>(self, factor: i64) -> Result<Factors, E> {
+        Ok(Factors::End(factor as f64))
+    }
+
+    fn visit_f64<E>(self, factor: f64) -> Result<Factors, E> {
+        Ok(Factors::End(factor))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Factors, A::Error> {
+        let (mut factors, mut points) = (Vec::new(), Vec::new());
+        while let Some(element) = elements.next_element()? {
+            match element {
+                Element::Factor(factor) => factors.push(factor),
+                Element::Point(point) => points.push(point),
+            }
+        }
+        match (factors.is_empty(), points.is_empty()) {
+            (_, true) => Ok(Factors::EqualParts(factors)),
+            (true, _) => Ok(Factors::Table(points)),
+            _ => Err(A::Error::custom(format_args!(
+                "must be {EXPECTED}, found both"
+            ))),
+        }
+    }
+}
+
+/// An element of a list of factors.
+enum Element {
+    Factor(f64),
+    Point([f64; 2]),
+}
+
+impl<'de> Deserialize<'de> for Element {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ElementVisitor)
+    }
+}
+
+struct ElementVisitor;
+
+impl<'de> Visitor<'de> for ElementVisitor {
+    type Value = Element;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a factor or a pair [share of the stage, factor]")
+    }
+
+    fn visit_i64<E>(self, factor: i64) -> Result<Element, E> {
+        Ok(Element::Factor(factor as f64))
+    }
+
+    fn visit_f64<E>(self, factor: f64) -> Result<Element, E> {
+        Ok(Element::Factor(factor))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Element, A::Error> {
+        let mut next = |place| {
+            let number = elements.next_element()?;
+            number.ok_or_else(|| A::Error::invalid_length(place, &self))
+        };
+        Ok(Element::Point([next(0)?, next(1)?]))
+    }
+}
+
+impl JsonSchema for Factors {
+    fn schema_name() -> Cow<'static, str> {
+        "Factors".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [
+                { "description": "The factor at the end of the stage.", "type": "number" },
+                {
+                    "description": "Factors at the ends of equal parts of the stage.",
+                    "type": "array",
+                    "minItems": 1,
+                    "items": { "type": "number" },
+                },
+                {
+                    "description": "Shares of the stage, ascending, more than 0 and at most 1, with the factors there.",
+                    "type": "array",
+                    "minItems": 1,
+                    "items": {
+                        "type": "array",
+                        "minItems": 2,
+                        "maxItems": 2,
+                        "items": { "type": "number" },
+                    },
+                },
+            ],
+        })
+    }
+}

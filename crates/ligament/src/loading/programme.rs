@@ -1,0 +1,142 @@
+//! Stages of a setup as a programme of its loads on the points.
+
+use std::sync::Arc;
+
+use ligament_analysis::{
+    Component, Layout, LoadCourse, Part, Programme, ProportionalLoading, StagedLoading,
+};
+use ligament_model::PointCloud;
+
+use super::boundary::{Acting, boundary};
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{self, Analysis, Setup, Stage};
+
+/// Shares of a stage that are nearer to each other are one.
+const SAME: f64 = 1e-9;
+
+impl Setup {
+    /// Index of the load that is the axis of the force-displacement curve; None for the temperature.
+    pub(crate) fn curve_load(&self) -> Option<usize> {
+        match &self.curve {
+            Some(name) => self.loads.iter().position(|it| it.name == *name),
+            None => (!self.loads.is_empty()).then_some(0),
+        }
+    }
+
+    /// Number of the solutions that the loading is followed in: load steps, or ends of the parts of stages; None along the exact path.
+    /// Steps may be added to those of the first breakage.
+    pub fn n_steps(&self) -> Option<usize> {
+        let is_staged = !self.stages.is_empty();
+        match &self.analysis {
+            Analysis::Event(_) => None,
+            Analysis::Stepped(settings) if !is_staged => Some(settings.load_factors.len()),
+            Analysis::Stepped(_) => Some(parts(self).iter().map(|it| it.steps).sum()),
+            Analysis::Elastic { .. } if is_staged => Some(parts(self).len()),
+            Analysis::Elastic { .. } | Analysis::Modal(_) => Some(1),
+        }
+    }
+}
+
+/// Each load of a setup with stages by itself, for points with these components, in the first part of the programme that the stages are;
+/// None without stages.
+///
+/// # Errors
+///
+/// If two loads prescribe a motion of a point.
+pub(super) fn staged(
+    setup: &Setup,
+    cloud: &PointCloud,
+    layout: Layout,
+) -> Result<Option<StagedLoading>, SetupError> {
+    if setup.stages.is_empty() {
+        return Ok(None);
+    }
+    let names = setup.factor_names();
+    let temperature = (names.len() > setup.loads.len()).then_some(setup.loads.len());
+    let of_loads = (0..setup.loads.len()).map(Acting::Load);
+    let of_temperature = temperature.map(|_| Acting::Temperature);
+    let loads: Vec<ProportionalLoading> = (of_loads.chain(of_temperature))
+        .map(|acting| Ok(boundary(setup, cloud, acting)?.reduced(layout)))
+        .collect::<Result<_, SetupError>>()?;
+    moved_by_one(setup, layout, &loads)?;
+    let programme = Programme {
+        control: setup.curve_load().or(temperature).unwrap_or(0),
+        temperature,
+        stages: setup.stages.iter().map(|it| it.name.clone()).collect(),
+        names,
+        parts: parts(setup),
+    };
+    let start = vec![0.0; programme.names.len()];
+    let course = LoadCourse::new(Arc::new(programme), 0, &start);
+    Ok(Some(StagedLoading::new(loads.into(), course)))
+}
+
+/// The parts of all stages.
+fn parts(setup: &Setup) -> Vec<Part> {
+    let names = setup.factor_names();
+    let mut parts = Vec::new();
+    let mut factors = vec![0.0; names.len()];
+    for (index, stage) in setup.stages.iter().enumerate() {
+        add_parts(index, stage, &names, &mut factors, &mut parts);
+    }
+    parts
+}
+
+/// Adds the parts of a stage, and brings the factors of the loads to its end.
+fn add_parts(
+    index: usize,
+    stage: &Stage,
+    names: &[String],
+    factors: &mut [f64],
+    parts: &mut Vec<Part>,
+) {
+    let courses = stage.loads.iter();
+    let shares = courses.flat_map(|(_, course)| course.points.iter().map(|point| point[0]));
+    let mut ends: Vec<f64> = shares.filter(|share| *share < 1.0 - SAME).collect();
+    ends.sort_unstable_by(f64::total_cmp);
+    ends.dedup_by(|one, other| *one - *other < SAME);
+    ends.push(1.0);
+    let course = |name: &str| -> Option<&setup::Course> {
+        let mut courses = stage.loads.iter();
+        courses.find(|(of, _)| of == name).map(|(_, course)| course)
+    };
+    let steps = stage.steps.unwrap_or(1) as f64;
+    let mut begins = 0.0;
+    for &share in &ends {
+        let at_end = |(name, start): (&String, &f64)| Some(course(name)?.at(share, *start));
+        parts.push(Part {
+            stage: index,
+            span: (begins, share),
+            ends: names.iter().zip(factors.iter()).map(at_end).collect(),
+            steps: ((steps * (share - begins)).round() as usize).max(1),
+        });
+        begins = share;
+    }
+    for (name, factor) in names.iter().zip(factors) {
+        *factor = course(name).map_or(*factor, |it| it.at(1.0, *factor));
+    }
+}
+
+/// Refuses points that two loads move: one of them would have to follow two factors.
+fn moved_by_one(
+    setup: &Setup,
+    layout: Layout,
+    loads: &[ProportionalLoading],
+) -> Result<(), SetupError> {
+    for dof in 0..layout.n_degrees_of_freedom() {
+        let moves = |load: &usize| loads[*load].prescribed[dof].is_some_and(|it| it != 0.0);
+        let mut movers = (0..loads.len()).filter(moves);
+        if let (Some(first), Some(second)) = (movers.next(), movers.next()) {
+            let component: Component = layout.component(dof);
+            let fault = Fault::MovedTwice {
+                component: component.name(),
+                place: setup.body.label(layout.point(dof)),
+                other: setup.loads[first].name.clone(),
+            };
+            return Err(Field::element("loads", second)
+                .part("displacement")
+                .error(fault));
+        }
+    }
+    Ok(())
+}

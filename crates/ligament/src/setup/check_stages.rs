@@ -1,0 +1,113 @@
+//! What stages must be, and what they go together with.
+
+use super::check::{Checked, contradiction, require, require_unique};
+use super::stage::TEMPERATURE;
+use super::{Analysis, Course, Setup, Stage};
+use crate::error::{Fault, Field};
+
+impl Setup {
+    pub(super) fn check_stages(&self) -> Checked {
+        let name = self.curve.as_deref();
+        if let Some(name) = name.filter(|name| !self.factor_names().iter().any(|it| it == name)) {
+            return Err(Field::whole("curve").error(self.unknown_load(name)));
+        }
+        let names = self.stages.iter().map(|it| it.name.as_str());
+        require_unique("stages", names)?;
+        if self.stages.is_empty() {
+            return Ok(());
+        }
+        if matches!(self.analysis, Analysis::Modal(_)) {
+            let reason = "modes are free vibrations without loads: stages mean nothing to them";
+            return contradiction(Field::whole("stages"), reason);
+        }
+        let is_temperature = |name: &str| name == TEMPERATURE;
+        let called_so = self.loads.iter().position(|it| is_temperature(&it.name));
+        if let Some(load) = called_so.filter(|_| !self.temperatures.is_empty()) {
+            let reason = "stages call the temperature so: give this load another name";
+            return contradiction(Field::element("loads", load).part("name"), reason);
+        }
+        self.check_steps_of_stages()?;
+        for (index, stage) in self.stages.iter().enumerate() {
+            self.check_stage(Field::element("stages", index).part("loads"), stage)?;
+        }
+        Ok(())
+    }
+
+    /// Names of all that has a factor: the loads, and the temperature where it changes.
+    pub fn factor_names(&self) -> Vec<String> {
+        let loads = self.loads.iter().map(|it| it.name.clone());
+        let heated = (!self.temperatures.is_empty()).then(|| TEMPERATURE.to_owned());
+        loads.chain(heated).collect()
+    }
+
+    fn unknown_load(&self, name: &str) -> Fault {
+        Fault::UnknownName {
+            what: "load",
+            found: name.to_owned(),
+            candidates: self.factor_names(),
+        }
+    }
+
+    fn check_stage(&self, field: Field, stage: &Stage) -> Checked {
+        if stage.loads.is_empty() {
+            let reason =
+                "nothing changes in this stage: name a load with the factor that it goes to";
+            return contradiction(field, reason);
+        }
+        let names = self.factor_names();
+        for (name, Course { points }) in &stage.loads {
+            if !names.contains(name) {
+                return Err(field.error(self.unknown_load(name)));
+            }
+            let expected = format!("one factor or more for `{name}`");
+            require(!points.is_empty(), field, expected, points)?;
+            let mut before = 0.0;
+            for &[share, factor] in points {
+                let expected = format!(
+                    "shares of the stage that grow from one factor of `{name}` to the next, more than {before:?} and at most 1"
+                );
+                require(share > before && share <= 1.0, field, expected, share)?;
+                let expected = format!("a finite factor of `{name}`");
+                require(factor.is_finite(), field, expected, factor)?;
+                before = share;
+            }
+        }
+        Ok(())
+    }
+
+    /// Load steps belong to the stages, as far as there are any.
+    fn check_steps_of_stages(&self) -> Checked {
+        let stepped = match &self.analysis {
+            Analysis::Stepped(settings) => Some(settings),
+            _ => None,
+        };
+        if let Some(settings) = stepped {
+            let list = Field::whole("analysis.load_factors");
+            if !settings.load_factors.is_empty() {
+                let reason = "the load steps are those of the stages: give each [[stage]] its `steps` in the place of these";
+                return contradiction(list, reason);
+            }
+            if settings.refine_first_break != 0 {
+                let reason = "no first breakage is foretold for stages: give more `steps` to the stage in which it comes";
+                return contradiction(Field::whole("analysis").part("refine_first_break"), reason);
+            }
+        }
+        for (index, stage) in self.stages.iter().enumerate() {
+            let field = Field::element("stages", index).part("steps");
+            match (stepped, stage.steps) {
+                (Some(_), Some(steps)) => require(steps > 0, field, "at least 1", steps)?,
+                (Some(_), None) => {
+                    let reason = "load steps are taken, and this stage has none: give it a number";
+                    return contradiction(field, reason);
+                }
+                (None, Some(_)) => {
+                    let reason = "only load steps have a number: the exact path goes from breakage to breakage, and an elastic answer is \
+                                  solved at the end of each part of a stage; remove it";
+                    return contradiction(field, reason);
+                }
+                (None, None) => {}
+            }
+        }
+        Ok(())
+    }
+}
