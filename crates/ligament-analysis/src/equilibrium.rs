@@ -1,9 +1,10 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
 mod active_set;
-mod anderson;
+mod curvature;
 mod equations;
 mod external;
+mod line_search;
 mod newton;
 mod residual;
 mod secant;
@@ -37,7 +38,7 @@ enum Iteration {
     Newton,
     /// Newton's method on the closed pairs, for bonds that are whole or broken and faces that close.
     ActiveSet,
-    /// Secants with mixing, for bonds that soften.
+    /// Quasi-Newton from secants, for bonds that soften.
     Secants,
 }
 

@@ -53,39 +53,30 @@ impl Softening {
 
     /// Takes the deformations of an iterate (n_bonds): decides what is left of the bonds now.
     ///
-    /// A bond within its largest deformation keeps what it has; beyond, it follows its law; one beyond the end of its law keeps
-    /// what it has until its turn comes to break, so that the order of breaking decides as it does for brittle bonds. Where
-    /// `is_one_way` the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded. Tells
-    /// whether the same bonds go on along their laws as before.
+    /// A bond within its largest deformation keeps what it has; beyond, it follows its law, and at the end of its law it waits
+    /// for its turn to break ([`AfterLimit::extreme`](ligament_model::failure::AfterLimit::extreme)). Where
+    /// `is_one_way` the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
     pub fn follow(
         &mut self,
         criteria: &Criteria,
         intact: &[bool],
         deformations: &[BondDeformation],
         is_one_way: bool,
-    ) -> bool {
-        let mut is_settled = true;
+    ) {
         for ((criterion, largest), trial) in
             criteria.list.iter().zip(&self.largest).zip(&mut self.trial)
         {
             if largest.is_empty() {
                 continue;
             }
-            let began_or_ceased = trial
-                .par_iter_mut()
-                .enumerate()
-                .filter_map(|(bond, trial)| {
-                    let utilisation = criterion.utilisation(bond, &deformations[bond]);
-                    if !intact[bond] || utilisation >= criterion.after.end(bond) {
-                        return None;
-                    }
-                    let floor = if is_one_way { *trial } else { largest[bond] };
-                    let goes_on = |trial: f64| trial > largest[bond].max(1.0);
-                    let went_on = goes_on(*trial);
-                    *trial = floor.max(utilisation);
-                    (goes_on(*trial) != went_on).then_some(())
-                });
-            is_settled &= began_or_ceased.count() == 0;
+            trial.par_iter_mut().enumerate().for_each(|(bond, trial)| {
+                let utilisation = criterion.utilisation(bond, &deformations[bond]);
+                let floor = if is_one_way { *trial } else { largest[bond] };
+                if intact[bond] {
+                    let extreme = criterion.after.extreme(bond, utilisation);
+                    *trial = extreme.map_or(floor, |it| floor.max(it));
+                }
+            });
         }
         let trial = &self.trial;
         (self.remaining.par_iter_mut().enumerate()).for_each(|(bond, remaining)| {
@@ -94,7 +85,6 @@ impl Softening {
                 *remaining = remaining_of(criteria, trial, bond, is_open);
             }
         });
-        is_settled
     }
 
     /// The iterate is in equilibrium: its extremes count from now on.

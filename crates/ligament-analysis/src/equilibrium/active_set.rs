@@ -87,7 +87,7 @@ fn search(
     correction: &[f64],
 ) -> Iterate {
     let start = equations.slope(state, iterate, correction);
-    equations.add_correction(state, correction);
+    equations.add_correction(state, 1.0, correction);
     let next = equations.measure(state);
     let end = equations.slope(state, &next, correction);
     if start >= 0.0 || end <= -ACCEPTED_SLOPE * start {
@@ -103,8 +103,7 @@ fn search(
         })
         .collect();
     let length = lowest(start, end, &moved);
-    let back: Vec<f64> = correction.iter().map(|it| (length - 1.0) * it).collect();
-    equations.add_correction(state, &back);
+    equations.add_correction(state, length - 1.0, correction);
     equations.measure(state)
 }
 

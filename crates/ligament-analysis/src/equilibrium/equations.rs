@@ -26,9 +26,6 @@ use crate::tangent::unsymmetric::UnsymmetricSolver;
 use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 
-/// A residual above this is no equilibrium whatever the energies say.
-const LARGEST_RESIDUAL: f64 = 1e-6;
-
 /// Part of the energy of the expansions that counts as nothing in the energy of motion of a heated body: that of a body that
 /// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
@@ -211,10 +208,10 @@ impl Equations {
         }
     }
 
-    /// Adds a correction (n_unknowns) to the displacements of a state.
-    pub(super) fn add_correction(&self, state: &mut State, correction: &[f64]) {
+    /// Adds a part of a correction (n_unknowns) to the displacements of a state.
+    pub(super) fn add_correction(&self, state: &mut State, part: f64, correction: &[f64]) {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
-            state.displacement[dof as usize] += value;
+            state.displacement[dof as usize] += part * value;
         }
     }
 
@@ -224,16 +221,22 @@ impl Equations {
         let solver = &mut self.solver;
         let correction = solver.follow(breakage, state, expansion, &mut self.costs);
         if let Some(correction) = &correction {
-            self.add_correction(state, correction);
+            self.add_correction(state, 1.0, correction);
         }
         correction.is_some()
     }
 
-    /// Whether the energy of an iterate is that of the one before (NHPD eq. 21), and its residual no obstacle.
-    pub(super) fn energy_settled(&self, previous_energy: f64, iterate: &Iterate) -> bool {
+    /// Whether the energy of an iterate is that of the one before (NHPD eq. 21), and its residual not above the largest with which that
+    /// counts.
+    pub(super) fn energy_settled(
+        &self,
+        previous_energy: f64,
+        iterate: &Iterate,
+        largest_residual: f64,
+    ) -> bool {
         let energy = iterate.stored_energy;
         let change = ((energy - previous_energy) / energy).abs();
-        change < self.energy_tolerance && iterate.residual.relative <= LARGEST_RESIDUAL
+        change < self.energy_tolerance && iterate.residual.relative <= largest_residual
     }
 
     /// Whether a residual is small enough, once something was solved: where nothing is loaded yet there is none at all.
@@ -250,10 +253,20 @@ impl Equations {
         iterate: &Iterate,
         mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
-        self.solver.close(&iterate.closed, &mut self.costs);
-        mechanisms.extend(self.prepare_solver(state)?);
-        let force = self.out_of_balance(state, &iterate.internal);
-        Ok(self.solver.solve(state, force, &mut self.costs))
+        mechanisms.extend(self.make_ready(state, iterate)?);
+        let force = self.out_of_balance(state, iterate);
+        Ok(self.solve(state, force))
+    }
+
+    /// F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns).
+    pub(super) fn out_of_balance(&self, state: &State, iterate: &Iterate) -> Vec<f64> {
+        self.external_less(state, &iterate.internal)
+    }
+
+    /// The displacements K^-1 f for forces f (n_unknowns), shape (n_unknowns), with the stiffness K that the solver was
+    /// [made ready](Self::make_ready) with.
+    pub(super) fn solve(&mut self, state: &State, force: Vec<f64>) -> Vec<f64> {
+        self.solver.solve(state, force, &mut self.costs)
     }
 
     /// Deformations, forces, residual and energy of a state.
@@ -353,13 +366,13 @@ impl Equations {
 
     /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.
     pub(super) fn slope(&self, state: &State, iterate: &Iterate, correction: &[f64]) -> f64 {
-        let force = self.out_of_balance(state, &iterate.internal);
+        let force = self.out_of_balance(state, iterate);
         let products = force.iter().zip(correction);
         -products.map(|(force, step)| force * step).sum::<f64>()
     }
 
-    /// F - K u at the unknowns (NHPD eq. 20), shape (n_unknowns).
-    fn out_of_balance(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
+    /// External less internal forces at the unknowns, shape (n_unknowns).
+    fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
         let dofs = self.degrees_of_freedom();
         let mut force = self.problem.loads.forces(state.load_factor, dofs);
         for (value, &dof) in force.iter_mut().zip(dofs) {
@@ -381,7 +394,7 @@ impl Equations {
         let given = || self.loaded.iter().copied().zip(given.iter().copied());
         let largest = self.largest_extents;
         let scales = (self.local_stiffness).scales(extents, largest, given(), displacement);
-        let out_of_balance = self.out_of_balance(state, internal);
+        let out_of_balance = self.external_less(state, internal);
         let of_unknowns = (self.degrees_of_freedom().iter().copied()).zip(out_of_balance);
         // No bond resists these: what loads them is carried by nothing.
         let is_known = |dof: usize| unknowns.number(dof).is_none();
@@ -410,6 +423,16 @@ impl Equations {
     /// Keeps the size of the forces of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
         self.largest_extents = self.largest_extents.or(extents);
+    }
+
+    /// Makes the solver ready for an iterate of a state. Gives the points of mechanisms that are held from now on.
+    pub(super) fn make_ready(
+        &mut self,
+        state: &mut State,
+        iterate: &Iterate,
+    ) -> Result<Vec<u32>, Unbalanced> {
+        self.solver.close(&iterate.closed, &mut self.costs);
+        self.prepare_solver(state)
     }
 
     /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.

@@ -11,6 +11,9 @@ use crate::state::State;
 /// bodies that barely hang together, and indefinite ones, magnify what rounding adds from breakage to breakage.
 const REFINEMENT_TOLERANCE: f64 = 1e-12;
 
+/// A residual above this is no equilibrium whatever the energies say.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
 /// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
 const ITERATION_LIMIT: usize = 25;
 
@@ -40,7 +43,8 @@ pub(super) fn balance(
         } else {
             RESIDUAL_TOLERANCE
         };
-        let energy_settled = !is_changed && equations.energy_settled(previous_energy, &iterate);
+        let energy_settled =
+            !is_changed && equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
         if equations.is_small(&residual, tolerance) || energy_settled {
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
@@ -53,7 +57,7 @@ pub(super) fn balance(
             equations.solver.forget();
         }
         match equations.correction(state, &iterate, &mut mechanisms) {
-            Ok(correction) => equations.add_correction(state, &correction),
+            Ok(correction) => equations.add_correction(state, 1.0, &correction),
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         }
         previous_energy = energy;

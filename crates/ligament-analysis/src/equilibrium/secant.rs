@@ -1,19 +1,20 @@
-//! Equilibrium of bonds that soften: iteration with their secant stiffness, mixed by Anderson's method.
+//! Equilibrium of bonds that soften: a quasi-Newton iteration from their secant stiffness.
 
-use super::anderson::Mixing;
+use super::curvature::{Curvature, dot};
 use super::equations::{Equations, Iterate};
+use super::line_search;
 use super::residual::RESIDUAL_TOLERANCE;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
 
+/// A residual above this is no equilibrium whatever the energies say: what is left at thousands of points adds up in the balance of
+/// the external forces, and the falling stiffness of softening bonds magnifies it.
+const LARGEST_RESIDUAL: f64 = 1e-8;
+
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
-
-/// Iterations after which corrections are mixed. The first ones alone decide which bonds soften: mixed ones go too far, and take
-/// bonds past their limits that equilibrium would spare.
-const MIXING_FROM: usize = 15;
 
 /// Iterations after which bonds keep the damage of the iterates: what has not settled by then is a sudden fall, in which bonds
 /// take turns. Damage that only grows comes to an end.
@@ -21,11 +22,15 @@ const ONE_WAY_AFTER: usize = 150;
 
 /// Brings a state with softening bonds into equilibrium at its load factor.
 ///
-/// Every iterate decides what is left of the bonds, and K is that of what is left: the secants. These are positive, so that
-/// K is definite where the elastic one is, and each correction solves the equations of the present secants exactly; what
-/// remains as a residual is that the secants moved. It shrinks by a factor an iteration, slower the steeper bonds fall. The
-/// iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-6, or with one below 1e-10.
+/// Every iterate decides what is left of the bonds. Their secants are positive, so that the stiffness K_s of what is left is definite
+/// where the elastic one is; and since the energy of a bond bends down over the square of its deformation, the energy with the secants
+/// lies above the true one. A correction by K_s therefore lowers the potential energy, if too timidly. Two things make it go as far as it
+/// should: the stiffness that the last steps have shown ([`Curvature`]), and a search along it ([`line_search`]). Both
+/// go down in energy, and end in an equilibrium that is stable. The factor may be off the secants by a little, because neither
+/// asks for more than a stiffness that is near.
 ///
+/// The first correction takes the bonds as they were in the last equilibrium: what prescribed motions do to bonds before their
+/// surroundings follow says nothing about them. The iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-8, or with one below 1e-10.
 /// Extremes of iterates do not count unless equilibrium holds ([`Softening::follow`](crate::softening::Softening::follow)).
 pub(super) fn balance(
     equations: &mut Equations,
@@ -36,17 +41,19 @@ pub(super) fn balance(
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
-    let mut previous_residual = f64::INFINITY;
-    let mut mixing = Mixing::new(lengths(equations));
-    let mut iterations = usize::from(equations.follow(state, breakage));
+    let mut curvature = Curvature::default();
+    let has_followed = equations.follow(state, breakage);
+    let mut iterations = usize::from(has_followed);
+    let mut iterate = equations.measure(state);
+    if has_followed || equations.is_small(&iterate.residual, RESIDUAL_TOLERANCE) {
+        iterate = softened(equations, state, false);
+    }
     loop {
-        let is_one_way = iterations > ONE_WAY_AFTER;
-        let (is_settled, iterate) = measure(equations, state, is_one_way);
         let residual = iterate.residual;
         if iterations > 0 {
             observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
-        let energy_settled = equations.energy_settled(previous_energy, &iterate);
+        let energy_settled = equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
         if equations.is_small(&residual, RESIDUAL_TOLERANCE) || energy_settled {
             state.softening.settle();
             equations.remember(iterate.extents);
@@ -55,49 +62,59 @@ pub(super) fn balance(
         if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
-        let correction = match equations.correction(state, &iterate, &mut mechanisms) {
-            Ok(correction) => correction,
+        equations.solver.weaken(state, &mut equations.costs);
+        match equations.make_ready(state, &iterate) {
+            Ok(held) => mechanisms.extend(held),
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
-        };
-        let may_mix = iterations >= MIXING_FROM && !is_one_way && is_settled;
-        if !may_mix || residual.relative > previous_residual {
-            mixing.restart();
         }
-        let step = mixing.step(at_unknowns(equations, state), correction);
-        equations.add_correction(state, &step);
-        (previous_residual, previous_energy) = (residual.relative, iterate.stored_energy);
+        previous_energy = iterate.stored_energy;
+        let is_one_way = iterations > ONE_WAY_AFTER;
+        iterate = next(equations, state, &iterate, &mut curvature, is_one_way);
         iterations += 1;
     }
 }
 
-/// Softens the bonds of an iterate and measures it; tells whether the same bonds go on along their laws as before.
-fn measure(equations: &mut Equations, state: &mut State, is_one_way: bool) -> (bool, Iterate) {
+/// The next iterate: the state goes along a correction as far as that lowers the energy.
+fn next(
+    equations: &mut Equations,
+    state: &mut State,
+    iterate: &Iterate,
+    curvature: &mut Curvature,
+    is_one_way: bool,
+) -> Iterate {
+    let force = equations.out_of_balance(state, iterate);
+    let mut correction = curvature.correction(&force, |it| equations.solve(state, it));
+    if dot(&force, &correction) <= 0.0 {
+        curvature.forget();
+        correction = equations.solve(state, force.clone());
+    }
+    let start = state.displacement.clone();
+    let mut last = None;
+    let part = line_search::part(dot(&force, &correction), |part| {
+        state.displacement.clone_from(&start);
+        equations.add_correction(state, part, &correction);
+        let iterate = softened(equations, state, is_one_way);
+        let force = equations.out_of_balance(state, &iterate);
+        let work = dot(&force, &correction);
+        last = Some((iterate, force));
+        work
+    });
+    let Some((iterate, left)) = last else {
+        return softened(equations, state, is_one_way);
+    };
+    let step = correction.iter().map(|it| part * it).collect();
+    let change = force.iter().zip(&left).map(|(was, is)| was - is).collect();
+    curvature.learn(step, change);
+    iterate
+}
+
+/// Softens the bonds of an iterate and measures it.
+fn softened(equations: &mut Equations, state: &mut State, is_one_way: bool) -> Iterate {
     let deformations = equations.deformations(state);
     let State {
         softening, intact, ..
     } = &mut *state;
     let criteria = &equations.problem.criteria;
-    let is_settled = softening.follow(criteria, intact, &deformations, is_one_way);
-    equations.solver.weaken(state, &mut equations.costs);
-    (is_settled, equations.measure_deformed(state, deformations))
-}
-
-/// Displacements and rotations of a state at the unknowns, shape (n_unknowns).
-fn at_unknowns(equations: &Equations, state: &State) -> Vec<f64> {
-    let dofs = equations.degrees_of_freedom().iter();
-    dofs.map(|&dof| state.displacement[dof as usize]).collect()
-}
-
-/// 1 at displacements and the spacing of the point at rotations, which makes lengths of both, shape (n_unknowns).
-fn lengths(equations: &Equations) -> Vec<f64> {
-    let system = &equations.problem.system;
-    let (layout, spacing) = (system.layout(), system.spacing());
-    let length = |&dof: &u32| {
-        if layout.component(dof as usize).is_rotation() {
-            spacing[layout.point(dof as usize) as usize]
-        } else {
-            1.0
-        }
-    };
-    equations.degrees_of_freedom().iter().map(length).collect()
+    softening.follow(criteria, intact, &deformations, is_one_way);
+    equations.measure_deformed(state, deformations)
 }

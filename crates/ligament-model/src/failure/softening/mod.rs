@@ -20,6 +20,9 @@ pub const LAWS: [&Law; 4] = [
     &plastic::LAW,
 ];
 
+/// Distance of the end from the limit, over the limit, below which the force of a bond drops.
+const DROP: f64 = 1e-3;
+
 /// What happens after the limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AfterLimit {
@@ -74,6 +77,17 @@ impl AfterLimit {
             return 1.0;
         }
         (self.law.end)(self.parameter_of(bond))
+    }
+
+    /// Largest e/e_0 whose softening counts before the bond breaks, at a deformation `kappa` times that at the limit: short of the
+    /// [`end`](Self::end), so that a bond which waits for its turn to break has a little left to hold its points by. None where the
+    /// force drops rather than falls: such a bond keeps what it has, and the order of breaking decides as for brittle ones.
+    #[inline]
+    pub fn extreme(&self, bond: usize, kappa: f64) -> Option<f64> {
+        let end = self.end(bond);
+        let drops = end - 1.0 < DROP && kappa >= end;
+        let last = 1.0 + (end - 1.0) * (1.0 - exponential::LAST_FORCE);
+        (!drops).then_some(kappa.min(last))
     }
 
     /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
@@ -154,6 +168,26 @@ mod tests {
             assert_eq!(AfterLimit::from_word(law.word(), parameter), Some(law));
         }
         assert_eq!(AfterLimit::from_word("britle", Vec::new()), None);
+    }
+
+    /// A bond beyond its end has a thousandth left, one whose law is a drop waits with all it has.
+    #[test]
+    fn a_bond_beyond_its_end_waits_for_its_turn() {
+        let [straight, exponential, plastic] = laws();
+        for law in [straight, exponential] {
+            let end = law.end(0);
+            let extreme = law.extreme(0, 2.0 * end);
+            assert_eq!(extreme, law.extreme(0, end));
+            let left = extreme.map(|kappa| law.at(0, kappa).force);
+            assert!(
+                left.is_some_and(|force| force > 5e-4 && force < 2e-3),
+                "{left:?}"
+            );
+            assert_eq!(law.extreme(0, 1.5), Some(1.5));
+        }
+        assert_eq!(plastic.extreme(0, 1e6), Some(1e6));
+        let drop = AfterLimit::new(bilinear::LAW, vec![1.000001]);
+        assert_eq!(drop.extreme(0, 1.1), None);
     }
 
     #[test]

@@ -1,0 +1,123 @@
+//! Limited-memory BFGS: what the last steps of an iteration tell about the stiffness (Nocedal 1980; Nocedal and Wright 2006,
+//! algorithm 7.4).
+
+use std::collections::VecDeque;
+
+/// Steps that are kept.
+const DEPTH: usize = 20;
+
+/// A step du of an iteration and the change K du of the force that was out of balance, shape (n_unknowns).
+struct Pair {
+    step: Vec<f64>,
+    change: Vec<f64>,
+    /// du . K du, J.
+    work: f64,
+}
+
+/// The last steps of an iteration, the newest first.
+#[derive(Default)]
+pub(super) struct Curvature {
+    pairs: VecDeque<Pair>,
+}
+
+impl Curvature {
+    /// The correction H r of a force r out of balance (n_unknowns), shape (n_unknowns).
+    ///
+    /// `solve` multiplies by the inverse of a stiffness that is near the tangent; H is that inverse after the updates by all steps
+    /// that are kept. It is positive definite if the stiffness is, and gives the newest step for its change.
+    pub(super) fn correction(
+        &self,
+        force: &[f64],
+        solve: impl FnOnce(Vec<f64>) -> Vec<f64>,
+    ) -> Vec<f64> {
+        let mut force = force.to_vec();
+        let mut shares = Vec::with_capacity(self.pairs.len());
+        for pair in &self.pairs {
+            let share = dot(&pair.step, &force) / pair.work;
+            add(&mut force, -share, &pair.change);
+            shares.push(share);
+        }
+        let mut correction = solve(force);
+        for (pair, share) in self.pairs.iter().zip(shares).rev() {
+            let given = dot(&pair.change, &correction) / pair.work;
+            add(&mut correction, share - given, &pair.step);
+        }
+        correction
+    }
+
+    /// Takes in a step and what it changed of the force out of balance (n_unknowns). A step along which the body gave way is left
+    /// out: no positive definite stiffness has it.
+    pub(super) fn learn(&mut self, step: Vec<f64>, change: Vec<f64>) {
+        let work = dot(&step, &change);
+        if work > 0.0 {
+            self.pairs.truncate(DEPTH - 1);
+            self.pairs.push_front(Pair { step, change, work });
+        }
+    }
+
+    /// Forgets all steps.
+    pub(super) fn forget(&mut self) {
+        self.pairs.clear();
+    }
+}
+
+/// The scalar product of two arrays of the same shape.
+pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+fn add(to: &mut [f64], factor: f64, values: &[f64]) {
+    for (to, value) in to.iter_mut().zip(values) {
+        *to += factor * value;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A symmetric positive definite stiffness.
+    const STIFFNESS: [[f64; 3]; 3] = [[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 2.0]];
+
+    fn times_stiffness(u: &[f64]) -> Vec<f64> {
+        STIFFNESS.iter().map(|row| dot(row, u)).collect()
+    }
+
+    /// On a quadratic energy with exact searches the method is that of conjugate gradients: it ends after as many steps as there are
+    /// unknowns, here three, whatever positive definite stiffness is solved with. 1e-12: rounding of forces of size 1.
+    #[test]
+    fn a_linear_body_takes_as_many_steps_as_unknowns() {
+        let mut curvature = Curvature::default();
+        let (mut u, mut force) = (vec![0.0; 3], vec![1.0, -2.0, 0.7]);
+        for step in 0..3 {
+            assert!(dot(&force, &force) > 1e-4, "too early: {step}");
+            let correction =
+                curvature.correction(&force, |it| vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
+            let change = times_stiffness(&correction);
+            let part = dot(&force, &correction) / dot(&correction, &change);
+            let scaled = |values: Vec<f64>| values.into_iter().map(|it| part * it).collect();
+            let (step, change): (Vec<f64>, Vec<f64>) = (scaled(correction), scaled(change));
+            add(&mut u, 1.0, &step);
+            add(&mut force, -1.0, &change);
+            curvature.learn(step, change);
+        }
+        assert!(force.iter().all(|it| it.abs() < 1e-12), "{force:?}");
+        let expected = [1.0, -2.0, 0.7];
+        let found = times_stiffness(&u);
+        assert!(
+            (0..3).all(|i| (found[i] - expected[i]).abs() < 1e-12),
+            "{u:?}"
+        );
+    }
+
+    #[test]
+    fn a_step_along_which_the_body_gave_way_is_left_out() {
+        let mut curvature = Curvature::default();
+        curvature.learn(vec![1.0, 0.0], vec![-1.0, 0.5]);
+        assert_eq!(curvature.correction(&[3.0, 4.0], |it| it), [3.0, 4.0]);
+        curvature.learn(vec![1.0, 0.0], vec![2.0, 0.0]);
+        assert_eq!(curvature.correction(&[3.0, 4.0], |it| it), [1.5, 4.0]);
+        curvature.forget();
+        assert_eq!(curvature.correction(&[3.0, 4.0], |it| it), [3.0, 4.0]);
+    }
+}

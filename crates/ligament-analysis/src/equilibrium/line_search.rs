@@ -1,0 +1,95 @@
+//! Part of a correction that is taken: as far as the force out of balance goes on doing work along it.
+
+/// Work along a correction, relative to that at its beginning, at which a search is near enough.
+const NEAR: f64 = 0.5;
+
+/// Parts that are tried at most.
+const TRIES: usize = 5;
+
+/// Largest ratio of a part to the one tried before.
+const GROWTH: f64 = 4.0;
+
+/// Least distance of a new part from the ends of the interval in which it is sought, over its length.
+const INSIDE: f64 = 0.1;
+
+/// The part of a correction du at which r . du, the work of the force out of balance along the correction, is near zero: there the
+/// potential energy is least, for the first time on the way (Nocedal and Wright 2006, section 3.5).
+///
+/// `work` is that at part zero, and `at` gives it for a part, of which the last one tried is the one that is taken. The whole
+/// correction is tried first; parts follow by the secant method. Without work at the beginning (of equations that are not
+/// definite) the whole correction is taken.
+pub(super) fn part(work: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
+    let mut part = 1.0;
+    let mut before = (0.0, work);
+    let mut beyond = None;
+    for _ in 1..TRIES {
+        let now = at(part);
+        let is_near = now.abs() <= NEAR * work;
+        // A work that is no number leads nowhere.
+        if is_near || work <= 0.0 || !now.is_finite() {
+            return part;
+        }
+        if now > 0.0 {
+            before = (part, now);
+        } else {
+            beyond = Some((part, now));
+        }
+        part = match beyond {
+            None => further(part, now / work),
+            Some(beyond) => between(before, beyond),
+        };
+    }
+    at(part);
+    part
+}
+
+/// The next part where work is left, a share of that at the beginning.
+fn further(part: f64, share: f64) -> f64 {
+    let falls = share < 1.0;
+    let zero = if falls { 1.0 / (1.0 - share) } else { GROWTH };
+    part * zero.min(GROWTH)
+}
+
+/// The part between two, of which work is left at the first and none at the second.
+fn between((start, some): (f64, f64), (end, none): (f64, f64)) -> f64 {
+    let zero = some / (some - none);
+    start + (end - start) * zero.clamp(INSIDE, 1.0 - INSIDE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(work: impl Fn(f64) -> f64) -> (f64, Vec<f64>) {
+        let mut tried = Vec::new();
+        let part = part(work(0.0), |part| {
+            tried.push(part);
+            work(part)
+        });
+        assert_eq!(tried.last(), Some(&part));
+        (part, tried)
+    }
+
+    /// A straight line is met at the second try, wherever it is zero within the growth, and not searched where the whole correction is
+    /// near enough.
+    #[test]
+    fn a_straight_line_is_met_at_once() {
+        assert_eq!(found(|part| 2.0 * (1.2 - part)), (1.0, vec![1.0]));
+        assert_eq!(found(|part| 2.0 * (4.0 - part)), (4.0, vec![1.0, 4.0]));
+        assert_eq!(found(|part| 2.0 * (0.5 - part)), (0.5, vec![1.0, 0.5]));
+    }
+
+    /// Beyond a bend: the work is positive up to 1.5, and negative from there on.
+    #[test]
+    fn a_zero_is_enclosed() {
+        let (part, tried) = found(|part| if part < 1.5 { 1.0 } else { -2.0 * (part - 1.5) });
+        assert!((1.0..2.0).contains(&part), "{tried:?}");
+        assert!(tried.len() <= TRIES);
+    }
+
+    #[test]
+    fn equations_that_are_not_definite_are_not_searched() {
+        assert_eq!(found(|_| -1.0), (1.0, vec![1.0]));
+        assert_eq!(found(|part| if part > 0.0 { f64::NAN } else { 1.0 }).0, 1.0);
+    }
+}
