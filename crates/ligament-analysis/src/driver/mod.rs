@@ -5,9 +5,9 @@ mod dissipation;
 pub mod elastic;
 pub mod event;
 mod outcome;
-mod overlap;
 mod path;
 mod recorder;
+mod remarks;
 mod start;
 pub mod stepped;
 
