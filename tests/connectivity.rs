@@ -1,6 +1,7 @@
 //! Fragments and holds, kept up while bonds break, against a search of the whole body after every breakage.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::Restraints;
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::unknowns::Unknowns;
@@ -22,6 +23,7 @@ fn follow(
     let system = &*bench.model.system;
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let can_hold = |dof: usize| unknowns.number(dof).is_some();
+    let none = Restraints::default();
     let mut intact = vec![true; system.bonds.len()];
     let mut fixed = prescribed.to_vec();
     let mut connectivity = Connectivity::new(system);
@@ -34,8 +36,8 @@ fn follow(
         let found = Fragments::find(system, &intact);
         assert_eq!(connectivity.fragments(), &found);
         let all = 0..found.points.len() as u32;
-        let missing = found.missing_holds(all, system, |dof| fixed[dof], can_hold);
-        let holds = connectivity.missing_holds(system, |dof| fixed[dof], can_hold);
+        let missing = found.missing_holds(all, system, &none, |dof| fixed[dof], can_hold);
+        let holds = connectivity.missing_holds(system, &none, |dof| fixed[dof], can_hold);
         assert_eq!(holds, missing);
         for hold in &holds {
             fixed[hold.degree_of_freedom] = true;

@@ -8,6 +8,7 @@
 mod bodies;
 mod expected;
 mod recorder;
+mod softening;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -11,6 +11,7 @@ use verification::numbers::by_point;
 
 use crate::bodies::Canvas;
 use crate::expected::{Entry, Expected, Place, Rows};
+use crate::softening::Softened;
 
 /// A utilisation that is not larger by more than this is the same: the file keeps the first of several.
 const SAME: f64 = 1.0 + 2e-7;
@@ -33,6 +34,8 @@ pub(crate) struct Recorder<'a> {
     history: Rows,
     breaks: Rows,
     iterations: Rows,
+    /// Where bonds soften.
+    softened: Option<Softened>,
     fields: Rows,
     bond_files: Rows,
     round: (usize, usize, f64, usize),
@@ -138,6 +141,7 @@ impl<'a> Recorder<'a> {
             history: Rows::new(history.chain(groups).chain(probes)),
             breaks: Rows::new(breaks.chain(ends).chain(after).chain(names)),
             iterations: Rows::new(iterations),
+            softened: (problem.criteria.soften()).then(|| Softened::new(tagged, n_bonds)),
             fields: Rows::new(["timestep", "file"]),
             bond_files: Rows::new(["timestep", "file"]),
             round: (0, 0, 0.0, 0),
@@ -154,6 +158,9 @@ impl<'a> Recorder<'a> {
         self.breaks.into_expected("breaks.csv", &mut expected);
         self.iterations
             .into_expected("iterations.csv", &mut expected);
+        if let Some(softened) = self.softened {
+            softened.into_expected(&mut expected);
+        }
         self.fields.into_expected("fields.pvd", &mut expected);
         if self.bonds {
             self.bond_files.into_expected("bonds.pvd", &mut expected);
@@ -432,6 +439,11 @@ impl Observer for Recorder<'_> {
             }
         }
         self.see_largest(record.step, view);
+        if let Some(softened) = &mut self.softened {
+            let body = self.model.body();
+            let tags = |bond: usize| view.system.ends()[bond].map(|end| body.tag(end) as usize);
+            softened.step(record, view, tags, &self.labels);
+        }
         let missing = record.external_work - record.stored_energy - record.released_energy;
         let work = record.external_work;
         let scale = if work.abs() < record.energy_floor {

@@ -1,12 +1,12 @@
 //! Assembly of the bonds' element stiffnesses into the global matrix (NHPD eq. 18).
 //!
 //! The pattern is made once. A column of the matrix is summed by one thread, over the bonds of its point in their order,
-//! so that the values have the same bits for any number of threads. A broken bond leaves the pattern as it is.
+//! so that the values have the same bits for any number of threads. A broken bond leaves the pattern as it is. Restraints go in after
+//! the bonds.
 
 use std::sync::Arc;
 
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
-use ligament_model::interface::CoupledPoints;
 use ligament_model::{Bonds, BondsLeft};
 use rayon::prelude::*;
 
@@ -18,7 +18,10 @@ pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, Patte
     let mut column_starts = vec![0];
     let mut rows = Vec::new();
     for point in 0..system.n_points() {
-        let lower_rows: Vec<usize> = lower_points(coupled, point)
+        let lower = unknowns
+            .restraints()
+            .lower_points(unknowns.layout(), coupled, point);
+        let lower_rows: Vec<usize> = (lower.into_iter())
             .flat_map(|other| unknowns.of_point(other as usize).map(|(row, _)| row))
             .collect();
         for (column, _) in unknowns.of_point(point) {
@@ -52,9 +55,11 @@ pub fn assemble(
         .into_par_iter()
         .enumerate()
         .for_each(|(point, values)| {
-            let lower: Vec<u32> = lower_points(coupled, point).collect();
+            let (layout, restraints) = (unknowns.layout(), unknowns.restraints());
+            let lower = restraints.lower_points(layout, coupled, point);
             let mut blocks = vec![0.0; (lower.len() + 1) * n_components * n_components];
             system.add_blocks(bonds, point as u32, &lower, &mut blocks);
+            restraints.add_blocks(layout, point as u32, &lower, &mut blocks);
             let columns = Columns {
                 unknowns,
                 held,
@@ -113,13 +118,6 @@ impl Columns<'_> {
             }
         }
     }
-}
-
-/// Points of smaller number that some element couples with a point, ascending.
-fn lower_points(coupled: CoupledPoints<'_>, point: usize) -> impl Iterator<Item = u32> + '_ {
-    coupled
-        .at(point as u32)
-        .take_while(move |&other| (other as usize) < point)
 }
 
 /// The part of the values that belongs to the columns of each point.

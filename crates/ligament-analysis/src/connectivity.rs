@@ -9,6 +9,8 @@ pub mod decremental;
 
 use ligament_model::Bonds;
 
+use crate::restraints::{self, Restraints};
+
 /// The connected parts of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fragments {
@@ -66,12 +68,13 @@ impl Fragments {
         &self,
         fragments: impl IntoIterator<Item = u32>,
         system: &dyn Bonds,
+        restraints: &Restraints,
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
     ) -> Vec<Hold> {
         let of_fragment = |fragment: u32| {
             let points = &self.points[fragment as usize];
-            let found = system.holds(points, &is_fixed, &can_hold);
+            let found = restraints::missing_holds(system, restraints, points, &is_fixed, &can_hold);
             found.into_iter().map(move |degree_of_freedom| Hold {
                 degree_of_freedom,
                 fragment,

@@ -174,6 +174,7 @@ impl Equilibrium {
         let held = &state.held;
         breakage.holds = self.connectivity.missing_holds(
             system,
+            loads.restraints(),
             |dof| loads.is_prescribed(dof) || held[dof],
             |dof| unknowns.number(dof).is_some(),
         );

@@ -41,6 +41,7 @@ pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBo
     let holds = fragments.missing_holds(
         0..fragments.points.len() as u32,
         system,
+        loads.restraints(),
         |dof| loads.is_prescribed(dof),
         |dof| unknowns.number(dof).is_some(),
     );
@@ -67,11 +68,11 @@ fn free_body(
     holds: &[Hold],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
-    let is_prescribed = |dof| loads.is_prescribed(dof);
+    let layout = system.layout();
+    let is_prescribed = |dof| loads.is_prescribed(dof) || loads.restraints().holds(layout, dof);
     let force = |dof: usize| loads.forces(1.0, &[dof as u32])[0];
     let mut gauges: Vec<usize> = holds.iter().map(|hold| hold.degree_of_freedom).collect();
     gauges.sort_unstable();
-    let layout = system.layout();
     let named = |dof: usize| (layout.point(dof), layout.component(dof));
     FreeBody {
         points: points.len(),

@@ -8,6 +8,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use crate::internal::InternalForces;
+use crate::restraints::Restraints;
 use crate::unknowns::Layout;
 use ligament_model::thermal::ThermalStrain;
 
@@ -24,11 +25,44 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Whether the motion of a degree of freedom is prescribed.
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool;
 
+    /// What resists motions that are not prescribed, beside the bonds.
+    fn restraints(&self) -> &Arc<Restraints>;
+
+    /// Whether something else than given forces acts at a degree of freedom: what prescribes its motion, or a restraint.
+    fn reacts_at(&self, degree_of_freedom: usize) -> bool {
+        self.is_prescribed(degree_of_freedom) || self.restraints().acts_on(degree_of_freedom)
+    }
+
     /// Gives displacements (n_degrees_of_freedom, m and rad) their prescribed values at a time.
     fn prescribe(&self, time: f64, displacement: &mut [f64]);
 
-    /// Given forces at some degrees of freedom, in their order, N and N m.
+    /// Given forces at some degrees of freedom, in their order, N and N m; those that moved far ends of restraints exert on a body that
+    /// does not move among them.
     fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64>;
+
+    /// Given forces and those of restraints at displacements (n_degrees_of_freedom), less internal ones, at some degrees of freedom, in their
+    /// order, N and N m.
+    fn external_less(
+        &self,
+        time: f64,
+        displacement: &[f64],
+        internal: &InternalForces,
+        degrees_of_freedom: &[u32],
+    ) -> Vec<f64> {
+        let mut force = self.forces(time, degrees_of_freedom);
+        for (value, &dof) in force.iter_mut().zip(degrees_of_freedom) {
+            *value -= internal.values[dof as usize];
+        }
+        if self.restraints().is_empty() {
+            return force;
+        }
+        let mut restraining = vec![0.0; displacement.len()];
+        self.restraints().add_forces(displacement, &mut restraining);
+        for (value, &dof) in force.iter_mut().zip(degrees_of_freedom) {
+            *value -= restraining[dof as usize];
+        }
+        force
+    }
 
     /// Strains that the temperature gives without stress.
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_>;
@@ -55,8 +89,8 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Degrees of freedom that something moves or loads at some time, ascending: no other one does work.
     fn loaded_degrees_of_freedom(&self) -> Vec<u32>;
 
-    /// Reactions of supports and prescribed motions to internal forces (n_degrees_of_freedom), N and N m: internal less given
-    /// force where the motion is prescribed, zero elsewhere.
+    /// Reactions of supports, prescribed motions and restraints to internal forces (n_degrees_of_freedom), N and N m: internal less given
+    /// force where something [reacts](Self::reacts_at), zero elsewhere.
     fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64>;
 
     /// Groups whose resultants the history reports.

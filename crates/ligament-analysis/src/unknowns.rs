@@ -1,14 +1,19 @@
 //! Numbering of the unknowns: which components of which points the system of equations solves for.
 
+use std::sync::Arc;
+
 use ligament_model::Bonds;
 pub use ligament_model::layout::{Component, Layout};
 
+use crate::restraints::Restraints;
+
 /// The degrees of freedom that are unknown, numbered in the order of the points.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Unknowns {
     layout: Layout,
     number: Vec<u32>,
     degrees_of_freedom: Vec<u32>,
+    restraints: Arc<Restraints>,
 }
 
 const KNOWN: u32 = u32::MAX;
@@ -44,7 +49,21 @@ impl Unknowns {
             layout,
             number,
             degrees_of_freedom,
+            restraints: Arc::default(),
         }
+    }
+
+    /// The same unknowns with restraints between them and the ground.
+    pub fn restrained_by(self, restraints: &Arc<Restraints>) -> Self {
+        Self {
+            restraints: restraints.clone(),
+            ..self
+        }
+    }
+
+    /// What resists the unknowns beside the bonds.
+    pub fn restraints(&self) -> &Arc<Restraints> {
+        &self.restraints
     }
 
     /// Where arrays over degrees of freedom hold the motions of the points.

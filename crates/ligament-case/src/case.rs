@@ -38,7 +38,7 @@ pub mod values;
 mod word;
 
 pub use analysis::{Analysis, MOST_MODES, Modal};
-pub use conditions::{Displacement, Support, Vector};
+pub use conditions::{Displacement, SpringStiffness, Support, Vector};
 pub use correction::Correction;
 pub use criterion::Criterion;
 pub use fault::{CaseError, Fault, Location};

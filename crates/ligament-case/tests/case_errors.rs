@@ -52,7 +52,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
          `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, `acceleration`, \
-         `moment`, `body_couple`, `pressure`, `profile`"
+         `moment`, `body_couple`, `pressure`, `profile`, `stiffness`, `tilts`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
@@ -72,7 +72,12 @@ fn error_with_solver(section: &str) -> String {
 /// Faces close where points turn, with the stiffness of the whole body.
 #[test]
 fn closing_asks_for_points_that_turn() {
-    let closing = |law: &str| error_with("law = \"nhpd\"", &format!("law = \"{law}\"\nclosing = true"));
+    let closing = |law: &str| {
+        error_with(
+            "law = \"nhpd\"",
+            &format!("law = \"{law}\"\nclosing = true"),
+        )
+    };
     for law in ["bbpd", "pds"] {
         let error = closing(law);
         assert!(error.starts_with("14:1: model.closing: "), "{error}");
@@ -80,7 +85,10 @@ fn closing_asks_for_points_that_turn() {
     }
     let text = TEXT.replacen("[correction]", "[correction]\ndomain = \"cracked\"", 1);
     let error = error_of(&text.replacen("law = \"nhpd\"", "law = \"nhpd\"\nclosing = true", 1));
-    assert!(error.contains("closing") && error.contains("take \"whole\""), "{error}");
+    assert!(
+        error.contains("closing") && error.contains("take \"whole\""),
+        "{error}"
+    );
 }
 
 #[test]
@@ -224,7 +232,7 @@ fn missing_keys_are_at_their_table() {
     );
     assert_eq!(
         error_with("displacement = { x = 0 }", ""),
-        "26:1: support.1.displacement: missing key `displacement` in [[support]]"
+        "26:1: support.1: holds nothing: give a `displacement`, a `normal` or a `stiffness`"
     );
     assert_eq!(
         error_with("tensile_strength = 3.81e6\n", ""),
@@ -390,7 +398,7 @@ fn supports_and_loads_that_make_no_sense_are_refused() {
     );
     assert_eq!(
         error_with("{ x = 0 }", "{}"),
-        "28:16: support.1.displacement: needs one of `x`, `y`, `rotation` or more"
+        "28:16: support.1.displacement: holds nothing: give a `displacement`, a `normal` or a `stiffness`"
     );
     assert_eq!(
         error_with(load, "at = [0, 0]\nforce_per_length = { y = 1 }"),

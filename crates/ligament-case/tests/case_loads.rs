@@ -153,3 +153,66 @@ fn stresses_are_asked_for_by_name() {
     let probe = case.case.probes.last().unwrap();
     assert_eq!((probe.at, probe.field), (Some(at), Some(field)));
 }
+
+#[test]
+fn supports_that_give_way_are_checked() {
+    let line = TEXT
+        .lines()
+        .find(|it| it.starts_with("displacement"))
+        .unwrap();
+    for (support, message) in [
+        (
+            "",
+            "support.0: holds nothing: give a `displacement`, a `normal` or a `stiffness`",
+        ),
+        (
+            "displacement = { y = 0.0 }\nnormal = [1.0, 1.0]",
+            "support.0.normal: a support holds components of the `displacement` or one direction between them, its `normal`: give one \
+             of the two, or two supports",
+        ),
+        (
+            "normal = [0.0, 0.0]",
+            "support.0.normal: must be a direction other than [0, 0]",
+        ),
+        (
+            "stiffness = { y = -1e9 }",
+            "support.0.stiffness.y: must be greater than 0, found -1000000000.0",
+        ),
+        (
+            "displacement = { y = 0.0 }\nstiffness = { y = 1e9 }",
+            "support.0.stiffness: a component is held by `displacement` or by a spring, not by both",
+        ),
+        (
+            "stiffness = { normal = 1e9 }",
+            "support.0.stiffness: `normal` of the stiffness needs the direction `normal` of the support",
+        ),
+    ] {
+        let error = error_of(&TEXT.replacen(line, support, 1));
+        assert!(error.ends_with(message), "{support}: {error}");
+    }
+}
+
+#[test]
+fn loads_through_machines_are_checked() {
+    for (load, message) in [
+        (
+            "force = { y = 1.0 }\nstiffness = 1e9",
+            "load.0.stiffness: only a `displacement` along x and y goes through springs",
+        ),
+        (
+            "moment = 1.0\ntilts = true",
+            "load.0.tilts: a platen tilts under a `displacement` along x and y or under a `force`",
+        ),
+        (
+            "displacement = { y = 1e-3 }\ntilts = true\nprofile = { along = \"x\", zero = 0.0, one = 0.1 }",
+            "load.0.tilts: a platen moves by the mean of its points: a `profile` goes with a `force` alone",
+        ),
+        (
+            "displacement = { y = 1e-3 }\nstiffness = 0.0",
+            "load.0.stiffness: must be greater than 0, found 0.0",
+        ),
+    ] {
+        let error = error_of(&with_load(load));
+        assert!(error.ends_with(message), "{load}: {error}");
+    }
+}

@@ -22,14 +22,7 @@ pub struct StoredLoading {
 ///
 /// If the case cannot be read.
 pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
-    let path = folder.join(RESOLVED_CASE);
-    let case: toml::Table = read_text(&path)?
-        .parse()
-        .map_err(|error: toml::de::Error| Error::Unreadable {
-            path,
-            // Not the line: it may be one of any file.
-            reason: error.message().trim().to_owned(),
-        })?;
+    let case = resolved_case(folder)?;
     let control = case.get("fracture").and_then(|it| it.get("control"));
     let first = case.get("load").and_then(|loads| loads.get(0));
     let given = |key: &str| first.and_then(|load| load.get(key));
@@ -48,4 +41,16 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
         follows_path: control.and_then(toml::Value::as_str) == Some("event"),
         units,
     })
+}
+
+/// The resolved case beside results.
+pub(crate) fn resolved_case(folder: &Path) -> Result<toml::Table, Error> {
+    let path = folder.join(RESOLVED_CASE);
+    read_text(&path)?
+        .parse()
+        .map_err(|error: toml::de::Error| Error::Unreadable {
+            path,
+            // Not the line: it may be one of any file.
+            reason: error.message().trim().to_owned(),
+        })
 }

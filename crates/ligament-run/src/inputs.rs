@@ -15,7 +15,7 @@ pub struct Inputs(String);
 
 /// Keys that may be others when a run goes on: none of them changes what was computed before. Load steps that were done must
 /// stay, which the driver sees to.
-pub const MAY_CHANGE: [&str; 8] = [
+pub const MAY_CHANGE: [&str; 9] = [
     "fracture.stop.load_fraction",
     "fracture.stop.displacement",
     "fracture.stop.bonds",
@@ -24,6 +24,7 @@ pub const MAY_CHANGE: [&str; 8] = [
     "fracture.max_iterations",
     "output.fields_every",
     "output.checkpoint_every",
+    "output.picture",
 ];
 
 /// The identity of the content of a file.
@@ -118,6 +119,7 @@ impl Inputs {
         let mut plain = case.clone();
         plain.case.output.fields_every = None;
         plain.case.output.checkpoint_every = None;
+        plain.case.output.picture = false;
         if let Some(fracture) = &mut plain.case.fracture {
             fracture.max_iterations = None;
             fracture.steps = None;

@@ -81,9 +81,9 @@ impl LoadedBody<'_> {
             Some(restored) => resume(analysis, restored, &mut watch),
         })?;
 
-        let (notices, checkpoints) = watch.into_parts();
+        let (notices, first, checkpoints) = watch.into_parts();
         let boundary = &loading.boundary;
-        let told = (provenance, notices);
+        let told = (provenance, notices, first);
         let summary = Summary::new(case, model, boundary, &outcome, told, stages.done());
         let text = serde_json::to_string_pretty(&summary)
             .context("the summary cannot be written as JSON")?;

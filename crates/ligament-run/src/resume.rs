@@ -11,8 +11,8 @@ use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::read_text;
-use ligament_output::results::SoFar;
 use ligament_output::results::outputs::{clear, require_results};
+use ligament_output::results::{CRACK_FILES, SoFar};
 use serde_json::Value;
 
 use crate::checkpoints::{IsStopped, VERSION};
@@ -88,6 +88,9 @@ impl Request<'_> {
         let kept = kept.transpose()?;
         // From here on the results of the run change.
         folder.remove(SUMMARY)?;
+        CRACK_FILES
+            .iter()
+            .try_for_each(|name| folder.remove(name))?;
         if kept.is_none() {
             clear(&folder)?;
         }

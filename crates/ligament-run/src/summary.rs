@@ -2,14 +2,17 @@
 
 mod modal;
 mod model;
+mod places;
 mod solver;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
+use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::StepRecord;
-use ligament_analysis::{ProportionalLoading, Termination};
+use ligament_analysis::{Bonds, ProportionalLoading, Termination};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -24,6 +27,8 @@ pub use model::{
     CorrectionSummary, ModelSummary, ScatterSummary, Spread, correction_line, family,
     formulation_line, heading,
 };
+use places::resultants_at_peak;
+pub use places::{BondEvent, Resultant};
 pub use solver::SolverSummary;
 
 /// All numbers of a run.
@@ -40,10 +45,18 @@ pub struct Summary {
     pub units: Units,
     /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
-    /// Where the first bond breaks, from the elastic solution.
+    /// Where the first bond breaks, or begins to soften, as the elastic solution foretells.
     pub first_break: Option<PathPoint>,
+    /// The first bond that began to soften; only of bonds that do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_softened_bond: Option<BondEvent>,
+    /// The first bond that broke.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_broken_bond: Option<BondEvent>,
     /// The load step, or event of the exact path, with the largest reaction.
     pub peak: Option<PathPoint>,
+    /// What each group with supports or loads exerts on the body there, by its name in the history.
+    pub reactions_at_peak: BTreeMap<String, Resultant>,
     /// The largest reaction before it fell by more than [`DROP`] for the first time; on the exact path as a test sees it
     /// whose displacement only rises.
     pub first_peak: Option<PathPoint>,
@@ -170,7 +183,7 @@ impl Summary {
         model: &Model,
         boundary: &ProportionalLoading,
         outcome: &Outcome,
-        (provenance, notices): (Provenance, Vec<String>),
+        (provenance, notices, first): (Provenance, Vec<String>, FirstBonds),
         stages: &[Stage],
     ) -> Self {
         let history = &outcome.history;
@@ -192,7 +205,10 @@ impl Summary {
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),
+            first_softened_bond: first.softened.map(|it| BondEvent::new(model, &it)),
+            first_broken_bond: first.broken.map(|it| BondEvent::new(model, &it)),
             peak: loaded(outcome.peak()),
+            reactions_at_peak: resultants_at_peak(boundary, model.system.layout(), outcome),
             first_peak: loaded(outcome.first_peak(DROP)),
             broken_bonds: outcome.state.broken_bonds(),
             steps: history.len().saturating_sub(1),
@@ -236,6 +252,7 @@ impl Summary {
             self.model.points, self.model.bonds, self.model.volume
         )?;
         self.write_loads(out)?;
+        self.write_first_bonds(out)?;
         let unit = if self.exact_path {
             "states of the exact path"
         } else {
@@ -270,6 +287,19 @@ impl Summary {
         Ok(())
     }
 
+    /// The lines of where the body gave way first.
+    fn write_first_bonds(&self, out: &mut dyn Write) -> io::Result<()> {
+        for (name, bond) in [
+            ("first softened", &self.first_softened_bond),
+            ("first broken", &self.first_broken_bond),
+        ] {
+            if let Some(bond) = bond {
+                writeln!(out, "  {name:<18} {bond}")?;
+            }
+        }
+        Ok(())
+    }
+
     /// The lines of the temperature, the stiffness and the loads that stand out.
     fn write_loads(&self, out: &mut dyn Write) -> io::Result<()> {
         let Units {
@@ -291,8 +321,12 @@ impl Summary {
         }
         let broke = self.broken_bonds > 0;
         let of_breaking = |point: Option<PathPoint>| point.filter(|_| broke);
+        let onset = match self.first_softened_bond {
+            Some(_) => "first softening",
+            None => "first breakage",
+        };
         for (name, point) in [
-            ("first breakage", self.first_break),
+            (onset, self.first_break),
             ("first peak", of_breaking(self.first_peak)),
             ("largest load", self.peak),
         ] {

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
+use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
     BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
@@ -59,9 +60,9 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// What the user should know of the run, and its checkpoints.
-    pub(crate) fn into_parts(self) -> (Vec<String>, Checkpoints<'a>) {
-        (self.notices, self.checkpoints)
+    /// What the user should know of the run, its first bonds that gave way, and its checkpoints.
+    pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
+        (self.notices, self.writer.first_bonds(), self.checkpoints)
     }
 
     /// A notice with points given by their tags.

@@ -227,6 +227,15 @@ pub enum Fault {
         "the first load must be other than zero: it is the axis of the force-displacement curve"
     )]
     ZeroControl,
+    /// A platen on points that lie one behind the other along the load.
+    #[error(
+        "a platen tilts about points that lie beside each other across the load, and its group has {points} in one place: give a group that \
+         is wider, or leave `tilts` out"
+    )]
+    NoPlaten {
+        /// Number of points of the group.
+        points: usize,
+    },
     /// A load that is zero at all of its points.
     #[error("the load does nothing: its profile is zero at every point that it acts on")]
     ZeroProfile,

@@ -8,6 +8,7 @@ use ligament_model::Bonds;
 use ligament_model::interface::Topology;
 
 use super::{Fragments, Hold};
+use crate::restraints::Restraints;
 
 /// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.
 #[derive(Debug, Clone)]
@@ -95,6 +96,7 @@ impl Connectivity {
     pub fn missing_holds(
         &mut self,
         system: &dyn Bonds,
+        restraints: &Restraints,
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
     ) -> Vec<Hold> {
@@ -104,7 +106,7 @@ impl Connectivity {
         changed.sort_unstable();
         changed.dedup();
         self.fragments
-            .missing_holds(changed, system, is_fixed, can_hold)
+            .missing_holds(changed, system, restraints, is_fixed, can_hold)
     }
 }
 

@@ -120,7 +120,12 @@ impl Outcome {
         let mut best: Option<LoadPoint> = None;
         for point in self.envelope() {
             match best {
-                Some(peak) if point.reaction < (1.0 - drop) * peak.reaction => break,
+                // A load that another one presses the other way first has not risen yet.
+                Some(peak)
+                    if peak.reaction > 0.0 && point.reaction < (1.0 - drop) * peak.reaction =>
+                {
+                    break;
+                }
                 Some(peak) if point.reaction <= peak.reaction => {}
                 _ => best = Some(point),
             }

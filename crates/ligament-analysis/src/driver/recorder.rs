@@ -118,7 +118,7 @@ impl Energies {
         let given = problem.loads.forces(state.load_factor, &self.loaded);
         for ((&dof, given), last) in self.loaded.iter().zip(given).zip(&mut self.last_loaded) {
             let dof = dof as usize;
-            let force = if problem.loads.is_prescribed(dof) {
+            let force = if problem.loads.reacts_at(dof) {
                 balanced.internal.values[dof]
             } else {
                 given

@@ -18,6 +18,9 @@ const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 /// part of a sound body as long as a horizon shortens by less.
 const LARGEST: f64 = 0.1;
 
+/// Overlap over the distance of points that is rounding, in a body that is unloaded again.
+const ROUNDING: f64 = 1e-12;
+
 /// What to tell of the first record whose energies do not balance, with the record before it; forces without an energy have none that
 /// would.
 pub(super) fn energies(
@@ -68,9 +71,6 @@ fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Ov
     let layout = system.layout();
     let displacements = layout.displacements(&state.displacement);
     let displacement = displacements.fold(0.0, |largest: f64, it| largest.max(it.abs()));
-    if displacement == 0.0 {
-        return None;
-    }
     let mut holds = vec![0; fragments.points.len()];
     for (dof, _) in state.held.iter().enumerate().filter(|(_, held)| **held) {
         holds[fragments.of_point[layout.point(dof) as usize] as usize] += 1;
@@ -78,7 +78,8 @@ fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Ov
     let is_held = |fragment: &u32| holds[*fragment as usize] < layout.components.len();
     let asked: Vec<bool> = fragments.of_point.iter().map(is_held).collect();
     let expansion = problem.loads.thermal_strain(state.load_factor);
-    let beyond = LARGEST * displacement;
+    let spacing = system.spacing().iter().copied().fold(0.0, f64::max);
+    let beyond = (LARGEST * displacement).max(ROUNDING * spacing);
     system.overlap(
         &state.intact,
         &state.displacement,

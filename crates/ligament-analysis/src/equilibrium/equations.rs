@@ -85,13 +85,14 @@ impl Equations {
     pub(super) fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
+        let unknowns = unknowns.restrained_by(loads.restraints());
         let stiffness = Arc::new(Stiffness::new(system, unknowns, problem.solver)?);
         let solver: Box<dyn TangentSolver> = if stiffness.choice().unsymmetric {
             Box::new(UnsymmetricSolver::new(stiffness.clone()))
         } else {
             Box::new(DirectSolver::new(stiffness.clone()))
         };
-        let local_stiffness = LocalStiffness::new(&**system);
+        let of_bonds = LocalStiffness::new(&**system);
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
             energy_tolerance: if system.is_linear() && system.has_energy() {
@@ -99,8 +100,8 @@ impl Equations {
             } else {
                 0.0
             },
-            stiffest: local_stiffness.largest(),
-            local_stiffness,
+            stiffest: of_bonds.largest(),
+            local_stiffness: of_bonds.restrained_by(loads.restraints()),
             loaded: loaded(&**loads),
             largest_extents: Extents::default(),
             contact: Contact::default(),
@@ -353,11 +354,8 @@ impl Equations {
         let internal = system
             .forces(state.bonds(), deformations, expansion)
             .internal;
-        let dofs = self.stiffness.unknowns().degrees_of_freedom();
-        let given = loads.forces(1.0, dofs);
-        let force = dofs.iter().zip(given);
-        let force = force.map(|(&dof, given)| given - internal.values[dof as usize]);
-        let solution = self.solver.solve(state, force.collect(), &mut self.costs);
+        let force = loads.external_less(1.0, &growth, &internal, self.degrees_of_freedom());
+        let solution = self.solver.solve(state, force, &mut self.costs);
         for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
             growth[dof as usize] = value;
         }
@@ -373,12 +371,9 @@ impl Equations {
 
     /// External less internal forces at the unknowns, shape (n_unknowns).
     fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
-        let dofs = self.degrees_of_freedom();
-        let mut force = self.problem.loads.forces(state.load_factor, dofs);
-        for (value, &dof) in force.iter_mut().zip(dofs) {
-            *value -= internal.values[dof as usize];
-        }
-        force
+        let (dofs, displacement) = (self.degrees_of_freedom(), &state.displacement);
+        let loads = &self.problem.loads;
+        loads.external_less(state.load_factor, displacement, internal, dofs)
     }
 
     /// F - K u relative to what may act at each degree of freedom, and what of it rests on holds.

@@ -37,7 +37,7 @@ pub(super) fn imbalance(
     let dofs = equations.degrees_of_freedom();
     let given = problem.loads.forces(state.load_factor, dofs);
     for (&dof, given) in dofs.iter().zip(given) {
-        if !state.held[dof as usize] {
+        if !state.held[dof as usize] && !problem.loads.reacts_at(dof as usize) {
             external[dof as usize] = given;
         }
     }

@@ -7,6 +7,7 @@
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
 
+use crate::restraints::Restraints;
 use crate::serial;
 use crate::serial::{Damaged, Serial};
 use crate::unknowns::Layout;
@@ -93,6 +94,12 @@ impl LocalStiffness {
             layout,
             values: points.flat_map(of_point).collect(),
         }
+    }
+
+    /// The stiffnesses with those of restraints.
+    pub(super) fn restrained_by(mut self, restraints: &Restraints) -> Self {
+        restraints.add_diagonal(&mut self.values);
+        self
     }
 
     /// The largest stiffness against displacements.

@@ -1,9 +1,12 @@
 //! Proportional loading: everything grows with one load factor.
 
+use std::sync::Arc;
+
 use thiserror::Error;
 
 use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
 use crate::internal::InternalForces;
+use crate::restraints::Restraints;
 use crate::unknowns::{Component, Layout};
 use ligament_model::thermal::ThermalStrain;
 
@@ -22,6 +25,11 @@ pub struct ProportionalLoading {
     /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, at load factor 1, shape
     /// (n_points); empty where no temperature changes.
     pub thermal_strain: Vec<[f64; 3]>,
+    /// What resists motions that are not prescribed, beside the bonds.
+    pub restraints: Arc<Restraints>,
+    /// Forces of the restraints whose far ends move on a body that does not, at load factor 1, shape (n_degrees_of_freedom); empty where
+    /// none does, N or N m.
+    pub driving: Vec<f64>,
     /// Groups whose resultant the history reports.
     pub groups: Vec<BoundaryGroup>,
     /// What `displacement` and `reaction` of the history mean.
@@ -55,6 +63,8 @@ impl ProportionalLoading {
             force: vec![0.0; layout.n_degrees_of_freedom()],
             temperature_change: Vec::new(),
             thermal_strain: Vec::new(),
+            restraints: Arc::default(),
+            driving: Vec::new(),
             groups: Vec::new(),
             control,
         }
@@ -144,9 +154,23 @@ impl ProportionalLoading {
     }
 }
 
+impl ProportionalLoading {
+    /// Reaction at a degree of freedom to internal forces (n_degrees_of_freedom).
+    fn reaction(&self, time: f64, internal_forces: &[f64], dof: usize) -> f64 {
+        match self.reacts_at(dof) {
+            true => internal_forces[dof] - time * self.force[dof],
+            false => 0.0,
+        }
+    }
+}
+
 impl LoadProgram for ProportionalLoading {
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool {
         self.prescribed[degree_of_freedom].is_some()
+    }
+
+    fn restraints(&self) -> &Arc<Restraints> {
+        &self.restraints
     }
 
     fn prescribe(&self, time: f64, displacement: &mut [f64]) {
@@ -158,7 +182,11 @@ impl LoadProgram for ProportionalLoading {
     }
 
     fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64> {
-        let force = |&dof: &u32| self.force[dof as usize] * time;
+        let driving = |dof: usize| self.driving.get(dof).copied();
+        let force = |&dof: &u32| match (self.force[dof as usize], driving(dof as usize)) {
+            (force, None) => force * time,
+            (force, Some(driving)) => (force + driving) * time,
+        };
         degrees_of_freedom.iter().map(force).collect()
     }
 
@@ -181,17 +209,16 @@ impl LoadProgram for ProportionalLoading {
 
     fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
         let is_moved = |dof: usize| self.prescribed[dof].is_some_and(|value| value != 0.0);
-        let is_loaded = |&dof: &u32| self.force[dof as usize] != 0.0 || is_moved(dof as usize);
+        let is_loaded = |&dof: &u32| {
+            let place = dof as usize;
+            self.force[place] != 0.0 || is_moved(place) || self.restraints.acts_on(place)
+        };
         (0..self.force.len() as u32).filter(is_loaded).collect()
     }
 
     fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64> {
-        let prescribed = self.prescribed.iter().enumerate();
-        prescribed
-            .map(|(dof, value)| match value {
-                Some(_) => internal_forces[dof] - time * self.force[dof],
-                None => 0.0,
-            })
+        (0..internal_forces.len())
+            .map(|dof| self.reaction(time, internal_forces, dof))
             .collect()
     }
 
@@ -221,12 +248,9 @@ impl LoadProgram for ProportionalLoading {
         match control.kind {
             ControlKind::Force => control.magnitude * time,
             ControlKind::Temperature => internal.thermal / control.magnitude,
-            ControlKind::Displacement => {
-                control.along(self.layout, |dof| match self.prescribed[dof] {
-                    Some(_) => internal.values[dof] - time * self.force[dof],
-                    None => 0.0,
-                })
-            }
+            ControlKind::Displacement => control.along(self.layout, |dof| {
+                self.reaction(time, &internal.values, dof)
+            }),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::programme::Pair;
 use super::{BoundaryGroup, Control, ControlKind, LoadCourse, LoadProgram, ProportionalLoading};
 use crate::internal::InternalForces;
+use crate::restraints::Restraints;
 use ligament_model::thermal::ThermalStrain;
 
 /// What acts in one part of a programme: A, what acts at its start, and B, what grows in it.
@@ -20,6 +21,8 @@ pub struct StagedLoading {
     prescribed: Vec<Pair>,
     /// External force or moment on each degree of freedom, shape (n_degrees_of_freedom), N or N m.
     force: Vec<Pair>,
+    /// Forces of the restraints whose far ends move on a body that does not, shape (n_degrees_of_freedom); empty where none does.
+    driving: Vec<Pair>,
 }
 
 impl StagedLoading {
@@ -28,11 +31,15 @@ impl StagedLoading {
         let n = loads[0].layout.n_degrees_of_freedom();
         let mut prescribed = vec![Pair::default(); n];
         let mut force = vec![Pair::default(); n];
+        let mut driving = vec![Pair::default(); loads[0].driving.len()];
         for (load, &factor) in loads.iter().zip(&course.factors) {
             for (sum, value) in prescribed.iter_mut().zip(&load.prescribed) {
                 sum.add(factor, value.unwrap_or(0.0));
             }
             for (sum, &value) in force.iter_mut().zip(&load.force) {
+                sum.add(factor, value);
+            }
+            for (sum, &value) in driving.iter_mut().zip(&load.driving) {
                 sum.add(factor, value);
             }
         }
@@ -41,6 +48,15 @@ impl StagedLoading {
             course,
             prescribed,
             force,
+            driving,
+        }
+    }
+
+    /// Reaction at a degree of freedom to internal forces (n_degrees_of_freedom).
+    fn reaction(&self, time: f64, internal_forces: &[f64], dof: usize) -> f64 {
+        match self.reacts_at(dof) {
+            true => internal_forces[dof] - self.force_at(time, dof),
+            false => 0.0,
         }
     }
 
@@ -60,6 +76,10 @@ impl LoadProgram for StagedLoading {
         loads.any(|it| it.prescribed[degree_of_freedom].is_some())
     }
 
+    fn restraints(&self) -> &Arc<Restraints> {
+        &self.loads[0].restraints
+    }
+
     fn prescribe(&self, time: f64, displacement: &mut [f64]) {
         let share = self.course.share(time);
         for load in &*self.loads {
@@ -73,7 +93,11 @@ impl LoadProgram for StagedLoading {
 
     fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64> {
         let share = self.course.share(time);
-        let force = |&dof: &u32| self.force[dof as usize].at(share);
+        let force = |&dof: &u32| {
+            let given = self.force[dof as usize].at(share);
+            let driving = self.driving.get(dof as usize);
+            driving.map_or(given, |driving| given + driving.at(share))
+        };
         degrees_of_freedom.iter().map(force).collect()
     }
 
@@ -121,11 +145,9 @@ impl LoadProgram for StagedLoading {
     }
 
     fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64> {
-        let reaction = |(dof, internal): (usize, &f64)| match self.is_prescribed(dof) {
-            true => internal - self.force_at(time, dof),
-            false => 0.0,
-        };
-        internal_forces.iter().enumerate().map(reaction).collect()
+        (0..internal_forces.len())
+            .map(|dof| self.reaction(time, internal_forces, dof))
+            .collect()
     }
 
     fn groups(&self) -> &[BoundaryGroup] {
@@ -170,10 +192,7 @@ impl LoadProgram for StagedLoading {
             ControlKind::Temperature => internal.thermal / control.magnitude,
             ControlKind::Displacement => {
                 let layout = self.loads[0].layout;
-                control.along(layout, |dof| match self.is_prescribed(dof) {
-                    true => internal.values[dof] - self.force_at(time, dof),
-                    false => 0.0,
-                })
+                control.along(layout, |dof| self.reaction(time, &internal.values, dof))
             }
         }
     }

@@ -35,7 +35,26 @@ pub struct Vector {
     pub y: f64,
 }
 
-/// A support: displacements held at zero.
+/// Stiffness of springs to the ground in total over the points, shared out as a force is; a component that is not given has none.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1))]
+pub struct SpringStiffness {
+    /// Along x, N/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub x: Option<f64>,
+    /// Along y, N/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub y: Option<f64>,
+    /// Against rotations of the points, in N m/rad.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub rotation: Option<f64>,
+    /// Along the `normal` of the support, N/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub normal: Option<f64>,
+}
+
+/// A support: displacements held at zero, or resisted by springs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["group", "box", "at"])))]
@@ -47,12 +66,21 @@ pub struct Support {
     /// The point nearest to `[x, y]`, m.
     pub at: Option<Point>,
     /// The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad.
-    pub displacement: Displacement,
+    pub displacement: Option<Displacement>,
+    /// An inclined roller: the direction along which the points are held while they are free across it, `[1.0, 1.0]` is at 45 degrees.
+    pub normal: Option<Point>,
+    /// Springs to the ground in the place of what holds, in total over the points.
+    pub stiffness: Option<SpringStiffness>,
 }
 
 impl Support {
     pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Support, KeyFault> {
-        let Displacement { x, y, rotation } = self.displacement;
+        let nothing = Displacement {
+            x: None,
+            y: None,
+            rotation: None,
+        };
+        let Displacement { x, y, rotation } = self.displacement.unwrap_or(nothing);
         for (name, value) in [("x", x), ("y", y), ("rotation", rotation)] {
             if let Some(value) = value.filter(|it| *it != 0.0) {
                 let reason = format!(
@@ -66,6 +94,15 @@ impl Support {
             x: x.is_some(),
             y: y.is_some(),
             rotation: rotation.is_some(),
+            normal: self.normal,
+            stiffness: (self.stiffness).map_or_else(Default::default, |it| {
+                setup::SpringStiffness {
+                    x: it.x,
+                    y: it.y,
+                    rotation: it.rotation,
+                    normal: it.normal,
+                }
+            }),
         })
     }
 }

@@ -44,6 +44,12 @@ pub struct Load {
     pub pressure: Option<f64>,
     /// How the load varies along an axis: what a point takes is multiplied by (c - zero)/(one - zero).
     pub profile: Option<Profile>,
+    /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub stiffness: Option<f64>,
+    /// Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub tilts: bool,
 }
 
 /// A load that varies linearly: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
@@ -87,6 +93,8 @@ impl Load {
                 zero: it.zero,
                 one: it.one,
             }),
+            stiffness: self.stiffness,
+            tilts: self.tilts,
         })
     }
 

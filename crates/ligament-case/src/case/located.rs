@@ -112,7 +112,7 @@ impl Case {
             _ => format!("{list}.{index}"),
         };
         let part = match (field.name, field.part) {
-            ("supports", None) => "displacement",
+            ("supports", None) if self.supports[index].displacement.is_some() => "displacement",
             ("materials", Some("elasticity")) | ("loads", Some("name")) | (_, None) => {
                 return element;
             }

@@ -28,6 +28,7 @@ pub struct ModelSection {
     pub bonds_through_voids: bool,
     /// Whether the faces of cracks carry pressure again where they close; of laws whose points turn; false without the key.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("default" = false))]
     pub closing: bool,
     /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
     pub calibration: Option<Word<Calibration>>,

@@ -21,6 +21,11 @@ pub struct Output {
     /// a fiftieth of the time. 0: only when the run is stopped.
     #[schemars(range(min = 0))]
     pub checkpoint_every: Option<f64>,
+    /// Whether a picture of the last state, with its damage or displacement, and one of the curve of force over displacement are drawn
+    /// at the end.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("default" = false))]
+    pub picture: bool,
     /// Stresses at the points in the field files.
     #[schemars(extend("uniqueItems" = true))]
     pub stress: Vec<StressField>,
@@ -43,6 +48,7 @@ impl Default for Output {
             bonds: false,
             model: true,
             checkpoint_every: None,
+            picture: false,
             stress: Vec::new(),
         }
     }

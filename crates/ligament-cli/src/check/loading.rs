@@ -17,7 +17,7 @@ use ligament_run::summary::{Spread, temperature_change};
 
 use super::body::write_group;
 use super::entry::{entry, megabytes};
-use super::{Extent, equations, model};
+use super::{Extent, equations, model, restraints};
 
 /// Checks supports, loads and equations.
 pub(super) fn check(
@@ -83,6 +83,7 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
     for group in &loading.boundary.groups {
         write_group(out, body, &group.name, &group.points)?;
     }
+    restraints::write(out, &model.setup)?;
     if let Some(Spread { min, mean, max }) = temperature_change(&loading.boundary) {
         let values = format!("{min:.4e} to {max:.4e} K, mean {mean:.4e}");
         entry(out, "temperature change", values)?;

@@ -9,6 +9,7 @@ mod loading;
 mod modal;
 mod model;
 mod patch_test;
+mod restraints;
 
 use std::io::{self, Write};
 use std::path::Path;

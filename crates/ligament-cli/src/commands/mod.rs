@@ -4,12 +4,14 @@ mod calibrate;
 mod case_args;
 mod check;
 mod completions;
+mod crack;
 mod explain;
 mod inspect;
 mod mesh;
 mod new;
 mod numbers;
 mod plot;
+mod profile;
 mod repeat;
 mod resume;
 mod run;
@@ -28,11 +30,13 @@ pub use calibrate::{CalibrateArgs, LineArgs, RunsArgs};
 pub use case_args::CaseArgs;
 pub use check::CheckArgs;
 pub use completions::CompletionsArgs;
+pub use crack::CrackArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
 pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
 pub use new::NewArgs;
 pub use plot::PlotArgs;
+pub use profile::ProfileArgs;
 pub use repeat::RepeatArgs;
 pub use resume::ResumeArgs;
 pub use run::RunArgs;
@@ -66,6 +70,7 @@ Examples:
   ligament repeat results/disk              run it again: are all bits the same?
   ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament plot results/disk                a picture of its damage
+  ligament crack results/disk               its cracks: path, tips, length, energy release rate
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
@@ -126,6 +131,17 @@ pub enum Command {
     /// asks for. Reads the folders of the results alone, also of a run that was cut short.
     #[command(after_help = plot::EXAMPLES)]
     Plot(PlotArgs),
+    /// Cracks of a run as lines: path, tips, length, area, energy release rate
+    ///
+    /// Finds the cracks in stored results, writes their lines as a table and for ParaView, and how their
+    /// tips, length and area grew over the load, with the energy release rate.
+    #[command(after_help = crack::EXAMPLES)]
+    Crack(CrackArgs),
+    /// Fields of a run along a straight line, as a table
+    ///
+    /// Reads the fields of a stored step at places on a line and writes them as CSV.
+    #[command(after_help = profile::EXAMPLES)]
+    Profile(ProfileArgs),
     /// Show what is in a mesh: cells, size, edge lengths, groups
     #[command(after_help = inspect::EXAMPLES)]
     Inspect(InspectArgs),
@@ -192,6 +208,8 @@ impl Cli {
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),
             Command::Plot(args) => args.execute(),
+            Command::Crack(args) => args.execute(),
+            Command::Profile(args) => args.execute(),
             Command::Inspect(args) => args.execute(),
             Command::Mesh(args) => args.execute(),
             Command::New(args) => args.execute(),

@@ -13,7 +13,7 @@ use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
 use ligament_plot::picture::{
-    FieldRequest, Format, Magnification, Target, animate, draw_each, draw_fields,
+    CrackDrawing, FieldRequest, Format, Magnification, Target, animate, draw_each, draw_fields,
 };
 
 pub(super) const EXAMPLES: &str = "\
@@ -23,6 +23,7 @@ Examples:
   ligament plot results/disk --field displacement.x --step 40 --out ux.svg
   ligament plot results/disk --step first peak last         three steps by what happened in them
   ligament plot results/disk --field none --crack --box -0.01,-0.02,0.01,0.02
+  ligament plot results/disk --crack=lines --with-lines experiment.csv --out path.pdf
   ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
   ligament plot results/disk --animate crack.gif --field damage --fps 12
   ligament plot results/plate-modes                         the first six modes
@@ -52,9 +53,13 @@ pub struct PlotArgs {
     /// Factor on the displacement, or auto: the largest is 2 to 5 % of the body, of a mode 10 %
     #[arg(long, value_name = "FACTOR", default_value = "auto", allow_negative_numbers = true, value_parser = magnification)]
     pub scale: Magnification,
-    /// Draw the broken bonds, coloured by criterion, and those that a pre-crack cut
-    #[arg(long)]
-    pub crack: bool,
+    /// Draw cracks: `bonds`, the broken bonds coloured by criterion, with those that a pre-crack cut; `lines`, the crack path with
+    /// its tips and the pre-cracks, on the undeformed body with axes in mm [without a value: bonds]
+    #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "bonds", value_parser = crack_drawings())]
+    pub crack: Option<CrackDrawing>,
+    /// Draw the lines of a CSV file x,y in m over the undeformed body; empty rows part lines
+    #[arg(long = "with-lines", value_name = "FILE")]
+    pub lines: Vec<PathBuf>,
     /// Draw this part of the deformed body alone, m
     #[arg(long = "box", value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = window)]
     pub window: Option<[[f64; 2]; 2]>,
@@ -71,7 +76,7 @@ pub struct PlotArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub columns: Option<u32>,
     /// Draw curves over the load history in place of bodies: reaction over displacement
-    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "window", "levels", "range", "map", "columns"])]
+    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "lines", "window", "levels", "range", "map", "columns"])]
     pub curve: bool,
     /// Column of history.csv along x
     #[arg(
@@ -148,6 +153,7 @@ impl PlotArgs {
                 choice,
                 magnification: self.scale,
                 crack: self.crack,
+                lines: self.lines,
                 window: self.window,
                 bands: self.levels.map(|it| it as usize),
                 range: self.range,
@@ -197,6 +203,14 @@ fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
         Some([x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok([[x0, y0], [x1, y1]]),
         _ => Err("expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()),
     }
+}
+
+/// How cracks are drawn, by words.
+fn crack_drawings() -> impl TypedValueParser<Value = CrackDrawing> {
+    PossibleValuesParser::new(["bonds", "lines"]).map(|word| match word.as_str() {
+        "lines" => CrackDrawing::Lines,
+        _ => CrackDrawing::Bonds,
+    })
 }
 
 /// Kinds of pictures by their endings.

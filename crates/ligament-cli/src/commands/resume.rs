@@ -19,8 +19,8 @@ Examples:
   ligament resume results/disk --set fracture.steps=[0.1,0.2,0.3,0.4]
 
 A --set takes what does not change the results so far: fracture.stop.load_fraction, .displacement, .bonds and .wall_time,
-fracture.steps (those that were done must stay, others may follow), fracture.max_iterations, output.fields_every and
-output.checkpoint_every.";
+fracture.steps (those that were done must stay, others may follow), fracture.max_iterations, output.fields_every,
+output.checkpoint_every and output.picture.";
 
 /// `ligament resume`.
 #[derive(Debug, Args)]
@@ -51,6 +51,6 @@ impl ResumeArgs {
             is_stopped: &|| stop.came(),
         };
         let report = request.resume(ProgressMode::detect(self.quiet))?;
-        tell(&report, &self.folder)
+        tell(&report, &self.folder, false)
     }
 }

@@ -10,6 +10,7 @@ use super::case_args::CaseArgs;
 use crate::build::BUILD;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
+use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{NOT_AT_REST, Report, Request};
 use ligament_study::sweep::take_leash;
@@ -44,6 +45,9 @@ pub struct RunArgs {
     /// Replace results of an earlier run in the folder
     #[arg(long)]
     pub force: bool,
+    /// Draw the last state and the curve of force over displacement into the folder of the results, as `output.picture = true`
+    #[arg(long)]
+    pub plot: bool,
     /// Show no progress, only the final result and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -75,15 +79,15 @@ impl RunArgs {
             is_stopped: &|| stop.came(),
         };
         let report = request.run(ProgressMode::detect(self.quiet))?;
-        tell(&report, &out)
+        tell(&report, &out, self.plot)
     }
 }
 
-/// Shows what a run found, and where its results are.
-pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
+/// Shows what a run found, and where its results are, with pictures of them if these are wanted or its case asks for them.
+pub(super) fn tell(report: &Report, folder: &Path, pictures: bool) -> anyhow::Result<ExitCode> {
     let mut stdout = terminal::stdout();
     report.write(&mut stdout)?;
-    let out = out.display();
+    let out = folder.display();
     if report.is_stopped() {
         writeln!(stdout, "  go on with         ligament resume {out}")?;
         return Ok(ExitCode::from(STOPPED));
@@ -93,6 +97,17 @@ pub(super) fn tell(report: &Report, out: &Path) -> anyhow::Result<ExitCode> {
         stdout.flush()?;
         writeln!(terminal::stderr(), "error: no result under load: {reason}")?;
         return Ok(ExitCode::from(WITHOUT_EQUILIBRIUM));
+    }
+    if pictures || asks_for_pictures(folder) {
+        // A picture that cannot be drawn does not undo the run.
+        match draw_run(folder) {
+            Ok(drawn) => {
+                for path in drawn {
+                    writeln!(stdout, "  picture            {}", path.display())?;
+                }
+            }
+            Err(error) => writeln!(terminal::stderr(), "warning: no picture: {error}")?,
+        }
     }
     if report.ends_not_at_rest() {
         return Ok(ExitCode::from(NOT_AT_REST));

@@ -110,8 +110,11 @@ fn each_step_has_a_picture_of_its_own_with_the_same_scales() {
     assert!(two.contains("one result at a time"), "{two}");
 }
 
-/// The colours of the dots of each picture of an animation, whole, with the times for which they are shown.
-fn shown(bytes: &[u8]) -> (usize, Vec<(u16, Vec<[u8; 3]>)>) {
+/// Time for which a picture is shown, hundredths of a second, and the colours of all its dots.
+type Shown = (u16, Vec<[u8; 3]>);
+
+/// Width and pictures of an animation.
+fn shown(bytes: &[u8]) -> (usize, Vec<Shown>) {
     let mut decoder = gif::DecodeOptions::new().read_info(bytes).unwrap();
     let palette = decoder
         .global_palette()

@@ -47,6 +47,17 @@ impl CrackLine {
         pairs.map(|pair| distance(pair[0], pair[1])).sum()
     }
 
+    /// Length of the line up to each of its places, m.
+    pub fn along(&self) -> Vec<f64> {
+        let pairs = self.places.windows(2);
+        let steps = pairs.map(|pair| distance(pair[0], pair[1]));
+        let sums = steps.scan(0.0, |sum, step| {
+            *sum += step;
+            Some(*sum)
+        });
+        std::iter::once(0.0).chain(sums).collect()
+    }
+
     /// The tips, m: none, one or two.
     pub fn tips(&self) -> impl Iterator<Item = [f64; 2]> {
         let places = [self.places.first(), self.places.last()];

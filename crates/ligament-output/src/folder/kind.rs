@@ -10,14 +10,19 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run whose names do not vary.
-const OF_A_RUN: [&str; 12] = [
+const OF_A_RUN: [&str; 17] = [
     RESOLVED_CASE,
     "breaks.csv",
+    "crack.csv",
+    "crack.vtu",
+    "crack_growth.csv",
+    "crack_tips.csv",
     "criteria.csv",
     "history.csv",
     "iterations.csv",
     "model.vtu",
     "modes.csv",
+    "softening.csv",
     "summary.json",
     "timings.csv",
     "fields.pvd",

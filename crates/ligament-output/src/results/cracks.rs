@@ -1,14 +1,15 @@
 //! The cracks of a stored run, as lines.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ligament_mesh::Cell;
 use ligament_model::Canvas;
 use ligament_model::crack::{CrackLine, Faces, Part, crack_lines};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
-use crate::csv::read::Sheet;
+use super::softening_table;
+use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
 
@@ -22,11 +23,41 @@ pub struct StoredCracks {
     horizon: Vec<f64>,
     /// Faces that a pre-crack parts.
     cut: Vec<usize>,
-    /// Faces that opened, in the order in which their bonds broke, with the place of the breakage in the order of all, from 1.
-    opened: Vec<(usize, usize)>,
-    /// Number of broken bonds at each row of the history, with the step.
-    rows: Vec<(usize, usize)>,
+    /// Faces that opened, with the moment.
+    opened: Vec<(usize, Moment)>,
+    records: Vec<CrackRecord>,
 }
+
+/// The moment from which a face is open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Moment {
+    /// A bond broke, at this place in the order of all breakages, from 1.
+    Breakage(usize),
+    /// A bond that softens opened in this step.
+    Step(usize),
+}
+
+/// What a row of the history says of a crack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrackRecord {
+    /// Number of the step or event.
+    pub step: usize,
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacement of the first load, m.
+    pub displacement: f64,
+    /// Force of the first load, N.
+    pub reaction: f64,
+    /// Energy that breakages released so far, J.
+    pub released_energy: f64,
+    /// Energy that bonds took for good so far, J.
+    pub dissipated_energy: f64,
+    /// Number of broken bonds.
+    pub broken_bonds: usize,
+}
+
+/// Records of the history of which cracks are followed at most.
+const MOST_RECORDS: usize = 500;
 
 impl StoredCracks {
     /// Reads them from the folder of a run.
@@ -51,15 +82,16 @@ impl StoredCracks {
         };
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let breaks = (1..).zip(broken_pairs(folder)?);
-        let opened = breaks.filter_map(|(order, tags)| Some((place(tags)?, order)));
+        let breaks = breaks.map(|(order, tags)| (tags, Moment::Breakage(order)));
+        let all = breaks.chain(softened_pairs(folder)?);
+        let opened = all.filter_map(|(tags, moment)| Some((place(tags)?, moment)));
         let history = Sheet::read(folder.join("history.csv"))?;
-        let rows = history.rows(|row| Ok((row.value("step")?, row.value("broken_bonds")?)))?;
         Ok(Self {
             thickness: body.thickness,
             cut: cut.into_iter().filter_map(place).collect(),
             opened: opened.collect(),
             horizon: body.horizon,
-            rows,
+            records: history.rows(CrackRecord::read)?,
             faces,
         })
     }
@@ -67,42 +99,112 @@ impl StoredCracks {
     /// The cracks in the state of a step: what pre-cracks parted is none, but cracks start there. Without such a step those of the
     /// last before it.
     pub fn lines(&self, step: usize) -> Vec<CrackLine> {
-        self.lines_after(self.broken_until(step))
+        let until = self.records.iter().take_while(|it| it.step <= step);
+        until.last().map_or_else(Vec::new, |it| self.lines_at(it))
     }
 
-    /// The cracks that the first so many breakages leave.
-    pub fn lines_after(&self, broken: usize) -> Vec<CrackLine> {
+    /// The cracks in the state of a record.
+    pub fn lines_at(&self, record: &CrackRecord) -> Vec<CrackLine> {
         let mut parts = vec![Part::Whole; self.faces.len()];
         for &face in &self.cut {
             parts[face] = Part::PreCrack;
         }
-        for (face, _) in self.opened.iter().take_while(|(_, order)| *order <= broken) {
-            parts[*face] = Part::Open;
+        for (face, moment) in &self.opened {
+            if record.is_after(*moment) {
+                parts[*face] = Part::Open;
+            }
         }
         crack_lines(&self.faces, &parts, &self.horizon)
     }
 
-    /// Number of broken bonds in the state of a step.
-    fn broken_until(&self, step: usize) -> usize {
-        let rows = self.rows.iter().take_while(|(at, _)| *at <= step);
-        rows.last().map_or(0, |(_, broken)| *broken)
+    /// The records in which a face is open that was not in the one before; of very many an even choice, with the last.
+    pub fn grown_records(&self) -> Vec<&CrackRecord> {
+        let open = |record: &CrackRecord| {
+            let open = self.opened.iter().filter(|it| record.is_after(it.1));
+            open.count()
+        };
+        let mut before = 0;
+        let mut grown: Vec<&CrackRecord> = Vec::new();
+        for record in &self.records {
+            let now = open(record);
+            if now > before {
+                grown.push(record);
+            }
+            before = now;
+        }
+        let stride = grown.len().div_ceil(MOST_RECORDS).max(1);
+        let last = grown.len().saturating_sub(1);
+        let numbered = grown.into_iter().enumerate();
+        let chosen = numbered.filter(|(place, _)| (last - place).is_multiple_of(stride));
+        chosen.map(|(_, record)| record).collect()
+    }
+
+    /// Mean horizon of the points, m.
+    pub fn mean_horizon(&self) -> f64 {
+        self.horizon.iter().sum::<f64>() / self.horizon.len().max(1) as f64
+    }
+
+    /// The steps of the history.
+    pub fn steps(&self) -> Vec<usize> {
+        self.records.iter().map(|it| it.step).collect()
+    }
+}
+
+impl CrackRecord {
+    /// Whether something has happened in its state. On the exact path that is the one before the breakages of its event.
+    fn is_after(&self, moment: Moment) -> bool {
+        match moment {
+            Moment::Breakage(order) => order <= self.broken_bonds,
+            Moment::Step(step) => step <= self.step,
+        }
+    }
+
+    fn read(row: Row<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            step: row.value("step")?,
+            load_factor: row.number("load_factor")?,
+            displacement: row.number("displacement")?,
+            reaction: row.number("reaction")?,
+            released_energy: row.number("released_energy")?,
+            dissipated_energy: row.number("dissipated_energy")?,
+            broken_bonds: row.value("broken_bonds")?,
+        })
     }
 }
 
 /// Tags of the ends of the broken bonds, in the order of breaking.
 fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
-    let path: PathBuf = folder.join("breaks.csv");
-    if !path.is_file() {
+    let Some(sheet) = table(&folder.join("breaks.csv"))? else {
         return Ok(Vec::new());
-    }
-    let sheet = Sheet::read(path)?;
+    };
+    sheet.rows(|row| ends(&sheet, row))
+}
+
+/// Tags of the ends of the bonds that opened as they softened, with the moment.
+fn softened_pairs(folder: &Path) -> Result<Vec<([i64; 2], Moment)>, Error> {
+    let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
+        return Ok(Vec::new());
+    };
+    let rows = sheet.rows(|row| {
+        let opens = row.value::<String>("event")? == softening_table::EVENTS[1];
+        let moment = Moment::Step(row.value("step")?);
+        Ok(opens.then_some((ends(&sheet, row)?, moment)))
+    })?;
+    Ok(rows.into_iter().flatten().collect())
+}
+
+fn table(path: &Path) -> Result<Option<Sheet>, Error> {
+    path.is_file().then(|| Sheet::read(path)).transpose()
+}
+
+fn ends(sheet: &Sheet, row: Row<'_>) -> Result<[i64; 2], Error> {
     let is_cell = sheet.columns().iter().any(|it| it == "cell_a");
     let [a, b] = if is_cell {
         ["cell_a", "cell_b"]
     } else {
         ["node_a", "node_b"]
     };
-    sheet.rows(|row| Ok([row.value(a)?, row.value(b)?]))
+    Ok([row.value(a)?, row.value(b)?])
 }
 
 /// A body as its fields are drawn on it.

@@ -5,14 +5,17 @@
 //! | `history.csv` | a row a load step, or an event of the exact path |
 //! | `iterations.csv` | a row a Newton-Raphson iteration |
 //! | `breaks.csv` | a row a broken bond, in the order of breaking |
+//! | `softening.csv` | a row where a bond begins to soften, and where a crack is open at it; only where bonds soften |
 //! | `criteria.csv` | a row a failure criterion: what it looks at, what happens after its limit |
 //! | `model.vtu` | points and bonds as they were at the start, limits of the bonds; at the end how near each came to them |
 //! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
 //!
+//! The cracks of a stored run as lines, their tips and their growth are written afterwards ([`write_cracks`]).
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+mod crack_tables;
 pub mod cracks;
 mod grid;
 mod largest;
@@ -22,11 +25,13 @@ pub mod outputs;
 mod point_fields;
 mod rule;
 mod so_far;
+mod softening_table;
 pub mod steps;
 pub mod stored;
 mod tables;
 
 use ligament_analysis::driver::Problem;
+use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_model::{BodyGrid, FixedFields};
 
@@ -35,12 +40,16 @@ use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
+pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
 pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
+pub use softening_table::OPEN;
+use softening_table::SofteningTable;
+pub use tables::criterion_labels;
 use tables::{Tables, deformation_names};
 
 /// Observer that writes the results of a run.
@@ -51,6 +60,9 @@ pub struct ResultWriter<'a> {
     fixed: &'a FixedFields,
     rule: WriteRule,
     tables: Tables,
+    /// Where bonds soften.
+    softening: Option<SofteningTable>,
+    first: FirstBonds,
     fields_collection: Collection,
     bonds_collection: Collection,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
@@ -81,6 +93,8 @@ impl<'a> ResultWriter<'a> {
             fixed,
             rule,
             tables: Tables::create(folder, problem, grid.tagged)?,
+            softening: SofteningTable::create(folder, problem, grid.tagged)?,
+            first: FirstBonds::default(),
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
@@ -102,6 +116,8 @@ impl<'a> ResultWriter<'a> {
     ) -> Result<Self, Error> {
         let SoFar {
             tables,
+            softening,
+            first,
             fields,
             bonds,
             breaks,
@@ -121,6 +137,10 @@ impl<'a> ResultWriter<'a> {
             fixed,
             rule,
             tables: Tables::cut_back(folder, problem, grid.tagged, &tables)?,
+            softening: softening
+                .map(|told| SofteningTable::cut_back(folder, problem, told))
+                .transpose()?,
+            first,
             fields_collection: Collection::with_outputs(folder.file("fields.pvd"), fields)?,
             bonds_collection: Collection::with_outputs(folder.file("bonds.pvd"), bonds)?,
             step_of_breaking,
@@ -137,11 +157,22 @@ impl<'a> ResultWriter<'a> {
         let broken = steps.filter(|(_, step)| **step >= 0);
         Ok(SoFar {
             tables: self.tables.written()?,
+            softening: self
+                .softening
+                .as_ref()
+                .map(SofteningTable::told)
+                .transpose()?,
+            first: self.first,
             fields: self.fields_collection.outputs().to_vec(),
             bonds: self.bonds_collection.outputs().to_vec(),
             breaks: broken.map(|(bond, step)| (bond, *step as u32)).collect(),
             largest: self.largest.clone(),
         })
+    }
+
+    /// The first bonds that broke and softened so far.
+    pub fn first_bonds(&self) -> FirstBonds {
+        self.first
     }
 
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
@@ -218,6 +249,7 @@ impl Observer for ResultWriter<'_> {
     }
 
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
+        self.first.broke(records)?;
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
         }
@@ -235,6 +267,10 @@ impl Observer for ResultWriter<'_> {
             if self.rule.bonds {
                 failed(self.write_bonds(record, view))?;
             }
+        }
+        self.first.step(record, view)?;
+        if let Some(table) = &mut self.softening {
+            failed(table.step(record, view, &self.grid.tags))?;
         }
         if let Some(largest) = &mut self.largest {
             largest.see(record.step, view);

@@ -18,7 +18,7 @@ use ligament_analysis::driver::Problem;
 use ligament_model::{BodyGrid, FixedFields};
 
 use super::largest::Largest;
-use super::tables::labels;
+use super::tables::criterion_labels;
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::vtu::{self, Field, UnstructuredGrid};
@@ -94,10 +94,9 @@ pub(super) fn write(
 fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
     let criteria = &problem.criteria.list;
     let mut found = Vec::new();
-    for (criterion, label) in criteria
-        .iter()
-        .zip(labels(criteria.iter().map(|criterion| criterion.name)))
-    {
+    for (criterion, label) in criteria.iter().zip(criterion_labels(
+        criteria.iter().map(|criterion| criterion.name),
+    )) {
         let mut push = |what: &str, values: &mut dyn Iterator<Item = f64>| {
             let nothing = std::iter::repeat_n(f64::NAN, n_absent);
             found.push((format!("{what}.{label}"), values.chain(nothing).collect()));

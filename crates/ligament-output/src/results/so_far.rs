@@ -3,9 +3,11 @@
 use std::fs;
 
 use ligament_analysis::driver::Problem;
+use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::serial;
 
 use super::largest::Largest;
+use super::softening_table::{self, Told};
 use super::tables::{FILES, Written};
 use crate::folder::{Kind, ResultFolder};
 
@@ -13,6 +15,8 @@ use crate::folder::{Kind, ResultFolder};
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoFar {
     pub(super) tables: Written,
+    pub(super) softening: Option<Told>,
+    pub(super) first: FirstBonds,
     /// Times and names of the field files.
     pub(super) fields: Vec<(f64, String)>,
     /// Times and names of the files of bonds.
@@ -24,6 +28,8 @@ pub struct SoFar {
 
 serial!(SoFar {
     tables,
+    softening,
+    first,
     fields,
     bonds,
     breaks,
@@ -36,12 +42,25 @@ impl SoFar {
         let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());
         let mut bonds = self.breaks.iter().map(|(bond, _)| *bond as usize);
         let mut largest = self.largest.iter();
-        bonds.all(|bond| bond < n_bonds) && largest.all(|it| it.fits(n_bonds, n_criteria))
+        let mut first = [self.first.broken, self.first.softened]
+            .into_iter()
+            .flatten();
+        let softening = self.softening.as_ref();
+        bonds.all(|bond| bond < n_bonds)
+            && largest.all(|it| it.fits(n_bonds, n_criteria))
+            && first.all(|it| (it.bond as usize) < n_bonds && (it.criterion as usize) < n_criteria)
+            && softening.is_some() == problem.criteria.soften()
+            && softening.is_none_or(|told| {
+                told.of_bonds.len() == n_bonds && told.of_bonds.iter().all(|rows| *rows <= 2)
+            })
     }
 
     /// Why a run cannot go on from there with what its folder holds; `None` if it can.
     pub fn obstacle(&self, folder: &ResultFolder) -> Option<String> {
-        for (name, &length) in FILES.iter().zip(&self.tables.lengths) {
+        let tables = FILES.iter().copied().zip(self.tables.lengths);
+        let softening = self.softening.iter();
+        let softening = softening.map(|told| (softening_table::FILE, told.length));
+        for (name, length) in tables.chain(softening) {
             let found = fs::metadata(folder.file(name)).map_or(0, |it| it.len());
             if found < length {
                 return Some(format!(

@@ -72,7 +72,7 @@ pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.cs
 const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
 
 /// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
-pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+pub fn criterion_labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     let mut seen: Vec<&str> = Vec::new();
     for name in names {
@@ -86,8 +86,8 @@ pub(super) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
 }
 
 /// Names of the failure criteria of a problem in results.
-fn labels_of(problem: &Problem) -> Vec<String> {
-    labels(problem.criteria.list.iter().map(|criterion| criterion.name))
+pub(super) fn labels_of(problem: &Problem) -> Vec<String> {
+    criterion_labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
 /// Writes the table of what each criterion looks at and what happens after its limit.
@@ -322,13 +322,13 @@ impl Tables {
 
 #[cfg(test)]
 mod tests {
-    use super::labels;
+    use super::criterion_labels;
 
     #[test]
     fn criteria_of_one_name_are_told_apart() {
         let names = ["tension", "sliding", "tension", "tension"];
         assert_eq!(
-            labels(names.into_iter()),
+            criterion_labels(names.into_iter()),
             ["tension", "sliding", "tension-2", "tension-3"]
         );
     }

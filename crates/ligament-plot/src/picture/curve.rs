@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use ligament_output::csv::read::Sheet;
 use ligament_output::read_text;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
+use ligament_output::results::steps::{StepChoice, StepName};
 
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
@@ -35,11 +36,16 @@ pub struct CurveRequest {
 struct Curve {
     points: Vec<[f64; 2]>,
     units: [String; 2],
-    /// Whether the last point is no answer to its load: bonds were still breaking there.
-    ends_unsettled: bool,
+    /// Whether each point is an answer to its load; bonds were still failing in the others.
+    at_rest: Vec<bool>,
+    /// Where the first bond broke or softened, and which of them.
+    first: Option<(&'static str, [f64; 2])>,
     /// The load before its first fall, on curves of force over displacement.
     first_peak: Option<[f64; 2]>,
 }
+
+/// A kind of points that stand out.
+type Landmark<'a> = (Mark, &'a dyn Fn(&Curve) -> Vec<(&'static str, [f64; 2])>);
 
 /// Draws the picture and returns where it is.
 ///
@@ -58,43 +64,27 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     }
     let shown = [shown(&curves, 0, request)?, shown(&curves, 1, request)?];
     let place = |point: [f64; 2]| [0, 1].map(|axis| point[axis] * shown[axis].factor);
-    let mut series = Vec::new();
-    let mut unsettled = Vec::new();
     let is_single = curves.len() == 1;
-    let colours: Vec<Colour> = Colour::CYCLE.into_iter().chain([Colour::Black]).collect();
+    let mut series = Vec::new();
     for (number, (curve, label)) in curves.iter().zip(&labels).enumerate() {
-        let colour = colours[number % colours.len()];
-        let mark = match (number / colours.len(), curve.points.len()) {
+        let mark = match (number / N_COLOURS, curve.points.len()) {
             (0, 0..=DOTTED) => Mark::Line,
             (0, _) => Mark::Curve,
             _ => Mark::Dashes,
         };
         let label = if is_single { "" } else { label };
-        let settled = curve.points.len() - usize::from(curve.ends_unsettled);
-        let points: Vec<[f64; 2]> = curve.points.iter().map(|&point| place(point)).collect();
-        series.push(Series::new(label, mark, colour, points[..settled].to_vec()));
-        unsettled.extend_from_slice(&points[settled..]);
+        let answers = curve.points.iter().zip(&curve.at_rest);
+        let answers = answers.filter(|it| *it.1).map(|it| place(*it.0));
+        series.push(Series::new(label, mark, colour(number), answers.collect()));
     }
-    if !unsettled.is_empty() {
-        let mark = Mark::Circles;
-        series.push(Series::new("not at rest", mark, Colour::Black, unsettled));
-    }
-    let mut title = String::new();
-    let mut is_named = is_single;
-    for (number, curve) in curves.iter().enumerate() {
-        let Some(peak) = curve.first_peak else {
-            continue;
-        };
-        if is_single {
+    series.extend(landmarks(&curves, &place));
+    let title = match curves[0].first_peak.filter(|_| is_single) {
+        Some(peak) => {
             let [x, y] = [0, 1].map(|axis| shown[axis].value(peak[axis]));
-            title = format!("first peak {y} at {x}");
+            format!("first peak {y} at {x}")
         }
-        // One entry of the legend for all.
-        let label = if is_named { "" } else { "first peak" };
-        is_named = true;
-        let colour = colours[number % colours.len()];
-        series.push(Series::new(label, Mark::Circles, colour, vec![place(peak)]));
-    }
+        None => String::new(),
+    };
     let words = |column: &str| column.replace('_', " ");
     let [x, y] = [0, 1].map(|axis| shown[axis].label(&words(&request.columns[axis])));
     let plot = Plot::new("curves", title, [&x, &y], series);
@@ -112,6 +102,45 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     request.target.write(file, &svg, &title)
 }
 
+/// Curves up to which each has a colour of its own.
+const N_COLOURS: usize = Colour::CYCLE.len() + 1;
+
+fn colour(curve: usize) -> Colour {
+    let place = curve % N_COLOURS;
+    Colour::CYCLE.get(place).copied().unwrap_or(Colour::Black)
+}
+
+/// The points that stand out on the curves, each kind with an entry of the legend.
+fn landmarks(curves: &[Curve], place: &impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Series> {
+    let kinds: [Landmark<'_>; 3] = [
+        (Mark::Triangles, &|curve| curve.first.into_iter().collect()),
+        (Mark::Circles, &|curve| {
+            let peak = curve.first_peak.into_iter();
+            peak.map(|it| ("first peak", it)).collect()
+        }),
+        (Mark::Crosses, &|curve| {
+            let all = curve.points.iter().zip(&curve.at_rest);
+            let unsettled = all.filter(|it| !it.1);
+            unsettled.map(|it| ("not at rest", *it.0)).collect()
+        }),
+    ];
+    let mut series: Vec<Series> = Vec::new();
+    let mut named: Vec<&str> = Vec::new();
+    for (mark, of) in kinds {
+        for (number, curve) in curves.iter().enumerate() {
+            let marked = of(curve);
+            let Some(&(words, _)) = marked.first() else {
+                continue;
+            };
+            let label = if named.contains(&words) { "" } else { words };
+            named.push(words);
+            let points = marked.iter().map(|it| place(it.1)).collect();
+            series.push(Series::new(label, mark, colour(number), points));
+        }
+    }
+    series
+}
+
 impl Curve {
     fn read(folder: &Path, columns: &[String; 2]) -> Result<Self, PictureError> {
         require_results(folder)?;
@@ -124,7 +153,7 @@ impl Curve {
         }
         let sheet = Sheet::read(folder.join("history.csv"))?;
         // Of a table that is none of a run nothing is told.
-        sheet.values::<usize>("step")?;
+        let steps = sheet.values::<usize>("step")?;
         let column = |name: &String| {
             if sheet.columns().contains(name) {
                 return Ok(sheet.values::<f64>(name)?);
@@ -143,22 +172,32 @@ impl Curve {
             (name, _) => unit_of(name).to_owned(),
         };
         let is_of_load = columns[0] == "displacement" && columns[1] == "reaction";
+        let points: Vec<[f64; 2]> = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();
         Ok(Self {
-            points: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(),
-            ends_unsettled: ends_unsettled(&sheet)?,
+            at_rest: at_rest(&sheet, points.len())?,
+            first: first(folder, &steps, &points),
+            points,
             units: [unit(&columns[0]), unit(&columns[1])],
             first_peak: is_of_load.then(|| first_peak(folder)).flatten(),
         })
     }
 }
 
-/// Whether the run ended with a state that is no answer to its load: bonds were still breaking.
-fn ends_unsettled(sheet: &Sheet) -> Result<bool, PictureError> {
+/// Whether each of so many rows is an answer to its load; earlier versions did not tell.
+fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
     if !sheet.columns().iter().any(|name| name == "at_rest") {
-        return Ok(false);
+        return Ok(vec![true; n_rows]);
     }
-    let at_rest = sheet.values::<u8>("at_rest")?;
-    Ok(at_rest.last() == Some(&0))
+    let flags = sheet.values::<u8>("at_rest")?;
+    Ok(flags.into_iter().map(|flag| flag != 0).collect())
+}
+
+/// The point of the first breakage or softening, with what it is.
+fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'static str, [f64; 2])> {
+    let choice = StepChoice::One(StepName::First);
+    let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
+    let row = steps.iter().position(|it| *it == step)?;
+    Some((what, points[row]))
 }
 
 /// The load before its first fall, from the summary; a run that was cut short has none.

@@ -25,6 +25,7 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     }
     let magnification = match request.magnification {
         Magnification::Times(factor) => Some(factor),
+        Magnification::Auto if request.has_lines() => Some(0.0),
         Magnification::Auto if subject.has_modes => None,
         Magnification::Auto => Some(common_scale(panels.iter().map(|it| &it.body))),
     };

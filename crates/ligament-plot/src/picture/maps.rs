@@ -114,6 +114,7 @@ impl Maps {
                 body: it.body.clone(),
                 field: Some(field),
                 broken: Vec::new(),
+                lines: Vec::new(),
             }
         };
         let panels: Vec<Panel> = self.bodies.iter().map(panel).collect();
@@ -135,6 +136,7 @@ impl Maps {
             columns: Some(self.columns),
             title: self.title.clone(),
             room: None,
+            has_axes: false,
             panels: &panels,
         };
         Ok(strip.to_svg(width * PIXELS_PER_MM))

@@ -5,6 +5,7 @@
 //! ([`plots`](crate::plots)), several of them over the steps (`series`). Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in
 //! memory.
 
+mod axes;
 mod body;
 mod colour_bar;
 pub mod colour_map;
@@ -15,8 +16,11 @@ mod field;
 mod fields;
 mod joined;
 mod levels;
+mod lines;
 pub mod maps;
+mod of_run;
 mod panel;
+pub mod profile;
 mod request;
 pub mod select;
 mod series;
@@ -33,7 +37,8 @@ use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
 pub use fields::draw_fields;
-pub use request::{FieldRequest, Magnification};
+pub use of_run::{asks_for_pictures, draw_run};
+pub use request::{CrackDrawing, FieldRequest, Magnification};
 pub use series::{animate, draw_each};
 pub use target::{Format, Target};
 
@@ -83,6 +88,11 @@ pub enum PictureError {
         /// Numbers that there are.
         known: Vec<usize>,
     },
+    /// Lines are drawn on the body without its displacement.
+    #[error(
+        "--scale {0} moves the body away from its lines, which are drawn where it is without load; leave it out"
+    )]
+    MovedLines(f64),
     /// A picture for each step is one of each result alone.
     #[error("{option} draws one result at a time, and there are {n_results}; name one of them")]
     SeveralResults {
@@ -139,14 +149,14 @@ pub enum PictureError {
     #[error(
         "{0}: a picture ends in .png, .svg or .pdf, and an animation, which --animate makes, in .gif"
     )]
-    Format(PathBuf),
+    Ending(PathBuf),
     /// The file is of another kind than the one asked for.
-    #[error("{path} does not end in .{}; leave out --format, or name another file", format.word())]
-    OtherFormat {
+    #[error("{path} does not end in .{format}; leave out --format, or name another file")]
+    OtherEnding {
         /// The file.
         path: PathBuf,
-        /// The kind asked for.
-        format: Format,
+        /// Ending of the kind asked for.
+        format: &'static str,
     },
     /// A plot cannot be drawn.
     #[error(transparent)]

@@ -9,10 +9,14 @@ use super::contour::{Surface, halves, oriented};
 use super::field::Field;
 use super::joined::Joined;
 use super::levels::{Levels, Rule, has_both_signs};
+use super::lines::Lines;
 use super::svg::{Document, Paint, PathData};
 
 /// Colour of a body without a field, and of what has no value.
 const BARE: &str = "#dcdcdc";
+
+/// Colour of a body without a field below lines.
+const LIGHT: &str = "#f4f4f4";
 
 /// Colour of outlines.
 const OUTLINE: &str = "#404040";
@@ -36,6 +40,8 @@ pub(super) struct Panel {
     pub(super) field: Option<Field>,
     /// Broken bonds by colour, between deformed ends.
     pub(super) broken: Vec<(String, Vec<[[f64; 2]; 2]>)>,
+    /// Lines over the body.
+    pub(super) lines: Vec<Lines>,
 }
 
 /// The colours of a field.
@@ -127,6 +133,17 @@ impl Panel {
             let stroke = Some((colour.as_str(), BOND_WIDTH));
             document.path(&path, Paint { fill: None, stroke });
         }
+        for lines in &self.lines {
+            lines.draw(document, |place| frame.to_pixels(place));
+        }
+    }
+
+    /// Colour of what has no value.
+    fn bare(&self) -> &'static str {
+        match self.field.is_none() && !self.lines.is_empty() {
+            true => LIGHT,
+            false => BARE,
+        }
     }
 
     /// Contours of values at the points, each region over the one of the level below.
@@ -135,7 +152,7 @@ impl Panel {
         let reference = &self.body.reference;
         let whole = Surface::new(triangles(), reference, |_| true);
         let outline = path_of(whole.outlines(&self.positions), frame);
-        document.path(&outline, fill(BARE));
+        document.path(&outline, fill(self.bare()));
         if let Some((field, Scale { levels, colours })) = field {
             let values = &field.values;
             let surface = Surface::new(triangles(), reference, |node| {
@@ -163,22 +180,27 @@ impl Panel {
         };
         // What has no value lies below all bands.
         let bands: Vec<Option<usize>> = (0..cells.len()).map(band_of).collect();
-        let mut draw = |from: Option<usize>, colour: &str| {
+        let mut draw = |from: Option<usize>, paint: Paint<'_>| {
             let chosen = cells.iter().zip(&bands).filter(|(_, band)| **band >= from);
             let triangles = chosen.flat_map(|(cell, _)| halves_of(cell));
             // Corners of one cell differ, so that orientations are seen without load.
             let named = triangles.map(|corners| oriented(corners, &body.reference));
             let named = named.map(|it| it.map(|corner| joined.place_of[corner as usize]));
             let surface = Surface::of_oriented(named.collect());
-            document.path(
-                &path_of(surface.outlines(&joined.places), frame),
-                fill(colour),
-            );
+            document.path(&path_of(surface.outlines(&joined.places), frame), paint);
         };
-        draw(None, BARE);
+        let rim = Some((OUTLINE, OUTLINE_WIDTH)).filter(|_| !self.lines.is_empty());
+        let stroke = rim.filter(|_| field.is_none());
+        draw(
+            None,
+            Paint {
+                fill: Some(self.bare()),
+                stroke,
+            },
+        );
         let colours = field.iter().flat_map(|(_, scale)| &scale.colours);
         for (band, colour) in colours.enumerate() {
-            draw(Some(band), colour);
+            draw(Some(band), fill(colour));
         }
     }
 }

@@ -18,6 +18,22 @@ pub enum Magnification {
     Times(f64),
 }
 
+/// How cracks are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CrackDrawing {
+    /// The broken bonds, coloured by criterion.
+    Bonds,
+    /// Lines between the faces that opened, with their tips, on the undeformed body with axes.
+    Lines,
+}
+
+impl FieldRequest {
+    /// Whether lines are drawn over the body, which then is undeformed.
+    pub(super) fn has_lines(&self) -> bool {
+        self.crack == Some(CrackDrawing::Lines) || !self.lines.is_empty()
+    }
+}
+
 /// A picture of a field, or of a crack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldRequest {
@@ -32,8 +48,10 @@ pub struct FieldRequest {
     pub choice: Choice,
     /// Factor on the displacement.
     pub magnification: Magnification,
-    /// Whether broken bonds are drawn.
-    pub crack: bool,
+    /// How cracks are drawn; None: not at all, but for pre-cracks in a mesh.
+    pub crack: Option<CrackDrawing>,
+    /// Tables `x,y` (m) of lines to draw over the body, which empty rows part.
+    pub lines: Vec<PathBuf>,
     /// Part of the plane, lower left and upper right corner, m.
     pub window: Option<[[f64; 2]; 2]>,
     /// Number of bands of colour.

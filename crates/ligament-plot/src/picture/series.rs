@@ -65,7 +65,7 @@ pub fn animate(
 ) -> Result<PathBuf, PictureError> {
     let is_gif = (file.extension()).is_some_and(|it| it.eq_ignore_ascii_case("gif"));
     if !is_gif {
-        return Err(PictureError::Format(file.to_path_buf()));
+        return Err(PictureError::Ending(file.to_path_buf()));
     }
     let subject = one_subject(request, "--animate")?;
     let evenly_spread = FieldRequest {
@@ -79,7 +79,7 @@ pub fn animate(
     let mut pictures = Vec::new();
     for output in &series.outputs {
         let dpi = request.target.dpi.unwrap_or(DPI);
-        pictures.push(Pixels::of(&series.svg(output)?, dpi)?);
+        pictures.push(Pixels::drawn(&series.svg(output)?, dpi)?);
     }
     let hundredths = (100.0 / per_second).round().clamp(2.0, 6000.0);
     replace_file(file, &to_gif(&pictures, hundredths as u16)?)?;
@@ -120,6 +120,7 @@ impl<'a> Series<'a> {
         }
         let magnification = match request.magnification {
             Magnification::Times(factor) => Some(factor),
+            Magnification::Auto if request.has_lines() => Some(0.0),
             Magnification::Auto if subject.has_modes => None,
             Magnification::Auto => Some(common_scale_of(scales.into_iter())),
         };

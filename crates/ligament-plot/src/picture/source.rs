@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
+use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::vtu::read::VtuFile;
 
 use super::body::{Body, MODE_SHARE};
 use super::crack::{self, Crack};
 use super::field::{Field, NONE, relate_to_largest};
+use super::lines::Lines;
 use super::panel::Panel;
-use super::request::FieldRequest;
+use super::request::{CrackDrawing, FieldRequest, Magnification};
 use super::select::{Choice, Chosen, Moment, chosen, moments};
 use super::strip::Entry;
 use super::units::{Shown, four_digits};
@@ -29,6 +31,10 @@ pub(super) struct Source {
     /// Units to show displacement and force in.
     shown: Option<[Shown; 2]>,
     pub(super) crack: Option<Crack>,
+    /// Lines that are drawn over the body in all steps.
+    lines: Vec<Lines>,
+    /// Cracks that are drawn as lines.
+    cracks: Option<StoredCracks>,
     /// Whether broken bonds are drawn. A pre-crack in a mesh, whose cells hide it, is drawn in any case.
     shows_broken: bool,
     /// Frequencies of modes by number, Hz.
@@ -85,8 +91,17 @@ impl Subject {
     pub(super) fn open(request: &FieldRequest) -> Result<Self, PictureError> {
         let sources = sources(request)?;
         let given = request.field.clone();
+        if let (true, Magnification::Times(factor)) = (request.has_lines(), request.magnification)
+            && factor != 0.0
+        {
+            return Err(PictureError::MovedLines(factor));
+        }
+        let default = match request.crack {
+            Some(CrackDrawing::Lines) => NONE,
+            _ => default_field(&sources),
+        };
         Ok(Self {
-            field: given.unwrap_or_else(|| default_field(&sources).to_owned()),
+            field: given.unwrap_or_else(|| default.to_owned()),
             has_modes: (sources.iter()).any(|it| it.outputs.kind == OutputKind::Modes),
             sources,
         })
@@ -121,14 +136,16 @@ impl Source {
             moments: BTreeMap::new(),
             shown: None,
             crack: None,
-            shows_broken: request.crack,
+            lines: Vec::new(),
+            cracks: None,
+            shows_broken: request.crack == Some(CrackDrawing::Bonds),
             frequencies: BTreeMap::new(),
         };
         if source.outputs.kind == OutputKind::Modes {
-            if request.crack {
+            if request.crack.is_some() {
                 return Err(PictureError::Modes {
                     path: folder.to_path_buf(),
-                    what: "broken bonds",
+                    what: "cracks",
                     option: "--crack",
                 });
             }
@@ -150,7 +167,14 @@ impl Source {
             ]
         });
         let follows_path = loading.is_some_and(|it| it.follows_path);
-        source.crack = Some(Crack::read(folder, follows_path, request.crack)?);
+        source.crack = Some(Crack::read(folder, follows_path, source.shows_broken)?);
+        if request.crack == Some(CrackDrawing::Lines) {
+            source.lines.push(Lines::of_precracks(folder)?);
+            source.cracks = Some(StoredCracks::open(folder)?);
+        }
+        for (place, table) in request.lines.iter().enumerate() {
+            source.lines.push(Lines::of_table(table, place)?);
+        }
         Ok(source)
     }
 
@@ -233,7 +257,15 @@ impl Output<'_> {
             body: Body::read(&file)?,
             field,
             broken: Vec::new(),
+            lines: self.lines(),
         })
+    }
+
+    /// Lines over the body, its cracks above all others.
+    fn lines(&self) -> Vec<Lines> {
+        let cracks = self.source.cracks.as_ref();
+        let cracks = cracks.map(|it| Lines::of_cracks(it, self.chosen.number));
+        self.source.lines.iter().cloned().chain(cracks).collect()
     }
 
     /// The panel with its body deformed and its broken bonds between the deformed ends.
@@ -249,7 +281,7 @@ impl Output<'_> {
             .crack
             .iter()
             .flat_map(|crack| crack.kinds.iter().map(move |it| (crack, it)));
-        let shows_cut = source.shows_broken || panel.body.is_mesh();
+        let shows_cut = source.shows_broken || panel.body.is_mesh() && source.cracks.is_none();
         let kinds = kinds.filter(|(_, kind)| shows_cut || !kind.is_cut());
         panel.broken = kinds
             .map(|(crack, kind)| {

@@ -1,5 +1,6 @@
 //! Bodies side by side at one scale, with titles above, the colour bar at the right and the legend below.
 
+use super::axes;
 use super::body::bounds;
 use super::colour_bar::ColourBar;
 use super::panel::{Frame, Panel, Scale};
@@ -13,6 +14,9 @@ const LINE: f64 = 12.0;
 
 /// Room at the rim and between bodies, pixels.
 const MARGIN: f64 = 6.0;
+
+/// What is seen around a body where lines that lead out of it are cut off, pixels.
+const RIM: f64 = 0.5;
 
 /// Largest height over width of a picture.
 const TALLEST: f64 = 1.25;
@@ -61,6 +65,8 @@ pub(super) struct Strip<'a> {
     pub(super) columns: Option<usize>,
     /// Words for the file.
     pub(super) title: String,
+    /// Whether axes in mm stand at the left of and below each body.
+    pub(super) has_axes: bool,
     /// Room for the other pictures of a series, if it is one.
     pub(super) room: Option<&'a Room>,
 }
@@ -156,10 +162,12 @@ impl Strip<'_> {
         let row_gaps = MARGIN * (rows - 1.0);
         let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
         let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
-        let scale = (widest_cell / body[0]).min(tallest_cell / body[1]);
+        let axes = axes::room(self.has_axes);
+        let scale = ((widest_cell - axes[0]).max(1.0) / body[0])
+            .min((tallest_cell - axes[1]).max(1.0) / body[1]);
         // Bodies that do not fill the width stand together in its middle.
-        let cell_width = widest_cell.min((body[0] * scale).max(widest(&roomy)));
-        let cell = [cell_width, body[1] * scale];
+        let cell_width = widest_cell.min((body[0] * scale + axes[0]).max(widest(&roomy)));
+        let cell = [cell_width, body[1] * scale + axes[1]];
         let bodies = [
             cell[0] * columns as f64 + gaps,
             (title_height + cell[1]) * rows + row_gaps,
@@ -193,9 +201,10 @@ impl Strip<'_> {
             return;
         };
         let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
+        let axes = axes::room(self.has_axes);
         let at = [
-            x + 0.5 * (cell[0] - own[0]),
-            y + layout.title_height + 0.5 * (cell[1] - own[1]),
+            x + axes[0] + 0.5 * (cell[0] - axes[0] - own[0]),
+            y + layout.title_height + 0.5 * (cell[1] - axes[1] - own[1]),
         ];
         let frame = Frame {
             low,
@@ -203,14 +212,22 @@ impl Strip<'_> {
             at,
             scale,
         };
-        if self.window.is_none() {
+        if self.has_axes {
+            axes::draw(document, frame);
+        }
+        if self.window.is_none() && !self.has_axes {
             panel.draw(document, frame, self.scale);
             return;
         }
-        document.begin_window(&format!("window-{place}"), at, own);
+        // Outlines at the rim keep their width.
+        let rim = if self.window.is_none() { RIM } else { 0.0 };
+        let (from, size) = (at.map(|it| it - rim), own.map(|it| it + 2.0 * rim));
+        document.begin_window(&format!("window-{place}"), from, size);
         panel.draw(document, frame, self.scale);
         document.end_window();
-        document.frame(at, own);
+        if self.window.is_some() {
+            document.frame(at, own);
+        }
     }
 
     fn columns_for(&self, [width, height]: [f64; 2]) -> usize {

@@ -84,6 +84,7 @@ impl<'a> Style<'a> {
             columns: self.request.columns,
             title: self.title.clone(),
             room,
+            has_axes: self.request.has_lines(),
             panels,
         };
         strip.to_svg(self.request.target.width.unwrap_or(width) * PIXELS_PER_MM)
@@ -98,7 +99,8 @@ pub(super) fn magnification_words(magnification: Option<f64>) -> String {
     }
 }
 
-/// The criteria by which bonds of any panel broke, each once, with the numbers of bonds if these are wanted.
+/// The criteria by which bonds of any panel broke and the lines over the bodies, each once, with numbers of bonds and lengths if
+/// these are wanted.
 pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bool) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     let kinds = sources
@@ -118,6 +120,16 @@ pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bo
         if count > 0 && !entries.iter().any(|it| it.words == words) {
             entries.push(Entry {
                 colour: Some(kind.colour.clone()),
+                words,
+            });
+        }
+    }
+    for lines in panels.iter().flat_map(|panel| &panel.lines) {
+        let detail = if is_numbered { &lines.detail } else { "" };
+        let words = format!("{}{detail}", lines.name);
+        if !lines.polylines.is_empty() && !entries.iter().any(|it| it.words == words) {
+            entries.push(Entry {
+                colour: Some(lines.colour.clone()),
                 words,
             });
         }

@@ -93,6 +93,14 @@ impl Document {
         );
     }
 
+    /// A filled circle.
+    pub(super) fn circle(&mut self, [x, y]: [f64; 2], radius: f64, fill: &str) {
+        let _ = writeln!(
+            self.body,
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" fill=\"{fill}\"/>"
+        );
+    }
+
     /// A line of text with its base line at a place.
     pub(super) fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, size: f64, text: &str) {
         let anchor = anchor.word();
@@ -205,6 +213,15 @@ impl PathData {
         self.piece(&rounded);
         self.text.push('z');
         self.at = start;
+    }
+
+    /// Adds lines from each point to the next.
+    pub(super) fn line(&mut self, points: impl IntoIterator<Item = [f64; 2]>) {
+        let mut rounded: Vec<[i64; 2]> = points.into_iter().map(units).collect();
+        rounded.dedup();
+        if rounded.len() > 1 {
+            self.piece(&rounded);
+        }
     }
 
     /// Adds a line between two points.

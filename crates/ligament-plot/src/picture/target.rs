@@ -54,7 +54,7 @@ impl Format {
         let extension = extension.map(str::to_lowercase);
         let mut all = Self::ALL.into_iter();
         let format = all.find(|format| extension.as_deref() == Some(format.word()));
-        format.ok_or_else(|| PictureError::Format(path.to_path_buf()))
+        format.ok_or_else(|| PictureError::Ending(path.to_path_buf()))
     }
 }
 
@@ -67,7 +67,10 @@ impl Target {
         };
         let named = Format::named_by(&path)?;
         match self.format {
-            Some(format) if format != named => Err(PictureError::OtherFormat { path, format }),
+            Some(format) if format != named => Err(PictureError::OtherEnding {
+                path,
+                format: format.word(),
+            }),
             _ => Ok(path),
         }
     }

@@ -37,7 +37,7 @@ pub(crate) fn to_gif(pictures: &[Pixels], hundredths: u16) -> Result<Vec<u8>, Gi
     let [Ok(across), Ok(down)] = [width, height].map(u16::try_from) else {
         return Err(GifError::Size(width, height));
     };
-    let palette = Palette::of(pictures);
+    let palette = Palette::common_to(pictures);
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, across, down, palette.colours.as_flattened())?;
     encoder.set_repeat(Repeat::Infinite)?;
@@ -97,7 +97,7 @@ struct Palette {
 impl Palette {
     /// The colours that most dots of all pictures have; of colours with as many dots the darker first. Areas keep their colours to
     /// the bit, and what is missing lies between two of them, at their rims.
-    fn of(pictures: &[Pixels]) -> Self {
+    fn common_to(pictures: &[Pixels]) -> Self {
         let mut dots: HashMap<[u8; 3], usize> = HashMap::new();
         for colour in pictures.iter().flat_map(|picture| &picture.colours) {
             *dots.entry(*colour).or_default() += 1;
@@ -196,7 +196,7 @@ mod tests {
             size: [305, 1],
             colours: [&greys[..], &often].concat(),
         };
-        let palette = Palette::of(std::slice::from_ref(&picture));
+        let palette = Palette::common_to(std::slice::from_ref(&picture));
         assert_eq!(
             (palette.colours.len(), palette.colours[0]),
             (256, [9, 9, 9])

@@ -22,8 +22,9 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::{
-    Cartesian2d, Circle, Color, DashedLineSeries, DrawingArea, IntoDrawingArea, IntoTextStyle,
-    LineSeries, PathElement, RGBColor, SVGBackend, ShapeStyle, Text, WHITE,
+    Cartesian2d, Circle, Color, Cross, DashedLineSeries, DrawingArea, IntoDrawingArea,
+    IntoTextStyle, LineSeries, PathElement, RGBColor, SVGBackend, ShapeStyle, Text, TriangleMarker,
+    WHITE,
 };
 
 /// Height of a line of the legend.
@@ -69,6 +70,10 @@ pub enum Mark {
     Curve,
     /// Open circles: what is printed.
     Circles,
+    /// Crosses: what is no answer.
+    Crosses,
+    /// Triangles: where something begins.
+    Triangles,
     /// A dashed line: another theory.
     Dashes,
 }
@@ -303,6 +308,13 @@ impl Series {
             Mark::Circles => {
                 chart.draw_series(points().map(|point| Circle::new(point, pen.dots(6), stroke)))?;
             }
+            Mark::Crosses => {
+                chart.draw_series(points().map(|point| Cross::new(point, pen.dots(5), stroke)))?;
+            }
+            Mark::Triangles => {
+                let triangle = |point| TriangleMarker::new(point, pen.dots(7), dot);
+                chart.draw_series(points().map(triangle))?;
+            }
             Mark::Dashes => {
                 let (dash, gap) = (pen.dots(DASH.0), pen.dots(DASH.1));
                 chart.draw_series(DashedLineSeries::new(points(), dash, gap, stroke))?;
@@ -324,6 +336,12 @@ impl Series {
             Mark::Curve => area.draw(&line(4, 32))?,
             Mark::Circles => {
                 area.draw(&Circle::new(at(18, y), pen.dots(6), self.stroke(pen)))?;
+            }
+            Mark::Crosses => {
+                area.draw(&Cross::new(at(18, y), pen.dots(5), self.stroke(pen)))?;
+            }
+            Mark::Triangles => {
+                area.draw(&TriangleMarker::new(at(18, y), pen.dots(7), self.dot()))?;
             }
             Mark::Dashes => {
                 for start in [4, 16, 28] {

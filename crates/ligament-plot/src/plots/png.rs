@@ -42,7 +42,7 @@ pub enum PngError {
 ///
 /// If it is no SVG, or would have no or too many pixels.
 pub fn to_png(svg: &str, dpi: f64) -> Result<Vec<u8>, PngError> {
-    encode(&Pixels::of(svg, dpi)?, dpi)
+    encode(&Pixels::drawn(svg, dpi)?, dpi)
 }
 
 /// A picture as its dots.
@@ -56,7 +56,7 @@ pub(crate) struct Pixels {
 
 impl Pixels {
     /// The dots of the text of an SVG file on white, so many to the inch of its size.
-    pub(crate) fn of(svg: &str, dpi: f64) -> Result<Self, PngError> {
+    pub(crate) fn drawn(svg: &str, dpi: f64) -> Result<Self, PngError> {
         let outlined = with_outlined_text(svg, &font()?).map_err(resvg::usvg::Error::from)?;
         let tree = Tree::from_str(&outlined, &Options::default())?;
         let scale = dpi / PIXELS_PER_INCH;

@@ -46,7 +46,7 @@ pub(super) fn with_text_as(
     for line in lines {
         let place = line.range();
         replaced.push_str(&svg[done..place.start]);
-        replaced.push_str(&element(TextLine::of(line, font)));
+        replaced.push_str(&element(TextLine::laid_out(line, font)));
         done = place.end;
     }
     replaced.push_str(&svg[done..]);
@@ -59,7 +59,7 @@ pub(super) fn font() -> Result<Face<'static>, FaceParsingError> {
 }
 
 impl TextLine {
-    fn of(line: Node<'_, '_>, font: &Face<'_>) -> Self {
+    fn laid_out(line: Node<'_, '_>, font: &Face<'_>) -> Self {
         let size = inherited(line, "font-size").map_or(16.0, |text| length(text, 16.0));
         let place = |name: &str| line.attribute(name).map_or(0.0, |text| length(text, size));
         let text: String = line

@@ -66,7 +66,9 @@ pub(super) fn boundary(
             continue;
         }
         let factors = places.factors(field, load.profile.as_ref(), &points)?;
-        if let Action::Displacement(displacement) = &load.action {
+        if let Action::Displacement(displacement) = &load.action
+            && !load.is_restraint()
+        {
             for given in displacement.components() {
                 places.prescribe(&mut boundary, field, (&points, &factors), given)?;
             }
@@ -203,7 +205,7 @@ impl Places<'_> {
     }
 
     /// Factors of a profile at the points; 1 without one.
-    fn factors(
+    pub(super) fn factors(
         &self,
         field: Field,
         profile: Option<&Profile>,
@@ -218,6 +220,21 @@ impl Places<'_> {
             return Err(field.part("profile").error(Fault::ZeroProfile));
         }
         Ok(factors)
+    }
+
+    /// Shares of points in a total: by the length that each stands for in a group that has one, elsewhere by their volumes.
+    pub(super) fn shares(&self, place: &Place, points: &[u32]) -> Vec<(u32, f64)> {
+        let mut weights = match place {
+            Place::Group(group) => self.setup.body.lengths_of(group),
+            _ => Vec::new(),
+        };
+        if weights.is_empty() {
+            let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
+            weights = points.iter().map(volume).collect();
+        }
+        let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        let share = |(point, weight): (u32, f64)| (point, weight / total);
+        weights.into_iter().map(share).collect()
     }
 
     /// Forces and couples of a load on its points; none where it prescribes a displacement.

@@ -3,6 +3,7 @@
 mod boundary;
 mod places;
 mod programme;
+mod restraints;
 mod temperature;
 mod vibration;
 
@@ -12,8 +13,8 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
+use ligament_model::BondSystem;
 use ligament_model::failure::Criteria;
-use ligament_model::{BondSystem, Bonds};
 
 use places::Places;
 pub use places::{material_of_cell, no_fail};
@@ -23,6 +24,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::setup::Setup;
 use boundary::{Acting, boundary, couples_have_stiffness};
 use programme::staged;
+use restraints::restrained;
 
 /// Supports, loads and probes of a setup, for its model.
 #[derive(Debug)]
@@ -54,10 +56,11 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
-        let staged = staged(setup, &system.cloud, system.layout())?;
+        let staged = staged(setup, system)?;
+        let boundary = restrained(setup, system, boundary, Acting::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
-            boundary: Arc::new(boundary.reduced(system.layout())),
+            boundary: Arc::new(boundary),
             probes,
             solver: setup.solver,
         })

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use ligament_analysis::{
     Component, Layout, LoadCourse, Part, Programme, ProportionalLoading, StagedLoading,
 };
-use ligament_model::PointCloud;
+use ligament_model::{BondSystem, Bonds};
 
 use super::boundary::{Acting, boundary};
+use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{self, Analysis, Setup, Stage};
 
@@ -37,7 +38,7 @@ impl Setup {
     }
 }
 
-/// Each load of a setup with stages by itself, for points with these components, in the first part of the programme that the stages are;
+/// Each load of a setup with stages by itself, in the first part of the programme that the stages are;
 /// None without stages.
 ///
 /// # Errors
@@ -45,8 +46,7 @@ impl Setup {
 /// If two loads prescribe a motion of a point.
 pub(super) fn staged(
     setup: &Setup,
-    cloud: &PointCloud,
-    layout: Layout,
+    system: &BondSystem,
 ) -> Result<Option<StagedLoading>, SetupError> {
     if setup.stages.is_empty() {
         return Ok(None);
@@ -56,9 +56,12 @@ pub(super) fn staged(
     let of_loads = (0..setup.loads.len()).map(Acting::Load);
     let of_temperature = temperature.map(|_| Acting::Temperature);
     let loads: Vec<ProportionalLoading> = (of_loads.chain(of_temperature))
-        .map(|acting| Ok(boundary(setup, cloud, acting)?.reduced(layout)))
+        .map(|acting| {
+            let loading = boundary(setup, &system.cloud, acting)?;
+            restrained(setup, system, loading, acting)
+        })
         .collect::<Result<_, SetupError>>()?;
-    moved_by_one(setup, layout, &loads)?;
+    moved_by_one(setup, system.layout(), &loads)?;
     let programme = Programme {
         control: setup.curve_load().or(temperature).unwrap_or(0),
         temperature,

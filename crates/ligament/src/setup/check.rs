@@ -54,11 +54,7 @@ impl Setup {
         self.check_closing()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
-        for (index, support) in self.supports.iter().enumerate() {
-            if support.components().next().is_none() {
-                return contradiction(Field::element("supports", index), NO_COMPONENT);
-            }
-        }
+        self.check_restraints()?;
         for (index, load) in self.loads.iter().enumerate() {
             check_load(Field::element("loads", index), load)?;
         }

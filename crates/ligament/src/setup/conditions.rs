@@ -32,7 +32,7 @@ pub struct Displacement {
     pub rotation: Option<f64>,
 }
 
-/// A support: components of the displacement that are held at zero.
+/// A support: components of the displacement that are held at zero, or resisted by springs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Support {
     /// Where it holds.
@@ -43,6 +43,24 @@ pub struct Support {
     pub y: bool,
     /// Whether it holds rotations.
     pub rotation: bool,
+    /// Direction along which displacements are held while they are free across it: the normal of the plane of a roller. It need not
+    /// have the length 1.
+    pub normal: Option<[f64; 2]>,
+    /// Springs to the ground.
+    pub stiffness: SpringStiffness,
+}
+
+/// Stiffness of springs in total over the points, shared out as a force is; a component without one has no spring.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SpringStiffness {
+    /// Along x, N/m.
+    pub x: Option<f64>,
+    /// Along y, N/m.
+    pub y: Option<f64>,
+    /// Against rotations of the points, N m/rad.
+    pub rotation: Option<f64>,
+    /// Along the normal of the support, N/m; without it the normal is held.
+    pub normal: Option<f64>,
 }
 
 /// A load as it is at load factor 1.
@@ -56,6 +74,12 @@ pub struct Load {
     pub action: Action,
     /// How it varies from point to point; without it every point takes its whole share.
     pub profile: Option<Profile>,
+    /// Stiffness in total of springs between what moves and the points, where a displacement is given, N/m: what gives way in a testing
+    /// machine. Without it the points move as prescribed.
+    pub stiffness: Option<f64>,
+    /// Whether the load acts through a rigid platen that may tilt: along the load its points move as those of a rigid body, their
+    /// mean by the displacement, if one is given.
+    pub tilts: bool,
 }
 
 /// What a load does.
@@ -109,14 +133,22 @@ impl Support {
             x,
             y,
             rotation,
+            normal: None,
+            stiffness: SpringStiffness::default(),
         }
     }
 
-    /// Components that it holds.
+    /// Components that it holds; one along an axis where its normal lies there.
     pub fn components(&self) -> impl Iterator<Item = Component> {
+        let normal = self.normal.filter(|_| self.stiffness.normal.is_none());
+        let [along_x, along_y] = match normal {
+            Some([x, 0.0]) => [x != 0.0, false],
+            Some([0.0, y]) => [false, y != 0.0],
+            _ => [false; 2],
+        };
         let held = [
-            (Component::X, self.x),
-            (Component::Y, self.y),
+            (Component::X, self.x || along_x),
+            (Component::Y, self.y || along_y),
             (Component::Rotation, self.rotation),
         ];
         held.into_iter()
@@ -129,6 +161,19 @@ impl Support {
             Place::Group(group) => group.clone(),
             Place::Everywhere | Place::Box(_) | Place::At(_) => format!("support-{}", index + 1),
         }
+    }
+}
+
+impl SpringStiffness {
+    /// The springs along components, with their stiffness in total.
+    pub fn components(&self) -> impl Iterator<Item = (Component, f64)> {
+        let given = [
+            (Component::X, self.x),
+            (Component::Y, self.y),
+            (Component::Rotation, self.rotation),
+        ];
+        let springs = given.into_iter();
+        springs.filter_map(|(component, stiffness)| Some((component, stiffness?)))
     }
 }
 
@@ -159,6 +204,8 @@ impl Load {
             place,
             action,
             profile: None,
+            stiffness: None,
+            tilts: false,
         }
     }
 }

@@ -8,6 +8,7 @@ mod conditions;
 mod correction;
 mod law;
 mod probe;
+mod restraint;
 mod rotation;
 mod scatter;
 pub mod stage;
@@ -24,7 +25,7 @@ use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 use crate::body::Body;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
-pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, Support};
+pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, SpringStiffness, Support};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};

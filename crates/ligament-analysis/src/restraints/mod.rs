@@ -1,0 +1,189 @@
+//! Restraints: what resists the motion of a body without holding it still, as springs, inclined rollers and rigid platens do.
+//!
+//! A restraint is a symmetric stiffness S between some degrees of freedom and the ground. It exerts -S u on the body, which is an
+//! external force as that of a support is: the energies of the bonds know nothing of it, and what it gives and takes is work of the
+//! supports. Where the far end of a spring is moved, a loading adds S g to its given forces.
+
+mod holds;
+
+use std::collections::BTreeMap;
+
+use ligament_model::interface::CoupledPoints;
+
+use crate::unknowns::Layout;
+
+pub use holds::missing_holds;
+
+/// A stiffness between some degrees of freedom and the ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Restraint {
+    /// The degrees of freedom (n).
+    pub degrees_of_freedom: Vec<u32>,
+    /// Stiffness S, symmetric and not negative, shape (n, n), N/m; N m/rad between rotations.
+    pub stiffness: Vec<f64>,
+}
+
+/// The restraints of a body.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Restraints {
+    list: Vec<Restraint>,
+    /// The restraints of each restrained point, ascending.
+    at_points: BTreeMap<u32, Vec<usize>>,
+    /// The degrees of freedom of all restraints, ascending.
+    degrees_of_freedom: Vec<u32>,
+}
+
+impl Restraint {
+    /// A spring of stiffness k along a direction c of one or more degrees of freedom: S = k c c^T.
+    pub fn spring(along: &[(u32, f64)], stiffness: f64) -> Self {
+        let product = |(_, one): &(u32, f64)| {
+            let one = *one;
+            along.iter().map(move |(_, other)| stiffness * one * other)
+        };
+        Self {
+            degrees_of_freedom: along.iter().map(|(dof, _)| *dof).collect(),
+            stiffness: along.iter().flat_map(product).collect(),
+        }
+    }
+
+    /// Forces S u for displacements at its degrees of freedom (n), by degree of freedom.
+    pub fn forces(&self, displacement: &[f64]) -> impl Iterator<Item = (u32, f64)> {
+        let rows = self.stiffness.chunks(self.degrees_of_freedom.len());
+        let force = move |row: &[f64]| row.iter().zip(displacement).map(|(s, u)| s * u).sum();
+        self.degrees_of_freedom.iter().copied().zip(rows.map(force))
+    }
+}
+
+impl Restraints {
+    /// Restraints of points with these components.
+    pub fn new(layout: Layout, list: Vec<Restraint>) -> Self {
+        let mut at_points: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        let mut degrees_of_freedom: Vec<u32> = Vec::new();
+        for (index, restraint) in list.iter().enumerate() {
+            for &dof in &restraint.degrees_of_freedom {
+                let of_point = at_points.entry(layout.point(dof as usize)).or_default();
+                if of_point.last() != Some(&index) {
+                    of_point.push(index);
+                }
+                degrees_of_freedom.push(dof);
+            }
+        }
+        degrees_of_freedom.sort_unstable();
+        degrees_of_freedom.dedup();
+        Self {
+            list,
+            at_points,
+            degrees_of_freedom,
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The degrees of freedom that some restraint acts on, ascending.
+    pub fn degrees_of_freedom(&self) -> &[u32] {
+        &self.degrees_of_freedom
+    }
+
+    /// Whether a restraint acts on a degree of freedom.
+    pub fn acts_on(&self, degree_of_freedom: usize) -> bool {
+        let dof = degree_of_freedom as u32;
+        self.degrees_of_freedom.binary_search(&dof).is_ok()
+    }
+
+    /// Whether a restraint holds a degree of freedom against the ground by itself.
+    pub fn holds(&self, layout: Layout, degree_of_freedom: usize) -> bool {
+        let of_point = self.at_points.get(&layout.point(degree_of_freedom));
+        let mut restraints = of_point.into_iter().flatten().map(|&it| &self.list[it]);
+        restraints
+            .any(|it| it.degrees_of_freedom == [degree_of_freedom as u32] && it.stiffness[0] > 0.0)
+    }
+
+    /// Adds what the restraints take of displacements (n_degrees_of_freedom), S u, to internal forces (n_degrees_of_freedom), N and N m.
+    pub fn add_forces(&self, displacement: &[f64], forces: &mut [f64]) {
+        for restraint in &self.list {
+            let dofs = restraint.degrees_of_freedom.iter();
+            let own: Vec<f64> = dofs.map(|&dof| displacement[dof as usize]).collect();
+            for (dof, force) in restraint.forces(&own) {
+                forces[dof as usize] += force;
+            }
+        }
+    }
+
+    /// Adds the stiffness of each degree of freedom by itself (n_degrees_of_freedom), N/m and N m/rad.
+    pub(crate) fn add_diagonal(&self, diagonal: &mut [f64]) {
+        for restraint in &self.list {
+            let n = restraint.degrees_of_freedom.len();
+            for (place, &dof) in restraint.degrees_of_freedom.iter().enumerate() {
+                diagonal[dof as usize] += restraint.stiffness[place * (n + 1)];
+            }
+        }
+    }
+
+    /// Points of smaller number that bonds or restraints couple with a point, ascending.
+    pub(crate) fn lower_points(
+        &self,
+        layout: Layout,
+        coupled: CoupledPoints<'_>,
+        point: usize,
+    ) -> Vec<u32> {
+        let is_lower = |other: &u32| (*other as usize) < point;
+        let mut lower: Vec<u32> = coupled.at(point as u32).take_while(is_lower).collect();
+        let Some(restraints) = self.at_points.get(&(point as u32)) else {
+            return lower;
+        };
+        for &restraint in restraints {
+            let dofs = self.list[restraint].degrees_of_freedom.iter();
+            lower.extend(dofs.map(|&dof| layout.point(dof as usize)).filter(is_lower));
+        }
+        lower.sort_unstable();
+        lower.dedup();
+        lower
+    }
+
+    /// Adds the stiffness between the columns of a point and the rows of its `lower` points (ascending) and of itself, shape
+    /// (n_lower + 1, components, components).
+    pub(crate) fn add_blocks(&self, layout: Layout, point: u32, lower: &[u32], blocks: &mut [f64]) {
+        let components = layout.components.len();
+        let place_of = |other: u32| match other == point {
+            true => Some(lower.len()),
+            false => lower.binary_search(&other).ok(),
+        };
+        for &restraint in self.at_points.get(&point).into_iter().flatten() {
+            let Restraint {
+                degrees_of_freedom,
+                stiffness,
+            } = &self.list[restraint];
+            let n = degrees_of_freedom.len();
+            for (row, &of_row) in degrees_of_freedom.iter().enumerate() {
+                let of_row = of_row as usize;
+                let Some(place) = place_of(layout.point(of_row)) else {
+                    continue;
+                };
+                for (column, &of_column) in degrees_of_freedom.iter().enumerate() {
+                    let of_column = of_column as usize;
+                    if layout.point(of_column) == point {
+                        let [r, c] = [of_row, of_column].map(|dof| dof % components);
+                        blocks[(place * components + r) * components + c] +=
+                            stiffness[row * n + column];
+                    }
+                }
+            }
+        }
+    }
+
+    /// The restraints that act on some points (ascending).
+    fn of_points(&self, points: &[u32]) -> Vec<&Restraint> {
+        let own = self.at_points.iter();
+        let own = own.filter(|(point, _)| points.binary_search(point).is_ok());
+        let mut indices: Vec<usize> = own
+            .flat_map(|(_, restraints)| restraints)
+            .copied()
+            .collect();
+        indices.sort_unstable();
+        indices.dedup();
+        indices.into_iter().map(|it| &self.list[it]).collect()
+    }
+}

@@ -1,0 +1,55 @@
+//! What `ligament check` tells of supports, and of what loads go through.
+
+use std::io::{self, Write};
+
+use ligament::setup::{Load, Setup, Support};
+use ligament_analysis::Component;
+
+use super::entry::entry;
+
+/// Writes what each support holds or resists, and which loads go through springs or a platen.
+pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
+    for (index, support) in setup.supports.iter().enumerate() {
+        let name = format!("{} holds", support.name(index));
+        entry(out, &name, of_support(support).join(", "))?;
+    }
+    for load in setup.loads.iter().filter(|it| it.is_restraint()) {
+        entry(
+            out,
+            &format!("{} acts", load.name),
+            of_load(load).join(", "),
+        )?;
+    }
+    Ok(())
+}
+
+fn of_support(support: &Support) -> Vec<String> {
+    let mut words: Vec<String> = (support.components())
+        .map(|it| it.name().to_owned())
+        .collect();
+    for (component, total) in support.stiffness.components() {
+        let unit = match component {
+            Component::Rotation => "N m/rad",
+            Component::X | Component::Y => "N/m",
+        };
+        words.push(format!(
+            "{} by springs of {total:.4e} {unit}",
+            component.name()
+        ));
+    }
+    if let Some([x, y]) = support.restrained_normal() {
+        let spring = support.stiffness.normal;
+        let spring = spring.map(|total| format!(" by springs of {total:.4e} N/m"));
+        words.push(format!("along ({x}, {y}){}", spring.unwrap_or_default()));
+    }
+    words
+}
+
+fn of_load(load: &Load) -> Vec<String> {
+    let springs = load.stiffness;
+    let springs = springs.map(|total| format!("through springs of {total:.4e} N/m"));
+    let platen = load
+        .tilts
+        .then(|| "by a rigid platen that may tilt".to_owned());
+    springs.into_iter().chain(platen).collect()
+}

@@ -1,0 +1,70 @@
+//! `ligament profile`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use ligament_output::replace_file;
+use ligament_output::results::steps::StepChoice;
+use ligament_plot::picture::profile::{ProfileRequest, profile};
+
+use super::numbers::position;
+use crate::terminal;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament profile results/plate --from 0,-0.1 --to 0,0.1 --field displacement.y
+  ligament profile results/disk --from 0,-0.05 --to 0,0.05 --field damage stress_virial.xx --step peak --out axis.csv
+
+The line lies in the body without load, in the coordinates of the case. Between the nodes of a mesh values are linear in
+each triangle; a cell of a lattice has one value. Places outside of the body have empty fields. Fields are those of `ligament plot`.";
+
+/// `ligament profile`.
+#[derive(Debug, Args)]
+pub struct ProfileArgs {
+    /// The folder with the results of a run
+    #[arg(value_name = "RESULT")]
+    pub results: PathBuf,
+    /// Where the line begins, m
+    #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
+    pub from: [f64; 2],
+    /// Where the line ends, m
+    #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
+    pub to: [f64; 2],
+    /// Fields, a column each: those of `ligament plot`
+    #[arg(long, value_name = "NAME", num_args = 1.., required = true)]
+    pub field: Vec<String>,
+    /// Step: a number, first (breakage), peak, last or all
+    #[arg(long, value_name = "STEP", default_value = "last")]
+    pub step: StepChoice,
+    /// Places on the line, evenly spread
+    #[arg(long, value_name = "COUNT", default_value = "101", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub samples: u32,
+    /// The table, replacing what is there [default: standard output]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+impl ProfileArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        anyhow::ensure!(
+            self.from != self.to,
+            "the line has no length: give --from and --to different places"
+        );
+        let table = profile(&ProfileRequest {
+            folder: self.results,
+            fields: self.field,
+            step: self.step,
+            ends: [self.from, self.to],
+            samples: self.samples as usize,
+        })?;
+        match self.out {
+            None => Ok(write!(terminal::stdout(), "{table}")?),
+            Some(path) => {
+                replace_file(&path, table.as_bytes())?;
+                Ok(writeln!(terminal::stdout(), "{}", path.display())?)
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! `softening.csv`: a row where a bond begins to soften, and one where so little of its force is left that a crack is open there.
+
+use ligament_analysis::driver::Problem;
+use ligament_analysis::history::{StepRecord, View};
+use ligament_analysis::serial;
+use ligament_model::failure::Weakened;
+
+use super::tables::labels_of;
+use crate::Error;
+use crate::csv::{Table, Value};
+use crate::folder::ResultFolder;
+
+/// The name of the table.
+pub(super) const FILE: &str = "softening.csv";
+
+/// Share of the force at the limit below which a bond that softens in opening counts as parted by a crack.
+pub const OPEN: f64 = 0.1;
+
+/// Words for the two things that a row tells.
+pub(super) const EVENTS: [&str; 2] = ["begins", "opens"];
+
+const COLUMNS: [&str; 5] = ["step", "load_factor", "displacement", "reaction", "event"];
+
+/// The table of a run whose bonds soften.
+pub(super) struct SofteningTable {
+    table: Table,
+    criteria: Vec<String>,
+    /// Number of the rows that each bond has, shape (n_bonds).
+    told: Vec<u8>,
+}
+
+/// How far the table is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Told {
+    pub(super) length: u64,
+    pub(super) of_bonds: Vec<u8>,
+}
+
+serial!(Told { length, of_bonds });
+
+impl SofteningTable {
+    /// Creates the table; none where no bond softens.
+    pub(super) fn create(
+        folder: &ResultFolder,
+        problem: &Problem,
+        tagged: &str,
+    ) -> Result<Option<Self>, Error> {
+        if !problem.criteria.soften() {
+            return Ok(None);
+        }
+        let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
+        let columns: Vec<&str> = (COLUMNS.into_iter())
+            .chain(ends.iter().map(String::as_str))
+            .chain(["criterion"])
+            .collect();
+        Ok(Some(Self {
+            table: Table::create(folder.file(FILE), &columns)?,
+            criteria: labels_of(problem),
+            told: vec![0; problem.system.ends().len()],
+        }))
+    }
+
+    /// The table of a run that goes on, cut back to where it was.
+    pub(super) fn cut_back(
+        folder: &ResultFolder,
+        problem: &Problem,
+        told: Told,
+    ) -> Result<Self, Error> {
+        let n_columns = COLUMNS.len() + 3;
+        Ok(Self {
+            table: Table::cut_back(folder.file(FILE), n_columns, told.length)?,
+            criteria: labels_of(problem),
+            told: told.of_bonds,
+        })
+    }
+
+    /// How far the table is; what it has is safely on the disk when this returns.
+    pub(super) fn told(&self) -> Result<Told, Error> {
+        Ok(Told {
+            length: self.table.synced_length()?,
+            of_bonds: self.told.clone(),
+        })
+    }
+
+    /// Adds what happened since the last step, in it the bonds farthest beyond their limits first.
+    pub(super) fn step(
+        &mut self,
+        record: &StepRecord,
+        view: &View<'_>,
+        tags: &[i64],
+    ) -> Result<(), Error> {
+        for (bond, criterion, now) in self.changed(view) {
+            let told = std::mem::replace(&mut self.told[bond], now);
+            let ends = view.system.ends()[bond].map(|end| tags[end as usize]);
+            for event in &EVENTS[usize::from(told)..usize::from(now)] {
+                self.table.append(&[
+                    record.step.into(),
+                    record.load_factor.into(),
+                    record.displacement.into(),
+                    record.reaction.into(),
+                    Value::Text(event),
+                    ends[0].into(),
+                    ends[1].into(),
+                    Value::Text(&self.criteria[criterion]),
+                ])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Bonds with more to tell than was told, with the criterion and what there is to tell now.
+    fn changed(&self, view: &View<'_>) -> Vec<(usize, usize, u8)> {
+        let softening = &view.state.softening;
+        let mut changed = Vec::new();
+        for (criterion, largest) in softening.largest.iter().enumerate() {
+            let opens = view.criteria.list[criterion].measure.weakens() == Weakened::Opening;
+            for (bond, &largest) in largest.iter().enumerate() {
+                if largest <= 1.0 || self.told[bond] == 2 {
+                    continue;
+                }
+                let force = softening.bond(view.criteria, criterion, bond).force;
+                let now = 1 + u8::from(opens && force < OPEN);
+                if now > self.told[bond] {
+                    changed.push((largest, bond, criterion, now));
+                }
+            }
+        }
+        changed.sort_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
+        // Of a bond that two criteria weaken, what the first says.
+        let mut said = vec![false; self.told.len()];
+        changed.retain(|it| !std::mem::replace(&mut said[it.1], true));
+        changed
+            .into_iter()
+            .map(|(_, bond, criterion, now)| (bond, criterion, now))
+            .collect()
+    }
+}

@@ -1,0 +1,174 @@
+//! Lines over a body: its cracks, the pre-cracks of its case, and lines of a table, such as the cracks of an experiment.
+
+use std::path::Path;
+
+use ligament_output::results::cracks::StoredCracks;
+use ligament_output::{Error, read_text};
+
+use super::PictureError;
+use super::svg::{Document, Paint, PathData};
+use crate::plots::Colour;
+use crate::stored_loading::resolved_case;
+
+/// Colour of pre-cracks.
+const CUT: &str = "#8c8c8c";
+
+/// Widths of lines, pixels: of the cracks and of all others.
+const CRACK_WIDTH: f64 = 1.4;
+const WIDTH: f64 = 1.0;
+
+/// Radius of the mark of a tip, pixels.
+const TIP: f64 = 2.2;
+
+/// Lines of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lines {
+    /// Words of the legend.
+    pub(super) name: String,
+    /// More words, of one state.
+    pub(super) detail: String,
+    /// Colour as `#rrggbb`.
+    pub(super) colour: String,
+    /// Width, pixels.
+    width: f64,
+    /// Corners of each line in the undeformed body, m.
+    pub(super) polylines: Vec<Vec<[f64; 2]>>,
+    /// Places that are marked, m.
+    tips: Vec<[f64; 2]>,
+}
+
+impl Lines {
+    /// The cracks in the state of a step, with their tips.
+    pub(super) fn of_cracks(cracks: &StoredCracks, step: usize) -> Self {
+        let lines = cracks.lines(step);
+        let length: f64 = lines.iter().map(|line| line.length()).sum();
+        Self {
+            name: "crack path".to_owned(),
+            detail: format!(" ({:.1} mm)", 1e3 * length),
+            colour: Colour::Vermilion.hex(),
+            width: CRACK_WIDTH,
+            tips: lines.iter().flat_map(|line| line.tips()).collect(),
+            polylines: lines.into_iter().map(|line| line.places).collect(),
+        }
+    }
+
+    /// The pre-cracks of the case of a run.
+    pub(super) fn of_precracks(folder: &Path) -> Result<Self, PictureError> {
+        let case = resolved_case(folder)?;
+        let all = case.get("precrack").and_then(toml::Value::as_array);
+        Ok(Self {
+            name: "pre-crack".to_owned(),
+            detail: String::new(),
+            colour: CUT.to_owned(),
+            width: CRACK_WIDTH,
+            polylines: all.into_iter().flatten().filter_map(corners).collect(),
+            tips: Vec::new(),
+        })
+    }
+
+    /// The lines of a table `x,y` (m) without quotes, which empty lines part; a first row of words is its header.
+    pub(super) fn of_table(path: &Path, place: usize) -> Result<Self, PictureError> {
+        let text = read_text(path)?;
+        let name = path.file_stem().unwrap_or_default();
+        let colours = [Colour::Blue, Colour::Green, Colour::Purple, Colour::Orange];
+        Ok(Self {
+            name: name.to_string_lossy().into_owned(),
+            detail: String::new(),
+            colour: colours[place % colours.len()].hex(),
+            width: WIDTH,
+            polylines: polylines(path, &text)?,
+            tips: Vec::new(),
+        })
+    }
+
+    /// Draws them by a function from places to pixels.
+    pub(super) fn draw(&self, document: &mut Document, to_pixels: impl Fn([f64; 2]) -> [f64; 2]) {
+        let mut path = PathData::default();
+        for line in &self.polylines {
+            path.line(line.iter().map(|&place| to_pixels(place)));
+        }
+        let stroke = Some((self.colour.as_str(), self.width));
+        document.path(&path, Paint { fill: None, stroke });
+        for &tip in &self.tips {
+            document.circle(to_pixels(tip), TIP, &self.colour);
+        }
+    }
+}
+
+/// The corners of a pre-crack of a resolved case.
+fn corners(precrack: &toml::Value) -> Option<Vec<[f64; 2]>> {
+    let number = |value: &toml::Value| {
+        let whole = || value.as_integer().map(|it| it as f64);
+        value.as_float().or_else(whole)
+    };
+    let point = |value: &toml::Value| {
+        let pair = value.as_array()?;
+        Some([number(pair.first()?)?, number(pair.get(1)?)?])
+    };
+    if let Some(points) = precrack.get("points") {
+        return points.as_array()?.iter().map(point).collect();
+    }
+    let [x, y] = point(precrack.get("centre")?)?;
+    let half = 0.5 * number(precrack.get("length")?)?;
+    let (sine, cosine) = number(precrack.get("angle")?)?.sin_cos();
+    let [along, up] = [half * cosine, half * sine];
+    Some(vec![[x - along, y - up], [x + along, y + up]])
+}
+
+/// The lines of a text of rows `x,y`.
+fn polylines(path: &Path, text: &str) -> Result<Vec<Vec<[f64; 2]>>, PictureError> {
+    let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
+    for (number, row) in (1..).zip(text.lines()) {
+        let words: Vec<&str> = row.split([',', ';']).map(str::trim).collect();
+        let numbers: Option<Vec<f64>> = words.iter().map(|it| it.parse().ok()).collect();
+        let numbers = numbers.filter(|all| all.iter().all(|it| it.is_finite()));
+        match numbers.as_deref() {
+            Some(&[x, y, ..]) => lines.last_mut().into_iter().for_each(|it| it.push([x, y])),
+            _ if words.iter().all(|it| it.is_empty()) => lines.push(Vec::new()),
+            _ if number == 1 => {}
+            _ => {
+                return Err(PictureError::Results(Error::Unreadable {
+                    path: path.to_path_buf(),
+                    reason: format!(
+                        "row {number}, `{row}`, is no place x,y in m (empty rows part lines, the first may be a header)"
+                    ),
+                }));
+            }
+        }
+    }
+    lines.retain(|line| line.len() > 1);
+    if lines.is_empty() {
+        return Err(PictureError::Results(Error::Unreadable {
+            path: path.to_path_buf(),
+            reason: "it has no two places x,y in m that a line could join".to_owned(),
+        }));
+    }
+    Ok(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn empty_rows_part_the_lines_of_a_table() {
+        let path = Path::new("band.csv");
+        let text = "x,y\n0, 1e-3\n0.01,0.002\n\n,\n0.5;0.5\n0.6;0.5\n0.7;0.5\n\n9,9\n";
+        let lines = polylines(path, text).unwrap();
+        assert_eq!(lines[0], [[0.0, 1e-3], [0.01, 2e-3]]);
+        assert_eq!((lines.len(), lines[1].len()), (2, 3));
+        let error = |text: &str| polylines(path, text).unwrap_err().to_string();
+        assert!(error("0,1\n0.1,abc\n").contains("row 2, `0.1,abc`"));
+        assert!(error("0,1\n0.1\n").contains("row 2"));
+        assert!(error("x,y\n0,1\n").contains("no two places"));
+    }
+
+    #[test]
+    fn precracks_are_polylines_or_straight() {
+        let of = |text: &str| corners(&toml::Value::Table(text.parse().unwrap())).unwrap();
+        let bent = of("points = [[0, 0.1], [0.2, 0.1], [0.3, 0]]");
+        assert_eq!(bent, [[0.0, 0.1], [0.2, 0.1], [0.3, 0.0]]);
+        let line = of("centre = [1.0, 2.0]\nlength = 2\nangle = 1.5707963267948966");
+        assert!((line[1][1] - 3.0).abs() < 1e-15 && (line[0][0] - 1.0).abs() < 1e-15);
+    }
+}

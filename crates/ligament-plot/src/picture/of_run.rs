@@ -1,0 +1,61 @@
+//! The pictures of a run at its end.
+
+use std::path::{Path, PathBuf};
+
+use ligament_output::results::outputs::{OutputKind, kind_of};
+
+use super::PictureError;
+use super::curve::{CurveRequest, draw_curves};
+use super::fields::draw_fields;
+use super::request::{FieldRequest, Magnification};
+use super::select::Choice;
+use super::target::Target;
+use crate::stored_loading::resolved_case;
+
+/// Whether the case of a run asks for pictures at its end, by `output.picture = true`.
+pub fn asks_for_pictures(folder: &Path) -> bool {
+    let case = resolved_case(folder).ok();
+    let asked = |case: toml::Table| case.get("output")?.get("picture")?.as_bool();
+    case.and_then(asked).unwrap_or(false)
+}
+
+/// Draws the last state of a run, or its first modes, and of a run that breaks bonds the curve of force over displacement, as PNG into
+/// its folder; returns where they are.
+///
+/// # Errors
+///
+/// If there are no such results, or a picture cannot be written.
+pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
+    let folders = vec![folder.to_path_buf()];
+    let target = Target {
+        out: None,
+        format: None,
+        width: None,
+        dpi: None,
+    };
+    let mut drawn = vec![draw_fields(&FieldRequest {
+        folders: folders.clone(),
+        labels: Vec::new(),
+        field: None,
+        choice: Choice::Default,
+        magnification: Magnification::Auto,
+        crack: None,
+        lines: Vec::new(),
+        window: None,
+        bands: None,
+        range: None,
+        map: None,
+        columns: None,
+        target: target.clone(),
+    })?];
+    let breaks = resolved_case(folder)?.contains_key("fracture");
+    if breaks && kind_of(folder) == OutputKind::Steps {
+        drawn.push(draw_curves(&CurveRequest {
+            folders,
+            labels: Vec::new(),
+            columns: ["displacement", "reaction"].map(str::to_owned),
+            target,
+        })?);
+    }
+    Ok(drawn)
+}

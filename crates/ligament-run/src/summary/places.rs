@@ -1,0 +1,101 @@
+//! Where a body gave way first, and what held it at the largest load.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use ligament::Model;
+use ligament_analysis::driver::Outcome;
+use ligament_analysis::first_bonds::FirstBond;
+use ligament_analysis::history::StepRecord;
+use ligament_analysis::{Component, Layout, LoadProgram};
+use ligament_output::results::criterion_labels;
+use serde::Serialize;
+
+/// A bond that broke or began to soften before all others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BondEvent {
+    /// Tags of the ends of the bond.
+    pub ends: [u64; 2],
+    /// Middle of the bond, m.
+    pub place: [f64; 2],
+    /// Load step or event.
+    pub step: usize,
+    /// Load factor.
+    pub load_factor: f64,
+    /// Displacement of the first load.
+    pub displacement: f64,
+    /// Force of the first load.
+    pub reaction: f64,
+    /// The criterion.
+    pub criterion: String,
+    /// What tags are of: `node` or `cell`.
+    #[serde(skip)]
+    tagged: &'static str,
+}
+
+/// Resultant of what a group with supports or loads exerts on the body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Resultant {
+    /// Force along x, N.
+    pub force_x: f64,
+    /// Force along y, N.
+    pub force_y: f64,
+    /// Sum of the moments on its points, N m.
+    pub moment: f64,
+}
+
+impl BondEvent {
+    /// What happened to a bond of a model.
+    pub(super) fn new(model: &Model, first: &FirstBond) -> Self {
+        let bonds = &model.system.bonds;
+        let ends = bonds.ends[first.bond as usize];
+        let [a, b] = ends.map(|end| model.system.cloud.positions[end as usize]);
+        let origin = model.system.cloud.origin;
+        let criteria = model.criteria.list.iter().map(|it| it.name);
+        let mut labels = criterion_labels(criteria);
+        Self {
+            ends: ends.map(|end| model.body().tag(end)),
+            place: [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]) + origin[axis]),
+            step: first.step,
+            load_factor: first.load_factor,
+            displacement: first.displacement,
+            reaction: first.reaction,
+            criterion: labels.swap_remove(first.criterion as usize),
+            tagged: model.body().tagged(),
+        }
+    }
+}
+
+impl fmt::Display for BondEvent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([a, b], [x, y]) = (self.ends, self.place);
+        let (tagged, criterion) = (self.tagged, &self.criterion);
+        write!(
+            f,
+            "{tagged}s {a} and {b}, at ({x:.5}, {y:.5}) m, in step {}, by {criterion}",
+            self.step
+        )
+    }
+}
+
+/// The resultants of all groups at the record at rest with the largest reaction, by their names as in the history.
+pub(super) fn resultants_at_peak(
+    loads: &dyn LoadProgram,
+    layout: Layout,
+    outcome: &Outcome,
+) -> BTreeMap<String, Resultant> {
+    let at_rest = outcome.history.iter().filter(|record| record.at_rest);
+    let higher = |best: &'_ StepRecord, record: &'_ StepRecord| record.reaction > best.reaction;
+    let peak = at_rest.reduce(|best, record| if higher(best, record) { record } else { best });
+    let groups = loads.groups().iter().map(|group| group.name.clone());
+    let forces = peak.iter().flat_map(|record| &record.group_forces);
+    let resultant = |force: &Vec<f64>| {
+        let [force_x, force_y, moment] = Component::ALL.map(|it| layout.value(0, it, force));
+        Resultant {
+            force_x,
+            force_y,
+            moment,
+        }
+    };
+    groups.zip(forces.map(resultant)).collect()
+}

@@ -1,0 +1,229 @@
+//! Springs, inclined rollers and platens of a setup on the points of its body.
+
+use ligament_analysis::{Component, ProportionalLoading, Restraint, Restraints};
+use ligament_model::{BondSystem, Bonds};
+
+use super::boundary::Acting;
+use super::places::Places;
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Action, Load, Setup, Support};
+
+/// Stiffness of inclined rollers and platens over that of a point against its neighbours: they give way by one in this of what the bonds
+/// of a point do, and a force loses no more digits than it can spare.
+const RIGID: f64 = 1e6;
+
+/// A loading with the components of the bonds alone and the restraints of a setup; far ends move where their loads act.
+pub(super) fn restrained(
+    setup: &Setup,
+    system: &BondSystem,
+    loading: ProportionalLoading,
+    acting: Acting,
+) -> Result<ProportionalLoading, SetupError> {
+    let loading = loading.reduced(system.layout());
+    let is_restrained = setup.supports.iter().any(Support::is_restraint);
+    if !is_restrained && !setup.loads.iter().any(Load::is_restraint) {
+        return Ok(loading);
+    }
+    let cloud = &system.cloud;
+    let mut restraining = Restraining {
+        places: Places { setup, cloud },
+        system,
+        rigid: (system.point_stiffness().iter())
+            .map(|it| RIGID * it.force)
+            .collect(),
+        list: Vec::new(),
+        driving: vec![0.0; system.layout().n_degrees_of_freedom()],
+    };
+    for (index, support) in setup.supports.iter().enumerate() {
+        if support.is_restraint() {
+            restraining.support(Field::element("supports", index), support)?;
+        }
+    }
+    for (index, load) in setup.loads.iter().enumerate() {
+        if load.is_restraint() {
+            let acts = acting == Acting::All || acting == Acting::Load(index);
+            restraining.load(Field::element("loads", index), load, acts)?;
+        }
+    }
+    Ok(ProportionalLoading {
+        restraints: Restraints::new(system.layout(), restraining.list).into(),
+        driving: restraining.driving,
+        ..loading
+    })
+}
+
+/// Restraints so far.
+struct Restraining<'a> {
+    places: Places<'a>,
+    system: &'a BondSystem,
+    /// Stiffness at each point that counts as rigid, shape (n_points), N/m.
+    rigid: Vec<f64>,
+    list: Vec<Restraint>,
+    /// Forces of moved far ends on a body that does not move, shape (n_degrees_of_freedom), N.
+    driving: Vec<f64>,
+}
+
+impl Restraining<'_> {
+    fn support(&mut self, field: Field, support: &Support) -> Result<(), SetupError> {
+        let points = self.places.points(field, &support.place)?;
+        let shares = self.places.shares(&support.place, &points);
+        for (component, total) in support.stiffness.components() {
+            for &(point, share) in &shares {
+                let dof = self.system.layout().degree_of_freedom(point, component);
+                let along = dof.map(|dof| (dof as u32, 1.0));
+                self.list
+                    .extend(along.map(|it| Restraint::spring(&[it], share * total)));
+            }
+        }
+        let Some(normal) = support.restrained_normal() else {
+            return Ok(());
+        };
+        let normal = unit(normal);
+        for (point, share) in shares {
+            let total = support.stiffness.normal.map(|total| share * total);
+            let stiffness = total.unwrap_or(self.rigid[point as usize]);
+            let along = self.along(normal, point, 1.0);
+            self.list.push(Restraint::spring(&along, stiffness));
+        }
+        Ok(())
+    }
+
+    fn load(&mut self, field: Field, load: &Load, acts: bool) -> Result<(), SetupError> {
+        let points = self.places.points(field, &load.place)?;
+        let motion = match load.action {
+            Action::Displacement(it) => Some([it.x, it.y].map(|it| it.unwrap_or(0.0))),
+            _ => None,
+        };
+        let direction = match (motion, load.action) {
+            (Some(motion), _) => motion,
+            (None, Action::Force(force)) => force,
+            (None, _) => return Ok(()),
+        };
+        let (direction, size) = (unit(direction), direction[0].hypot(direction[1]));
+        if size == 0.0 {
+            return Err(field.error(Fault::ZeroControl));
+        }
+        let first = self.list.len();
+        if load.tilts {
+            let is_driven = motion.is_some() && load.stiffness.is_none();
+            self.platen(field, &points, direction, is_driven)?;
+        }
+        if let Some(total) = load.stiffness {
+            let shares = self.places.shares(&load.place, &points);
+            if load.tilts {
+                let share = 1.0 / points.len() as f64;
+                let mean = points
+                    .iter()
+                    .flat_map(|&it| self.along(direction, it, share));
+                let mean: Vec<(u32, f64)> = mean.collect();
+                self.list.push(Restraint::spring(&mean, total));
+            } else {
+                let springs = shares.iter().map(|&(point, share)| {
+                    Restraint::spring(&self.along(direction, point, 1.0), share * total)
+                });
+                let springs: Vec<Restraint> = springs.collect();
+                self.list.extend(springs);
+            }
+        }
+        if motion.is_some() && acts {
+            let factors = self.places.factors(field, load.profile.as_ref(), &points)?;
+            self.drive(first, (&points, &factors), direction.map(|it| size * it));
+        }
+        Ok(())
+    }
+
+    /// A rigid platen on some points. Their displacements v_i along a direction are a + b s_i with the places s_i across it, from their middle:
+    /// of the others a part e costs k e^2/2, with the stiffness k of a point that counts as rigid. Where it is driven, a costs as much.
+    fn platen(
+        &mut self,
+        field: Field,
+        points: &[u32],
+        direction: [f64; 2],
+        is_driven: bool,
+    ) -> Result<(), SetupError> {
+        let n = points.len() as f64;
+        let across = |&point: &u32| {
+            let [x, y] = self.system.cloud.positions[point as usize];
+            direction[0] * y - direction[1] * x
+        };
+        let places: Vec<f64> = points.iter().map(across).collect();
+        let middle = places.iter().sum::<f64>() / n;
+        let places: Vec<f64> = places.iter().map(|it| it - middle).collect();
+        let squares: f64 = places.iter().map(|it| it * it).sum();
+        let spacing = self.system.cloud.spacing[points[0] as usize];
+        if squares < spacing * spacing {
+            return Err(field.part("tilts").error(Fault::NoPlaten {
+                points: points.len(),
+            }));
+        }
+        let stiffness = points.iter().map(|&it| self.rigid[it as usize]);
+        let stiffness = stiffness.fold(0.0, f64::max);
+        let mean = if is_driven { 0.0 } else { 1.0 / n };
+        let entries = |row: usize| {
+            let places = &places;
+            (0..places.len()).map(move |column| {
+                let own = if row == column { 1.0 } else { 0.0 };
+                stiffness * (own - mean - places[row] * places[column] / squares)
+            })
+        };
+        let between: Vec<Vec<f64>> = (0..places.len())
+            .map(|row| entries(row).collect())
+            .collect();
+        let along: Vec<Vec<(u32, f64)>> = (points.iter())
+            .map(|&point| self.along(direction, point, 1.0))
+            .collect();
+        let all = || {
+            along.iter().enumerate().flat_map(|(place, of_point)| {
+                of_point
+                    .iter()
+                    .map(move |&(dof, cosine)| (place, dof, cosine))
+            })
+        };
+        let row = |(place, _, cosine): (usize, u32, f64)| {
+            let between = &between[place];
+            all().map(move |(other, _, of_other)| cosine * of_other * between[other])
+        };
+        self.list.push(Restraint {
+            degrees_of_freedom: all().map(|(_, dof, _)| dof).collect(),
+            stiffness: all().flat_map(row).collect(),
+        });
+        Ok(())
+    }
+
+    /// Moves the far ends of the restraints from `first` on: those at some points by a motion times their factors.
+    fn drive(&mut self, first: usize, (points, factors): (&[u32], &[f64]), motion: [f64; 2]) {
+        let layout = self.system.layout();
+        let mut far_ends = vec![0.0; self.driving.len()];
+        for (&point, factor) in points.iter().zip(factors) {
+            for (component, value) in [Component::X, Component::Y].into_iter().zip(motion) {
+                if let Some(dof) = layout.degree_of_freedom(point, component) {
+                    far_ends[dof] = factor * value;
+                }
+            }
+        }
+        for restraint in &self.list[first..] {
+            let own = restraint.degrees_of_freedom.iter();
+            let own: Vec<f64> = own.map(|&dof| far_ends[dof as usize]).collect();
+            for (dof, force) in restraint.forces(&own) {
+                self.driving[dof as usize] += force;
+            }
+        }
+    }
+
+    /// The displacement of a point along a direction times a factor: its degrees of freedom with their parts in it.
+    fn along(&self, direction: [f64; 2], point: u32, factor: f64) -> Vec<(u32, f64)> {
+        let layout = self.system.layout();
+        let parts = [Component::X, Component::Y].into_iter().zip(direction);
+        let parts = parts.filter(|(_, cosine)| *cosine != 0.0);
+        let part = |(component, cosine)| {
+            let dof = layout.degree_of_freedom(point, component)?;
+            Some((dof as u32, factor * cosine))
+        };
+        parts.filter_map(part).collect()
+    }
+}
+
+fn unit([x, y]: [f64; 2]) -> [f64; 2] {
+    let length = x.hypot(y);
+    [x / length, y / length]
+}

@@ -1,0 +1,148 @@
+//! What supports and loads with springs, rollers and platens must be.
+
+use super::check::{Checked, contradiction, positive};
+use super::{Action, Analysis, Form, Law, Load, Setup, Support};
+use crate::error::Field;
+
+impl Support {
+    /// Whether it resists without holding still, by springs or along a direction between the axes.
+    pub fn is_restraint(&self) -> bool {
+        self.restrained_normal().is_some() || self.stiffness.components().next().is_some()
+    }
+
+    /// The normal, where it has a spring or lies between the axes.
+    pub fn restrained_normal(&self) -> Option<[f64; 2]> {
+        let has_spring = self.stiffness.normal.is_some();
+        self.normal
+            .filter(|[x, y]| has_spring || (*x != 0.0 && *y != 0.0))
+    }
+}
+
+impl Load {
+    /// Whether it acts through springs or a platen.
+    pub fn is_restraint(&self) -> bool {
+        self.stiffness.is_some() || self.tilts
+    }
+}
+
+impl Setup {
+    pub(super) fn check_restraints(&self) -> Checked {
+        for (index, support) in self.supports.iter().enumerate() {
+            let field = Field::element("supports", index);
+            check_support(field, support)?;
+            if support.is_restraint() {
+                self.check_takes_restraints(field)?;
+            }
+            let has_rotations = self.law.rotational_profile().is_some();
+            if support.stiffness.rotation.is_some() && !has_rotations {
+                let reason =
+                    "points have no rotations under this law: springs against them act on nothing";
+                return contradiction(field.part("stiffness"), reason);
+            }
+        }
+        for (index, load) in self.loads.iter().enumerate() {
+            let field = Field::element("loads", index);
+            check_load(field, load)?;
+            if load.is_restraint() {
+                self.check_takes_restraints(field)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_takes_restraints(&self, field: Field) -> Checked {
+        if matches!(self.analysis, Analysis::Modal(_)) {
+            let reason = "natural modes know supports that hold alone, no springs, inclined rollers or platens: give a `displacement`";
+            return contradiction(field, reason);
+        }
+        let is_pairwise = matches!(
+            self.law,
+            Law::MbbPd {
+                form: Form::Pairwise,
+                ..
+            }
+        );
+        if is_pairwise {
+            let reason = "springs, inclined rollers and platens need a stiffness with symmetry: take `Form::Full`";
+            return contradiction(field, reason);
+        }
+        Ok(())
+    }
+}
+
+fn check_support(field: Field, support: &Support) -> Checked {
+    let Support {
+        x,
+        y,
+        rotation,
+        normal,
+        stiffness,
+        ..
+    } = support;
+    for value in [
+        stiffness.x,
+        stiffness.y,
+        stiffness.rotation,
+        stiffness.normal,
+    ] {
+        positive(field.part("stiffness"), value)?;
+    }
+    if let Some(normal) = normal {
+        if *normal == [0.0; 2] || !normal.iter().all(|it| it.is_finite()) {
+            return contradiction(
+                field.part("normal"),
+                "must be a direction other than [0, 0]",
+            );
+        }
+        if *x || *y {
+            let reason = "a support holds components of the `displacement` or one direction between them, its `normal`: give one of \
+                          the two, or two supports";
+            return contradiction(field.part("normal"), reason);
+        }
+    } else if stiffness.normal.is_some() {
+        let reason = "`normal` of the stiffness needs the direction `normal` of the support";
+        return contradiction(field.part("stiffness"), reason);
+    }
+    let twice = [
+        (x, stiffness.x),
+        (y, stiffness.y),
+        (rotation, stiffness.rotation),
+    ];
+    if twice
+        .iter()
+        .any(|(held, spring)| **held && spring.is_some())
+    {
+        let reason = "a component is held by `displacement` or by a spring, not by both";
+        return contradiction(field.part("stiffness"), reason);
+    }
+    match support.components().next().is_some() || support.is_restraint() {
+        true => Ok(()),
+        false => contradiction(
+            field,
+            "holds nothing: give a `displacement`, a `normal` or a `stiffness`",
+        ),
+    }
+}
+
+fn check_load(field: Field, load: &Load) -> Checked {
+    positive(field.part("stiffness"), load.stiffness)?;
+    let in_plane = match load.action {
+        Action::Displacement(it) => it.rotation.is_none() && (it.x.is_some() || it.y.is_some()),
+        _ => false,
+    };
+    if load.stiffness.is_some() && !in_plane {
+        let reason = "only a `displacement` along x and y goes through springs";
+        return contradiction(field.part("stiffness"), reason);
+    }
+    let is_force = matches!(load.action, Action::Force(_));
+    if load.tilts && !in_plane && !is_force {
+        let reason = "a platen tilts under a `displacement` along x and y or under a `force`";
+        return contradiction(field.part("tilts"), reason);
+    }
+    if load.tilts && in_plane && load.profile.is_some() {
+        let reason =
+            "a platen moves by the mean of its points: a `profile` goes with a `force` alone";
+        return contradiction(field.part("tilts"), reason);
+    }
+    Ok(())
+}
