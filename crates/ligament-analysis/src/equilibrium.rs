@@ -1,6 +1,8 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
 mod active_set;
+mod anderson;
+mod controlled;
 mod curvature;
 mod equations;
 mod external;
@@ -29,6 +31,7 @@ use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
+pub(crate) use controlled::Target;
 pub(crate) use residual::ROUNDING;
 
 /// A way to equilibrium.
@@ -47,6 +50,7 @@ pub struct Equilibrium {
     equations: Equations,
     connectivity: Connectivity,
     iteration: Iteration,
+    target: Option<Target>,
 }
 
 impl Equilibrium {
@@ -58,6 +62,7 @@ impl Equilibrium {
     /// If the factor is too large.
     pub fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         Ok(Self {
+            target: None,
             equations: Equations::new(problem, energy_tolerance)?,
             connectivity: Connectivity::new(&*problem.system),
             iteration: if problem.system.faces_close() {
@@ -103,6 +108,11 @@ impl Equilibrium {
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
         self.equations.load_with(loads);
+    }
+
+    /// From now on seeks equilibrium at a value of a motion, whatever the load factor; None: at the load factor of the state.
+    pub(crate) fn aim(&mut self, target: Option<Target>) {
+        self.target = target;
     }
 
     /// The unknowns.
@@ -218,10 +228,13 @@ impl Equilibrium {
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
-        let attempt = match self.iteration {
-            Iteration::Newton => newton::balance(equations, state, breakage, observer),
-            Iteration::ActiveSet => active_set::balance(equations, state, breakage, observer),
-            Iteration::Secants => secant::balance(equations, state, breakage, observer),
+        let attempt = match (&self.target, self.iteration) {
+            (Some(target), _) => controlled::balance(equations, state, breakage, target, observer),
+            (None, Iteration::Newton) => newton::balance(equations, state, breakage, observer),
+            (None, Iteration::ActiveSet) => {
+                active_set::balance(equations, state, breakage, observer)
+            }
+            (None, Iteration::Secants) => secant::balance(equations, state, breakage, observer),
         }?;
         let Attempt::Balanced(balanced) = &attempt else {
             return Ok(attempt);

@@ -7,7 +7,7 @@ use crate::balanced::Balanced;
 use crate::contact;
 use crate::fields;
 use crate::state::State;
-use crate::unknowns::Component;
+use crate::unknowns::{Component, Layout};
 
 /// A column of the history.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,6 +73,26 @@ pub enum StressComponent {
 }
 
 impl Reading {
+    /// Degrees of freedom whose motions, times their weights, add up to the reading; None where it is no motion.
+    pub fn weights(&self, layout: Layout) -> Option<Vec<(u32, f64)>> {
+        let motions = match self {
+            Self::RelativeDisplacement {
+                points: [first, second],
+                component,
+            } => vec![(*first, *component, -1.0), (*second, *component, 1.0)],
+            Self::Field {
+                point,
+                field: PointField::Motion(component),
+            } => vec![(*point, *component, 1.0)],
+            Self::Field { .. } | Self::SectionForce { .. } => return None,
+        };
+        let weight = |(point, component, weight): (u32, Component, f64)| {
+            let dof = layout.degree_of_freedom(point, component)?;
+            Some((dof as u32, weight))
+        };
+        Some(motions.into_iter().filter_map(weight).collect())
+    }
+
     /// The value in a state of equilibrium.
     pub fn value(
         &self,

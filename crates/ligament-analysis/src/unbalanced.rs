@@ -72,6 +72,8 @@ pub enum Unbalanced {
         /// The energy of the motions, J.
         energy: f64,
     },
+    /// The loads of a stage do not move what controls it.
+    Unmoved,
     /// The matrix could not be factorised.
     NoFactor(FactorError),
 }
@@ -142,6 +144,8 @@ impl Unbalanced {
             Self::NegativeEnergy { energy } => {
                 format!("the stiffness lost stability: negative strain energy {energy:.3e} J")
             }
+            Self::Unmoved => "the loads of the stage do not move the probe that controls it: let another probe control it, or another load \
+                              grow".to_owned(),
             Self::NoFactor(error) => format!("the stiffness has no factor: {error}"),
         }
     }

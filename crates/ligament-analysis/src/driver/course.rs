@@ -27,6 +27,8 @@ pub(super) struct Course {
     pub(super) part_start: Vec<f64>,
     /// Part of the programme; 0 without one.
     pub(super) part: usize,
+    /// Value of the motion that controls the present part at its start, m or rad; 0 where none does.
+    pub(super) motion_start: f64,
     /// Largest force at a point in any record, N.
     pub(super) largest_force: f64,
     /// Faces of cracks that passed through each other farthest.
@@ -43,6 +45,7 @@ serial!(Course {
     negative_eigenvalues,
     part_start,
     part,
+    motion_start,
     largest_force,
     overlap,
 });

@@ -17,7 +17,7 @@ use super::start::{Start, begin, report_loose, report_mechanisms};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
-use crate::equilibrium::Equilibrium;
+use crate::equilibrium::{Equilibrium, Target};
 use crate::error::SetupError;
 use crate::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
@@ -107,6 +107,7 @@ impl<'a> Path<'a> {
                     .course()
                     .map_or_else(Vec::new, LoadCourse::start),
                 part: 0,
+                motion_start: 0.0,
                 largest_force: 0.0,
                 overlap: None,
             },
@@ -167,8 +168,35 @@ impl<'a> Path<'a> {
         };
         self.state.load_factor = begins;
         (self.course.part, self.course.part_start) = (part, start);
+        let control = loads.course().and_then(LoadCourse::control);
+        let motion = control.map(|it| it.value(&self.state.displacement));
+        self.course.motion_start = motion.unwrap_or(0.0);
         self.problem.loads = loads.clone();
         self.equilibrium.load_with(loads);
+    }
+
+    /// Seeks equilibrium from here on after a share of the present part: of the way of the motion that controls it, or else at the load
+    /// factor of the state.
+    pub(super) fn aim(&mut self, share: f64) {
+        let loads = &self.problem.loads;
+        let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
+        let target = control.and_then(|(course, control)| {
+            let start = self.course.motion_start;
+            let way = control.end - start;
+            Some(Target {
+                rate: loads.in_course(course.rate())?,
+                weights: control.weights.clone(),
+                value: start + share * way,
+                way,
+            })
+        });
+        self.equilibrium.aim(target);
+    }
+
+    /// Whether a motion controls the present part.
+    pub(super) fn is_controlled(&self) -> bool {
+        let course = self.problem.loads.course();
+        course.and_then(LoadCourse::control).is_some()
     }
 
     /// Factor of the control load in a record.
@@ -195,6 +223,7 @@ impl<'a> Path<'a> {
     ) -> Result<Attempt, SetupError> {
         let displacement = self.state.displacement.clone();
         let softening = self.state.softening.clone();
+        let load_factor = self.state.load_factor;
         let mut attempt = (self.equilibrium).balance(&mut self.state, breakage, self.observer)?;
         let mut is_negative = false;
         if let Attempt::Balanced(Balanced {
@@ -210,6 +239,7 @@ impl<'a> Path<'a> {
         if let Attempt::Unbalanced(_) = attempt {
             self.state.displacement = displacement;
             self.state.softening = softening;
+            self.state.load_factor = load_factor;
             return Ok(attempt);
         }
         if is_negative && !std::mem::replace(&mut self.course.energy_was_negative, true) {

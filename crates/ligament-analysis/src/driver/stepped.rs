@@ -107,6 +107,7 @@ pub fn resume(
         settings,
         plan: &plan,
     };
+    stepping.path.aim(plan[counters.step].load_factor);
     let termination = match stepping.come_to_rest(counters, balanced)? {
         Some(end) => end,
         None => stepping.steps_from(counters.step + 1)?,
@@ -119,7 +120,7 @@ pub fn resume(
 struct LoadStep {
     /// Part of the programme of stages; 0 without one.
     part: usize,
-    /// Load factor at its end.
+    /// Load factor at its end, or the share of the way of the motion that controls its part.
     load_factor: f64,
 }
 
@@ -195,7 +196,10 @@ impl Stepping<'_> {
     fn load_step(&mut self, step: usize) -> Result<Option<Termination>, SetupError> {
         let LoadStep { part, load_factor } = self.plan[step];
         self.path.begin_part(part);
-        self.path.state.load_factor = load_factor;
+        self.path.aim(load_factor);
+        if !self.path.is_controlled() {
+            self.path.state.load_factor = load_factor;
+        }
         let counters = StepCounters {
             step,
             ..Default::default()
@@ -277,6 +281,10 @@ impl Stepping<'_> {
     /// What ends the run in an equilibrium that is at rest. A load that is taken back is no failure, and shows what the body
     /// can carry only when it is again as large as it was.
     fn end_at_rest(&self, balanced: &Balanced, step: usize) -> Option<Termination> {
+        if self.path.is_controlled() {
+            let end = self.path.end_at_rest(balanced);
+            return end.or_else(|| self.path.end_by_load_fraction(balanced));
+        }
         let loads = &self.path.problem.loads;
         let size = loads.control_factor(self.path.state.load_factor).abs();
         let before = self.path.course.history[..step].iter();

@@ -30,6 +30,26 @@ pub struct Part {
     pub ends: Vec<Option<f64>>,
     /// Equal load steps of the part.
     pub steps: usize,
+    /// The motion that grows steadily in the part, while the load factor follows from it; the load factor grows where there is none.
+    pub control: Option<MotionControl>,
+}
+
+/// A linear function of the displacements that grows steadily in a stage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionControl {
+    /// Degrees of freedom with their weights.
+    pub weights: Vec<(u32, f64)>,
+    /// Value at the end of the stage, m or rad.
+    pub end: f64,
+}
+
+impl MotionControl {
+    /// The value in displacements (n_degrees_of_freedom), m or rad.
+    pub fn value(&self, displacement: &[f64]) -> f64 {
+        let terms = self.weights.iter();
+        let terms = terms.map(|&(dof, weight)| weight * displacement[dof as usize]);
+        terms.sum()
+    }
 }
 
 /// The factors of the loads in a part of a programme.
@@ -122,6 +142,11 @@ impl LoadCourse {
             span: (0.0, 1.0),
             ..self.clone()
         }
+    }
+
+    /// The motion that controls the part, if one does.
+    pub fn control(&self) -> Option<&MotionControl> {
+        self.programme.parts[self.part].control.as_ref()
     }
 
     /// The share w of the part that is over at a load factor.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::require_column_name;
+use super::values::{exactly_one, one_of, require_column_name};
 use ligament::setup;
 
 /// Load steps of a stage at most: each has a row in the history.
@@ -30,6 +30,23 @@ pub struct Stage {
     /// Equal load steps of the stage; not on the exact path, nor in an elastic analysis.
     #[schemars(range(min = 1, max = MOST_STEPS))]
     pub steps: Option<u32>,
+    /// What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
+    /// peaks and snap-backs; load steps alone. Without it the factors grow.
+    pub control: Option<Control>,
+}
+
+/// A motion that controls a stage: one probe, or the sum of several with weights.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["probe", "probes"])))]
+pub struct Control {
+    /// Name of a probe that reads a displacement or one between two points.
+    pub probe: Option<String>,
+    /// Weights of such probes, by their names.
+    #[schemars(extend("minProperties" = 1))]
+    pub probes: Option<BTreeMap<String, f64>>,
+    /// The value at the end of the stage, in the unit of the probe.
+    pub to: f64,
 }
 
 /// The factors that a load goes to in a stage.
@@ -51,12 +68,27 @@ impl Stage {
         require_column_name(|| key.child("name"), name)
     }
 
-    pub(super) fn setup(&self, _: &KeyPath) -> Result<setup::Stage, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Stage, KeyFault> {
         let course = |(name, factors): (&String, &Factors)| (name.clone(), factors.course());
         Ok(setup::Stage {
             name: self.name.clone().unwrap_or_default(),
             loads: self.loads.iter().map(course).collect(),
             steps: self.steps.map(|steps| steps as usize),
+            control: match &self.control {
+                Some(control) => Some(control.setup(&key.child("control"))?),
+                None => None,
+            },
+        })
+    }
+}
+
+impl Control {
+    fn setup(&self, key: &KeyPath) -> Result<setup::Control, KeyFault> {
+        let one = self.probe.clone().map(|name| vec![(name, 1.0)]);
+        let several = self.probes.clone().map(|it| it.into_iter().collect());
+        Ok(setup::Control {
+            probes: one_of(key, [("probe", one), ("probes", several)])?,
+            to: self.to,
         })
     }
 }

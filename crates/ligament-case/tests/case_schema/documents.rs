@@ -46,8 +46,11 @@ field = "damage"
 name = "force"
 section = [[0, 0], [1, 0]]
 component = "y"
-[fracture]
+[[stage]]
+loads = { top = 1 }
 steps = 10
+control = { probes = { opening = 1.0 }, to = 1e-4 }
+[fracture]
 stop = { load_fraction = 0.5 }
 scatter = { of = "strength", modulus = 12 }
 criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4 }]

@@ -56,7 +56,7 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
-        let staged = staged(setup, system)?;
+        let staged = staged(setup, system, &probes)?;
         let boundary = restrained(setup, system, boundary, Acting::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use ligament_analysis::{
-    Component, Layout, LoadCourse, Part, Programme, ProportionalLoading, StagedLoading,
+    Component, Layout, LoadCourse, MotionControl, Part, Probe, Programme, ProportionalLoading,
+    StagedLoading,
 };
 use ligament_model::{BondSystem, Bonds};
 
@@ -38,8 +39,7 @@ impl Setup {
     }
 }
 
-/// Each load of a setup with stages by itself, in the first part of the programme that the stages are;
-/// None without stages.
+/// Each load of a setup with stages by itself, in the first part of the programme that the stages are; None without stages.
 ///
 /// # Errors
 ///
@@ -47,6 +47,7 @@ impl Setup {
 pub(super) fn staged(
     setup: &Setup,
     system: &BondSystem,
+    probes: &[Probe],
 ) -> Result<Option<StagedLoading>, SetupError> {
     if setup.stages.is_empty() {
         return Ok(None);
@@ -67,14 +68,39 @@ pub(super) fn staged(
         temperature,
         stages: setup.stages.iter().map(|it| it.name.clone()).collect(),
         names,
-        parts: parts(setup),
+        parts: controlled_parts(setup, system.layout(), probes),
     };
     let start = vec![0.0; programme.names.len()];
     let course = LoadCourse::new(Arc::new(programme), 0, &start);
     Ok(Some(StagedLoading::new(loads.into(), course)))
 }
 
-/// The parts of all stages.
+/// The parts of all stages with what controls them.
+fn controlled_parts(setup: &Setup, layout: Layout, probes: &[Probe]) -> Vec<Part> {
+    let mut parts = parts(setup);
+    for part in &mut parts {
+        let control = setup.stages[part.stage].control.as_ref();
+        part.control = control.map(|it| motion(it, layout, probes));
+    }
+    parts
+}
+
+/// The motion that the probes of a control add up to.
+fn motion(control: &setup::Control, layout: Layout, probes: &[Probe]) -> MotionControl {
+    let of_probe = |(name, factor): &(String, f64)| {
+        let probe = probes.iter().find(|it| it.name == *name);
+        let weights = probe.and_then(|it| it.reading.weights(layout));
+        let scaled = weights.into_iter().flatten();
+        let factor = *factor;
+        scaled.map(move |(dof, weight)| (dof, factor * weight))
+    };
+    MotionControl {
+        weights: control.probes.iter().flat_map(of_probe).collect(),
+        end: control.to,
+    }
+}
+
+/// The parts of all stages, without what controls them.
 fn parts(setup: &Setup) -> Vec<Part> {
     let names = setup.factor_names();
     let mut parts = Vec::new();
@@ -112,6 +138,7 @@ fn add_parts(
             span: (begins, share),
             ends: names.iter().zip(factors.iter()).map(at_end).collect(),
             steps: ((steps * (share - begins)).round() as usize).max(1),
+            control: None,
         });
         begins = share;
     }

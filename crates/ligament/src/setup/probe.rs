@@ -42,6 +42,17 @@ pub enum Reading {
     },
 }
 
+impl Reading {
+    /// Whether it is a motion of points, or a difference of such.
+    pub(crate) fn is_motion(&self) -> bool {
+        match self {
+            Self::Between { .. } => true,
+            Self::At { field, .. } => matches!(field, PointField::Motion(_)),
+            Self::Section { .. } => false,
+        }
+    }
+}
+
 impl Probe {
     /// The probe on the points and bonds of a model.
     pub(crate) fn on(&self, system: &BondSystem) -> probe::Probe {

@@ -10,6 +10,18 @@ pub struct Stage {
     pub loads: Vec<(String, Course)>,
     /// Load steps of the stage; of load steps alone.
     pub steps: Option<usize>,
+    /// What grows in equal steps; without it the factors do.
+    pub control: Option<Control>,
+}
+
+/// Probes of motions whose sum with weights grows in equal steps over a stage, while the loads of the stage follow: their factors, which go
+/// there from what they are in a fixed proportion, may fall and change sign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Control {
+    /// Names of probes with their weights.
+    pub probes: Vec<(String, f64)>,
+    /// The sum at the end of the stage, m or rad.
+    pub to: f64,
 }
 
 /// Name of the changes of temperature, all together, among the loads of a stage.
