@@ -10,8 +10,9 @@ mod recorder;
 mod remarks;
 mod start;
 pub mod stepped;
+mod stop;
 
 pub use crate::problem::Problem;
 pub use course::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
-pub use path::StopRules;
+pub use stop::StopRules;

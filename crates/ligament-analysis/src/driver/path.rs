@@ -14,6 +14,7 @@ use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::remarks;
 use super::start::{Start, begin, report_loose, report_mechanisms};
+use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
@@ -28,32 +29,6 @@ use crate::serial::Serial;
 use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
-
-/// Rules that end a run early.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StopRules {
-    /// The load at rest fell to this fraction of the largest so far, after bonds broke; not where the load was taken back.
-    pub load_fraction: Option<f64>,
-    /// The displacement of the control load reached this, m.
-    pub displacement: Option<f64>,
-    /// So many bonds broke.
-    pub bonds: Option<usize>,
-    /// So many seconds passed.
-    pub wall_time: Option<f64>,
-    /// The stored energy became negative: the body has lost its stability.
-    pub negative_energy: bool,
-}
-
-impl StopRules {
-    /// The whole loading, as long as the body is stable.
-    pub const NONE: Self = Self {
-        load_fraction: None,
-        displacement: None,
-        bonds: None,
-        wall_time: None,
-        negative_energy: true,
-    };
-}
 
 /// Below this fraction of the peak a body carries no load any more: what is left is rounding.
 pub(super) const NO_LOAD: f64 = 1e-9;
