@@ -5,13 +5,14 @@ mod dissipation;
 pub mod elastic;
 pub mod event;
 mod outcome;
-mod overlap;
 mod path;
 mod recorder;
+mod remarks;
 mod start;
 pub mod stepped;
+mod stop;
 
 pub use crate::problem::Problem;
 pub use course::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
-pub use path::StopRules;
+pub use stop::StopRules;
