@@ -1,7 +1,9 @@
 //! Springs, inclined rollers and platens that tilt, against closed forms and against each other.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use verification::bench::{Bench, Run};
+use ligament::Loading;
+use ligament::run::follow;
+use verification::bench::{Bench, Run, Watch};
 use verification::numbers::relative_error;
 
 /// A block of 30 x 20 mm, E = 30 GPa, without supports and loads.
@@ -262,4 +264,39 @@ fn a_soft_machine_stretches_the_way_to_the_first_breakage() {
     // Proportional loading breaks the same bonds whatever stands before the platen.
     let order = |run: &Run| run.breaks.iter().map(|it| it.bond).collect::<Vec<_>>();
     assert_eq!(order(&rigid)[..10], order(&soft)[..10]);
+}
+
+/// A machine that moves in one stage while a force comes in the next ends where both together do, with the same reactions: to the rounding that
+/// a platen 1e6 times as stiff as points magnifies.
+#[test]
+fn a_machine_keeps_what_it_did_in_an_earlier_stage() {
+    let supports = "[[support]]\ngroup = \"bottom\"\ndisplacement = { x = 0.0, y = 0.0 }";
+    let loads = "[[load]]\ngroup = \"top\"\ndisplacement = { y = -1e-5 }\nstiffness = 1e8\ntilts = true\n[[load]]\nname = \"side\"\n\
+                 group = \"right\"\nforce = { x = 500.0 }";
+    let together = solved(supports, loads).1;
+    let stages = "[[stage]]\nloads = { top = 1.0 }\n[[stage]]\nloads = { side = 1.0 }";
+    let bench = Bench::new(&format!("{BLOCK}\n{supports}\n{loads}\n{stages}"), &[]);
+    let Bench { model, .. } = &bench;
+    let loading = Loading::new(&model.setup, &model.system).unwrap();
+    let problem = loading.problem(&model.system, &model.criteria);
+    let outcome = follow(&problem, &model.setup.analysis, &mut Watch::default()).unwrap();
+    let largest = |values: &[f64]| values.iter().fold(0.0, |one: f64, it| one.max(it.abs()));
+    let pairs = outcome
+        .state
+        .displacement
+        .iter()
+        .zip(together.displacement());
+    let off: Vec<f64> = pairs.map(|(one, other)| one - other).collect();
+    assert!(
+        largest(&off) < 1e-6 * largest(together.displacement()),
+        "{:e}",
+        largest(&off)
+    );
+    let last = outcome.history.last().unwrap();
+    for (found, known) in last.group_forces.iter().zip(&together.last().group_forces) {
+        for (found, known) in found.iter().zip(known) {
+            assert!((found - known).abs() < 1e-5, "{found} {known}");
+        }
+    }
+    assert!(last.energy_error().abs() < 1e-8);
 }

@@ -53,7 +53,7 @@ impl Unknowns {
         }
     }
 
-    /// The same unknowns with restraints between them and the ground.
+    /// Unknowns with restraints between them and the ground.
     pub fn restrained_by(self, restraints: &Arc<Restraints>) -> Self {
         Self {
             restraints: restraints.clone(),

@@ -69,6 +69,28 @@ fn error_with_solver(section: &str) -> String {
     error_with("[mesh]", &format!("{section}\n[mesh]"))
 }
 
+/// Faces close where points turn, with the stiffness of the whole body.
+#[test]
+fn closing_asks_for_points_that_turn() {
+    let closing = |law: &str| {
+        error_with(
+            "law = \"nhpd\"",
+            &format!("law = \"{law}\"\nclosing = true"),
+        )
+    };
+    for law in ["bbpd", "pds"] {
+        let error = closing(law);
+        assert!(error.starts_with("14:1: model.closing: "), "{error}");
+        assert!(error.contains("\"nhpd\", \"mppd\", \"mppd-beam\" or \"orthotropic\""));
+    }
+    let text = TEXT.replacen("[correction]", "[correction]\ndomain = \"cracked\"", 1);
+    let error = error_of(&text.replacen("law = \"nhpd\"", "law = \"nhpd\"\nclosing = true", 1));
+    assert!(
+        error.contains("closing") && error.contains("take \"whole\""),
+        "{error}"
+    );
+}
+
 #[test]
 fn the_solver_is_auto_or_a_table_of_its_keys() {
     assert_eq!(

@@ -192,8 +192,8 @@ fn compare(heading: &str, written: &[Vec<String>], names: &Names, wrong: &mut Ve
     }
 }
 
-/// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; modes.
-fn runs(place: &Place) -> [&'static str; 5] {
+/// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; in stages; modes.
+fn runs(place: &Place) -> [&'static str; 6] {
     fs::write(place.path("bar.toml"), BAR).unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/brazilian-disk/case.toml");
@@ -218,7 +218,11 @@ fn runs(place: &Place) -> [&'static str; 5] {
         plate.display()
     ));
     place.call("run bar.toml --out closing --quiet --set model.closing=true");
-    ["brittle", "soft", "mbb", "mesh", "closing"]
+    let stage = "stage=[{name=\"pull\",loads={right=1.0},steps=4}]";
+    place.call(&format!(
+        "run bar.toml --out stages --quiet --unset fracture.steps --set {stage}"
+    ));
+    ["brittle", "soft", "mbb", "mesh", "closing", "stages"]
 }
 
 #[test]
@@ -238,6 +242,7 @@ fn the_page_has_every_column_that_is_written() {
             "pole-bottom",
         ]),
     );
+    names.insert("LOAD", set(&["right"]));
     names.insert("PROBE", set(&["elongation"]));
     names.insert("FIELD", set(&["damage", "displacement.x"]));
     names.insert(

@@ -63,7 +63,7 @@ pub struct ContactPair {
 pub struct ClosedPair {
     /// The pair.
     pub pair: ContactPair,
-    /// Its gap, negative, m.
+    /// Gap of the pair, negative, m.
     pub gap: f64,
 }
 

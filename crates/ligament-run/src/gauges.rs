@@ -5,8 +5,8 @@ use ligament_analysis::Component;
 use ligament_analysis::gauges::{FreeBody, FreeMotion};
 
 /// Words on the rigid motions that are free, on what is held instead, and on whether the loads are in equilibrium without
-/// it.
-pub fn words(free: &FreeBody, body: &dyn Body) -> String {
+/// it; `closing` tells whether faces of cracks may carry them.
+pub fn words(free: &FreeBody, body: &dyn Body, closing: bool) -> String {
     let what = if free.is_whole {
         "the body".to_owned()
     } else {
@@ -25,11 +25,15 @@ pub fn words(free: &FreeBody, body: &dyn Body) -> String {
             .filter(|it| !it.is_balanced())
             .map(load)
             .collect();
-        format!(
-            "the loads on it are NOT in equilibrium ({}), which leaves the body without equilibrium: support it, or \
-             balance the loads",
-            loads.join(", ")
-        )
+        let loads = loads.join(", ");
+        if closing && !free.is_whole {
+            format!("the loads on it ({loads}) must be carried by faces that close")
+        } else {
+            format!(
+                "the loads on it are NOT in equilibrium ({loads}), which leaves the body without equilibrium: support it, or \
+                 balance the loads"
+            )
+        }
     };
     format!(
         "supports and loads do not hold {what} against {}; held at zero instead: {}; {loads}",

@@ -26,6 +26,8 @@ pub(crate) struct Watch<'a> {
     notices: Vec<String>,
     last: StepLine,
     body: &'a dyn Body,
+    /// Whether faces of cracks carry pressure where they close.
+    closing: bool,
 }
 
 impl<'a> Watch<'a> {
@@ -54,6 +56,7 @@ impl<'a> Watch<'a> {
             notices,
             last,
             body: &*setup.body,
+            closing: setup.closing,
         }
     }
 
@@ -65,7 +68,7 @@ impl<'a> Watch<'a> {
     /// A notice with points given by their tags.
     fn words(&self, notice: &Notice) -> String {
         match notice {
-            Notice::FreeBody(body) => gauges::words(body, self.body),
+            Notice::FreeBody(body) => gauges::words(body, self.body, self.closing),
             Notice::CameLoose {
                 step,
                 points,

@@ -1,8 +1,9 @@
 //! Linear elastic answer: one solve at load factor one, or one at the end of each part of a programme.
 
 use super::outcome::{Outcome, Rows};
-use super::path::{Path, StopRules};
+use super::path::Path;
 use super::recorder::StepCounters;
+use super::stop::StopRules;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::error::SetupError;

@@ -14,8 +14,9 @@ use std::mem;
 
 use super::course::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
-use super::path::{Path, StopRules};
+use super::path::Path;
 use super::recorder::{Energies, StepCounters, largest_ratio};
+use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;

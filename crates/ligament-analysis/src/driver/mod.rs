@@ -6,14 +6,15 @@ pub mod elastic;
 mod ends;
 pub mod event;
 mod outcome;
-mod overlap;
 mod parts;
 mod path;
 mod recorder;
+mod remarks;
 mod start;
 pub mod stepped;
+mod stop;
 
 pub use crate::problem::Problem;
 pub use course::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
-pub use path::StopRules;
+pub use stop::StopRules;

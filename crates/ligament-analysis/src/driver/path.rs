@@ -11,17 +11,17 @@ use ligament_model::failure::Criteria;
 use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
-use super::overlap;
 use super::recorder::{Energies, StepCounters, step_record};
+use super::remarks;
 use super::start::{Start, begin, report_loose, report_mechanisms};
+use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord,
-    Termination, View,
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, Termination, View,
 };
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
@@ -29,39 +29,6 @@ use crate::serial::Serial;
 use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
-
-/// Rules that end a run early.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StopRules {
-    /// The load at rest fell to this fraction of the largest so far, after bonds broke; not where the load was taken back.
-    pub load_fraction: Option<f64>,
-    /// The displacement of the control load reached this, m.
-    pub displacement: Option<f64>,
-    /// So many bonds broke.
-    pub bonds: Option<usize>,
-    /// So many seconds passed.
-    pub wall_time: Option<f64>,
-    /// The stored energy became negative: the body has lost its stability.
-    pub negative_energy: bool,
-}
-
-impl StopRules {
-    /// The whole loading, as long as the body is stable.
-    pub const NONE: Self = Self {
-        load_fraction: None,
-        displacement: None,
-        bonds: None,
-        wall_time: None,
-        negative_energy: true,
-    };
-}
-
-/// What work and energies may miss each other by, relative to the work: both are exact between two equilibria, and these are solved
-/// for to 1e-10.
-const ENERGY_ERROR: f64 = 1e-6;
-
-/// Limit of the same error where bonds soften: equilibria are known to 1e-6 of the forces.
-const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
 /// A run on its way.
 pub(super) struct Path<'a> {
@@ -346,7 +313,6 @@ impl<'a> Path<'a> {
         self.course.peak = self.course.peak.max(record.reaction);
         let force = balanced.internal.force_scale;
         self.course.largest_force = self.course.largest_force.max(force);
-        self.report_overlap(record.step)?;
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
         let view = View {
             system: &*self.problem.system,
@@ -359,52 +325,18 @@ impl<'a> Path<'a> {
             is_last,
         };
         self.observer.step(&record, &view)?;
-        self.report_energies(&record)?;
+        let fragments = self.equilibrium.fragments();
+        let Course {
+            history, overlap, ..
+        } = &mut self.course;
+        let of_faces =
+            remarks::overlap(&self.problem, &self.state, fragments, record.step, overlap);
+        let of_energies = remarks::energies(&self.problem, &record, history.last());
+        for notice in of_faces.iter().chain(&of_energies) {
+            self.observer.notice(notice)?;
+        }
         self.course.history.push(record);
         Ok(())
-    }
-
-    /// Tells of the first record in which faces of cracks pass through each other, and keeps the largest overlap.
-    fn report_overlap(&mut self, step: usize) -> Result<(), ObserverError> {
-        let fragments = self.equilibrium.fragments();
-        let Some(overlap) = overlap::largest(&self.problem, &self.state, fragments) else {
-            return Ok(());
-        };
-        let now = LargestOverlap {
-            depth: overlap.depth,
-            ends: overlap.ends,
-            step,
-        };
-        match self.course.overlap {
-            None => self.observer.notice(&Notice::Overlap(now))?,
-            Some(before) if before.depth >= now.depth => return Ok(()),
-            Some(_) => {}
-        }
-        self.course.overlap = Some(now);
-        Ok(())
-    }
-
-    /// Tells of the first record whose energies do not balance; forces without an energy have none that would.
-    fn report_energies(&mut self, record: &StepRecord) -> Result<(), ObserverError> {
-        let system = &self.problem.system;
-        if !system.is_linear() || !system.has_energy() {
-            return Ok(());
-        }
-        let limit = if self.problem.criteria.soften() {
-            SOFTENING_ENERGY_ERROR
-        } else {
-            ENERGY_ERROR
-        };
-        // An error that is not a number is no balance either.
-        let is_balanced = |it: &StepRecord| it.energy_error().abs() <= limit;
-        let last = self.course.history.last();
-        if is_balanced(record) || last.is_some_and(|it| !is_balanced(it)) {
-            return Ok(());
-        }
-        self.observer.notice(&Notice::EnergyUnbalanced {
-            step: record.step,
-            error: record.energy_error().abs(),
-        })
     }
 
     /// What the run was.

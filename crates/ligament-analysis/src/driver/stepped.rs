@@ -7,9 +7,10 @@ use std::time::Instant;
 
 use super::course::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
-use super::path::{Path, StopRules};
+use super::path::Path;
 use super::recorder::{StepCounters, largest_ratio};
 use super::start::ElasticAnswer;
+use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};

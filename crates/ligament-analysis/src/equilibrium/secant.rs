@@ -16,6 +16,9 @@ const LARGEST_RESIDUAL: f64 = 1e-8;
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
 
+/// Iterations after which a hold that carries a force carries it, where faces close.
+const CARRIED_AFTER: usize = 60;
+
 /// Iterations after which bonds keep the damage of the iterates: what has not settled by then is a sudden fall, in which bonds
 /// take turns. Damage that only grows comes to an end.
 const ONE_WAY_AFTER: usize = 150;
@@ -54,7 +57,11 @@ pub(super) fn balance(
             observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
         let energy_settled = equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
-        if equations.is_small(&residual, RESIDUAL_TOLERANCE) || energy_settled {
+        let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE);
+        // What a hold carries, faces that close may carry in the end.
+        let may_close = equations.problem.system.faces_close() && iterations < CARRIED_AFTER;
+        let is_carried = may_close && residual.carried.is_some();
+        if (is_small || energy_settled) && !is_carried {
             state.softening.settle();
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));

@@ -39,7 +39,11 @@ pub(super) fn check(
     model::write(out, case, model)?;
     write_boundary(out, model, &loading)?;
     for free in gauges::of_intact_body(&*model.system, &*loading.boundary) {
-        writeln!(out, "  not held: {}", words(&free, model.body()))?;
+        writeln!(
+            out,
+            "  not held: {}",
+            words(&free, model.body(), model.setup.closing)
+        )?;
     }
     write_loading(out, &model.setup)?;
     write_room(out, case, model)?;

@@ -4,8 +4,10 @@ use super::panel::Frame;
 use super::svg::{Anchor, Document, text_width};
 use super::units::with_decimals_of;
 
-/// Room at the left of a body and below it, pixels.
-const ROOM: [f64; 2] = [42.0, 28.0];
+/// Room at the left of a body, at its right for half a number, and below it, pixels.
+const LEFT: f64 = 42.0;
+const RIGHT: f64 = 8.0;
+const BELOW: f64 = 28.0;
 
 /// Between the body and its axes, pixels.
 const GAP: f64 = 3.0;
@@ -19,9 +21,13 @@ const MOST: f64 = 6.0;
 
 const COLOUR: &str = "#404040";
 
-/// Room for axes at the left of a body and below it, pixels; none without axes.
-pub(super) fn room(has_axes: bool) -> [f64; 2] {
-    if has_axes { ROOM } else { [0.0, 0.0] }
+/// Room for axes at the left of a body, at its right and below it, pixels; none without axes.
+pub(super) fn room(has_axes: bool) -> [f64; 3] {
+    if has_axes {
+        [LEFT, RIGHT, BELOW]
+    } else {
+        [0.0; 3]
+    }
 }
 
 /// Draws axes around a frame.
@@ -62,7 +68,7 @@ pub(super) fn draw(document: &mut Document, frame: Frame) {
         SIZE,
         "x (mm)",
     );
-    let start = left - ROOM[0] + SIZE;
+    let start = left - LEFT + SIZE;
     document.upright_text([start, middle[1]], SIZE, "y (mm)");
 }
 

@@ -237,9 +237,15 @@ impl Output<'_> {
     /// The entry of the legend for steps that are no answer to their load, where there are such.
     pub(super) fn warning(outputs: &[Self]) -> Option<Entry> {
         let unsettled = |it: &Self| it.moment().is_some_and(|moment| !moment.at_rest);
-        outputs.iter().any(unsettled).then(|| Entry {
+        let words = match outputs {
+            [_] => format!("{NOT_AT_REST}: no answer to this load, bonds were still failing"),
+            _ => {
+                format!("steps {NOT_AT_REST} are no answer to their load: bonds were still failing")
+            }
+        };
+        outputs.iter().any(unsettled).then_some(Entry {
             colour: None,
-            words: format!("{NOT_AT_REST}: no answer to this load, bonds were still failing"),
+            words,
         })
     }
 

@@ -162,12 +162,12 @@ impl Strip<'_> {
         let row_gaps = MARGIN * (rows - 1.0);
         let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
         let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
-        let axes = axes::room(self.has_axes);
-        let scale = ((widest_cell - axes[0]).max(1.0) / body[0])
-            .min((tallest_cell - axes[1]).max(1.0) / body[1]);
+        let [left, right, bottom] = axes::room(self.has_axes);
+        let scale = ((widest_cell - left - right).max(1.0) / body[0])
+            .min((tallest_cell - bottom).max(1.0) / body[1]);
         // Bodies that do not fill the width stand together in its middle.
-        let cell_width = widest_cell.min((body[0] * scale + axes[0]).max(widest(&roomy)));
-        let cell = [cell_width, body[1] * scale + axes[1]];
+        let cell_width = widest_cell.min((body[0] * scale + left + right).max(widest(&roomy)));
+        let cell = [cell_width, body[1] * scale + bottom];
         let bodies = [
             cell[0] * columns as f64 + gaps,
             (title_height + cell[1]) * rows + row_gaps,
@@ -201,10 +201,10 @@ impl Strip<'_> {
             return;
         };
         let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
-        let axes = axes::room(self.has_axes);
+        let [left, right, bottom] = axes::room(self.has_axes);
         let at = [
-            x + axes[0] + 0.5 * (cell[0] - axes[0] - own[0]),
-            y + layout.title_height + 0.5 * (cell[1] - axes[1] - own[1]),
+            x + left + 0.5 * (cell[0] - left - right - own[0]),
+            y + layout.title_height + 0.5 * (cell[1] - bottom - own[1]),
         ];
         let frame = Frame {
             low,

@@ -30,11 +30,6 @@ impl Setup {
             let reason = "natural modes are of a body whose faces stay as they are: leave it out";
             return contradiction(field, reason);
         }
-        if self.criteria.iter().any(|it| it.after.law.softens) {
-            let reason = "faces close for bonds that are whole or broken; those that soften carry pressure all along: take `after = \
-                          \"brittle\"`";
-            return contradiction(field, reason);
-        }
         Ok(())
     }
 }
