@@ -170,6 +170,11 @@ impl ContactEnergy {
         change
     }
 
+    /// Goes over to a part of a programme, at whose start the last equilibrium has another load factor.
+    pub(crate) fn begin_part(&mut self, load_factor: f64) {
+        self.load_factor = load_factor;
+    }
+
     /// Takes an equilibrium to go on from.
     pub(crate) fn keep(&mut self, state: &State, balanced: &Balanced) {
         self.closed.clone_from(&balanced.closed);

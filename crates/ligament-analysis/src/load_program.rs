@@ -81,7 +81,7 @@ pub trait LoadProgram: Debug + Send + Sync {
         None
     }
 
-    /// The same loads in another course of their factors; None where all grow with one load factor.
+    /// Loads like these in another course of their factors; None where all grow with one load factor.
     fn in_course(&self, _course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
         None
     }

@@ -18,6 +18,7 @@ impl Path<'_> {
             return;
         };
         self.state.load_factor = begins;
+        self.energies.begin_part(begins);
         (self.course.part, self.course.part_start) = (part, start);
         let control = loads.course().and_then(LoadCourse::control);
         let motion = control.map(|it| it.value(&self.state.displacement));

@@ -161,6 +161,11 @@ impl Energies {
         self.keep(state, balanced);
     }
 
+    /// Goes over to a part of a programme that begins at this load factor.
+    pub(super) fn begin_part(&mut self, load_factor: f64) {
+        self.contact.begin_part(load_factor);
+    }
+
     /// Takes in which pairs across cracks opened and closed since the last state: at a fixed load, after a breakage, that releases
     /// energy; on the way from one load to another it is what the trapezoidal rule misses of the work.
     pub(super) fn add_contact(
