@@ -4,8 +4,8 @@
 //! limits are an interval in closed form. The path goes on to the upper end of what all bonds admit, which may lie below the
 //! present load factor (snap-back), or to the end of the part. Where no load factor of the part is admissible, A alone breaks
 //! bonds: the load is held, and the bonds farthest beyond their limits break with those tied with them, group after group, until
-//! some load is admissible again. That is how sequentially linear analyses redistribute what was applied first (DeJong, Hendriks and
-//! Rots 2008; Elias, Frantik and Vorechovsky 2010).
+//! some load is admissible again. That is how sequentially linear analyses redistribute what was applied first (DeJong 2008;
+//! Elias 2010).
 
 use std::mem;
 use std::time::Instant;
