@@ -1,6 +1,5 @@
 // L-shaped panel: a square, one corner at the origin, without its lower right quarter. Lengths in metres.
 DefineConstant[ size = 0.02 ];       // mesh size
-DefineConstant[ fine = 0.01 ];       // mesh size where the crack runs, a band from the inner corner to the left edge
 DefineConstant[ side = 0.5 ];        // of the square
 DefineConstant[ arm = 0.03 ];        // from the free end of the arm to the load at its lower edge
 
@@ -26,7 +25,6 @@ Physical Point("load", 1) = {4};
 Physical Curve("foot", 2) = {1};
 Physical Surface("panel", 3) = {1};
 
-// Finer in a band around a line from the inner corner that rises to the left.
 Field[1] = MathEval;
 Field[1].F = Sprintf("%g", size);
 Background Field = 1;

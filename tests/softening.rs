@@ -6,7 +6,7 @@ use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::{Component, ControlKind, SetupError, Termination, fields};
 use ligament_model::failure::softening::exponential::LAST_FORCE;
-use ligament_model::failure::softening::{bilinear, exponential, plastic};
+use ligament_model::failure::softening::{exponential, linear, plastic};
 use ligament_model::failure::{AfterLimit, Weakened};
 use verification::bench::{self, Bench, Run};
 use verification::numbers::relative_error;
@@ -44,7 +44,7 @@ fn series(after: AfterLimit) -> Truss {
 
 fn laws() -> [(&'static str, AfterLimit); 3] {
     [
-        ("bilinear", AfterLimit::new(bilinear::LAW, vec![5.0; 2])),
+        ("bilinear", AfterLimit::new(linear::LAW, vec![5.0; 2])),
         (
             "exponential",
             AfterLimit::new(exponential::LAW, vec![2.0; 2]),

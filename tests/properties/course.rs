@@ -6,7 +6,7 @@ use ligament_analysis::Termination;
 use ligament_analysis::fields;
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_model::failure::sliding::SLIDING;
-use ligament_model::failure::softening::{bilinear, exponential, plastic};
+use ligament_model::failure::softening::{exponential, linear, plastic};
 use ligament_model::failure::stretch::TENSION;
 use ligament_model::failure::{After, softening};
 use verification::numbers::{Random, largest, relative_error};
@@ -232,7 +232,7 @@ fn a_load_the_other_way_is_no_end() {
         let criterion = Choice {
             limit: Some(1e3 * specimen.strain),
             after: After {
-                law: bilinear::LAW,
+                law: linear::LAW,
                 parameter: Some(2.0),
             },
             ..Choice::from(TENSION)
@@ -266,10 +266,10 @@ fn forces_and_energies_of_softening_runs_balance() {
             ..Choice::from(kind)
         };
         let criteria = match seed % 3 {
-            0 => vec![choice(TENSION, 1.0, bilinear::LAW, Some(6.0))],
+            0 => vec![choice(TENSION, 1.0, linear::LAW, Some(6.0))],
             1 => vec![choice(TENSION, 1.0, exponential::LAW, Some(1.0))],
             _ => vec![
-                choice(TENSION, 1.0, bilinear::LAW, Some(3.0)),
+                choice(TENSION, 1.0, linear::LAW, Some(3.0)),
                 choice(SLIDING, 1.5, plastic::LAW, None),
             ],
         };

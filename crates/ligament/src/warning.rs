@@ -2,6 +2,7 @@
 
 use ligament_model::correction::{CorrectionReport, DomainReport, patch};
 use ligament_model::failure::Measure;
+use ligament_model::failure::softening::linear;
 use ligament_model::{ElementKind, FixedFields, Isotropic};
 use thiserror::Error;
 
@@ -124,6 +125,12 @@ pub enum Warning {
         /// Largest distance of a point to its nearest neighbour, m.
         spacing: f64,
     },
+    /// A word for one straight line that often means two.
+    #[error(
+        "after = \"bilinear\" is the older word for \"linear\", one straight line down; the two lines that concrete has, to a third of \
+         the force and then to zero, are \"two-branch\""
+    )]
+    OneLine,
     /// A Poisson's ratio that the law does not use.
     #[error(
         "Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}"
@@ -206,6 +213,13 @@ pub(crate) fn of_model(
         warnings.push(Warning::Touched { bonds: touched });
     }
     warnings.extend(scatter_below_spacing(setup, spacing));
+    if setup
+        .criteria
+        .iter()
+        .any(|it| it.after.law == linear::BILINEAR)
+    {
+        warnings.push(Warning::OneLine);
+    }
     let materials = setup.materials.iter();
     let constants: Vec<Isotropic> = materials
         .filter_map(|it| it.material.elasticity.isotropic())

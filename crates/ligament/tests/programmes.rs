@@ -14,7 +14,7 @@ use ligament_analysis::history::{
 use ligament_analysis::probe::PointField;
 use ligament_analysis::{Attempt, BondDeformation, Equilibrium, LoadCourse, State};
 use ligament_model::failure::After;
-use ligament_model::failure::softening::bilinear;
+use ligament_model::failure::softening::linear;
 
 /// A plate of 12 by 12 cells of 10 mm with a hole, held at the left and at the bottom, pulled at the right and pressed from above.
 fn plate(analysis: Analysis, stages: Vec<Stage>) -> Setup {
@@ -463,7 +463,7 @@ fn brittle() -> Choice {
 fn softening() -> Choice {
     let mut choice: Choice = STRENGTH.into();
     choice.after = After {
-        law: bilinear::LAW,
+        law: linear::LAW,
         parameter: Some(10.0),
     };
     choice

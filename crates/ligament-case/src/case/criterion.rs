@@ -37,7 +37,7 @@ pub struct Criterion {
     /// What a bond does after its limit.
     #[serde(default)]
     pub after: Word<Law>,
-    /// Deformation at which the force of `bilinear` is gone, over that at the limit; without it so that the `fracture_energy` comes out.
+    /// Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out.
     #[schemars(extend("exclusiveMinimum" = 1))]
     pub end: Option<f64>,
     /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.

@@ -11,7 +11,7 @@ use ligament_model::failure::fracture_energy::{BOND_ENERGY, CRITICAL_STRETCH};
 use ligament_model::failure::frictional::FRICTIONAL;
 use ligament_model::failure::mixed_mode::MIXED_MODE;
 use ligament_model::failure::sliding::SLIDING;
-use ligament_model::failure::softening::{Law, bilinear, exponential, plastic};
+use ligament_model::failure::softening::{Law, exponential, linear, plastic};
 use ligament_model::failure::strength::STRENGTH;
 use ligament_model::failure::stretch::{COMPRESSION, TENSION};
 use ligament_model::failure::{After, Calibration, Choice, Kind};
@@ -109,12 +109,12 @@ fn every_kind_and_every_end_is_read() {
         ("kind = \"critical-stretch\"", CRITICAL_STRETCH.into()),
         ("kind = \"bond-energy\"", BOND_ENERGY.into()),
         (
-            "kind = \"tension\"\nafter = \"bilinear\"",
-            softening(TENSION, bilinear::LAW, None),
+            "kind = \"tension\"\nafter = \"linear\"",
+            softening(TENSION, linear::LAW, None),
         ),
         (
-            "kind = \"tension\"\nafter = \"bilinear\"\nend = 5",
-            softening(TENSION, bilinear::LAW, Some(5.0)),
+            "kind = \"tension\"\nafter = \"linear\"\nend = 5",
+            softening(TENSION, linear::LAW, Some(5.0)),
         ),
         (
             "kind = \"tension\"\nafter = \"exponential\"",
@@ -169,8 +169,8 @@ fn the_exact_path_takes_brittle_criteria_only() {
     let brittle = "kind = \"frictional\"\n\n[[fracture.criterion]]\nkind = \"tension\"";
     assert_eq!(criteria_of(event(brittle), &[]).len(), 2);
     assert_eq!(
-        error_of(event("kind = \"tension\"\nafter = \"bilinear\"")),
-        "61:9: fracture.criterion.0.after: `after = \"bilinear\"` does not apply with control = \"event\": the exact path is \
+        error_of(event("kind = \"tension\"\nafter = \"linear\"")),
+        "61:9: fracture.criterion.0.after: `after = \"linear\"` does not apply with control = \"event\": the exact path is \
          straight between breakages, and softening bends it: take load steps (`steps`); remove it"
     );
 }
@@ -224,7 +224,7 @@ fn criteria_name_what_they_lack_of_the_material() {
         ),
         (
             energy,
-            "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"",
+            "kind = \"tension\"\nlimit = 1e-3\nafter = \"linear\"",
             "\"tension\" without `end`",
         ),
         (
@@ -239,7 +239,7 @@ fn criteria_name_what_they_lack_of_the_material() {
     // What a criterion does not take need not be there.
     for lines in [
         "kind = \"tension\"\nlimit = 1e-3",
-        "kind = \"sliding\"\nlimit = 1e-3\nafter = \"bilinear\"\nend = 4",
+        "kind = \"sliding\"\nlimit = 1e-3\nafter = \"linear\"\nend = 4",
     ] {
         let text = with(&format!("[[fracture.criterion]]\n{lines}\n")).replace(PROPERTIES, "");
         assert_eq!(criteria_of(text, &[]).len(), 1);
@@ -354,7 +354,7 @@ fn materials_with_axes_take_criteria_with_limits_of_their_own() {
         "7:1: material: `tensile_strength` gives limits of isotropic materials only, and the criterion \"strength\" of \
          [fracture] takes them from it: take \"tension\", \"compression\" or \"sliding\" with a `limit`"
     );
-    let softening = "kind = \"tension\"\nlimit = 1e-3\nafter = \"bilinear\"";
+    let softening = "kind = \"tension\"\nlimit = 1e-3\nafter = \"linear\"";
     assert!(error_of(with_axes(softening)).ends_with("takes them from it: give it its own `end`"));
 }
 

@@ -15,9 +15,9 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
          `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `friction_angle`, `fibre_distance`, `after`, `end`, `scale`"
     );
     assert_eq!(
-        error_with("kind = \"tension\"\nafter = \"bilinaer\""),
-        "61:9: fracture.criterion.0.after: unknown value \"bilinaer\"; did you mean \"bilinear\"? valid values: \"brittle\", \
-         \"bilinear\", \"exponential\", \"plastic\""
+        error_with("kind = \"tension\"\nafter = \"liniar\""),
+        "61:9: fracture.criterion.0.after: unknown value \"liniar\"; did you mean \"linear\"? valid values: \"brittle\", \
+         \"linear\", \"two-branch\", \"exponential\", \"plastic\", \"bilinear\""
     );
     assert_eq!(
         error_with("kind = \"frictional\"\ncalibration = \"exact\""),
@@ -46,7 +46,7 @@ fn numbers_out_of_range_are_refused() {
             "61:9: fracture.criterion.0.limit: must be greater than 0, found -0.001",
         ),
         (
-            "kind = \"tension\"\nafter = \"bilinear\"\nend = 1",
+            "kind = \"tension\"\nafter = \"linear\"\nend = 1",
             "62:7: fracture.criterion.0.end: must be greater than 1, found 1.0",
         ),
         (
@@ -84,12 +84,11 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         ),
         (
             "kind = \"tension\"\nend = 3.0",
-            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in a \
-             straight line, after = \"bilinear\", has an end; remove it",
+            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in straight lines, after = \"linear\" or \"two-branch\", has an end; remove it",
         ),
         (
-            "kind = \"tension\"\nafter = \"bilinear\"\nscale = 3.0",
-            "62:9: fracture.criterion.0.scale: `scale` does not apply with after = \"bilinear\": only a force that falls \
+            "kind = \"tension\"\nafter = \"linear\"\nscale = 3.0",
+            "62:9: fracture.criterion.0.scale: `scale` does not apply with after = \"linear\": only a force that falls \
              exponentially, after = \"exponential\", has a scale; remove it",
         ),
         (
@@ -103,9 +102,10 @@ fn keys_that_a_kind_does_not_take_are_refused() {
              moves with the stretch, so that there is no one deformation at which softening begins; remove it",
         ),
         (
-            "kind = \"critical-stretch\"\nafter = \"bilinear\"",
+            "kind = \"critical-stretch\"\nafter = \"linear\"",
             "59:1: fracture.criterion.0.end: missing key `end`: it is required with kind = \"critical-stretch\": up to the limit \
-             a bond takes all of the fracture energy",
+             a bond takes all of the fracture energy, and nothing is left to soften by; or take kind = \"bond-energy\", whose limit \
+             comes from the `tensile_strength`",
         ),
     ];
     for (lines, message) in cases {

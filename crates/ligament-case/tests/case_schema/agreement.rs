@@ -284,7 +284,7 @@ fn what_is_wrong_is_refused_by_both() {
         ),
         (
             "/fracture",
-            json!({ "steps": 1, "criterion": [{ "kind": "tension", "after": "bilinear", "end": 1 }] }),
+            json!({ "steps": 1, "criterion": [{ "kind": "tension", "after": "linear", "end": 1 }] }),
         ),
         ("/solver", json!("fast")),
         ("/solver", json!({ "threads": 0 })),

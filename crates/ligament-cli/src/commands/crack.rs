@@ -44,7 +44,7 @@ impl CrackArgs {
         let step = steps.first().map_or(0, |it| it.step);
         let lines = write_cracks(&self.results, &cracks, step)?;
         let mut out = terminal::stdout();
-        let length: f64 = lines.iter().map(|it| it.length()).sum();
+        let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         writeln!(
             out,
             "step {step}: {} crack line(s), {length:.5e} m, {:.5e} m^2",

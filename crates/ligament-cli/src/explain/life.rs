@@ -316,7 +316,7 @@ pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> 
 
 #[cfg(test)]
 mod tests {
-    use ligament_model::failure::softening::bilinear;
+    use ligament_model::failure::softening::linear;
 
     use super::*;
 
@@ -328,7 +328,7 @@ mod tests {
             measure: Measure::Tension,
             limit: 2.0,
             coefficients: Vec::new(),
-            after: AfterLimit::new(bilinear::LAW, vec![4.0]),
+            after: AfterLimit::new(linear::LAW, vec![4.0]),
         };
         let stretched = |stretch| BondDeformation::new([stretch, 0.0, 0.0]);
         let mut life = life_of(vec![limit], [1.0, 5.0, -3.0].map(stretched).to_vec());

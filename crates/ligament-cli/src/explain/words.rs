@@ -252,7 +252,7 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
 #[cfg(test)]
 mod tests {
     use ligament_model::failure::AfterLimit;
-    use ligament_model::failure::softening::{bilinear, brittle, plastic};
+    use ligament_model::failure::softening::{brittle, linear, plastic};
 
     use super::*;
     use crate::explain::life::life_of;
@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn limits_in_words() {
-        let bilinear = AfterLimit::new(bilinear::LAW, vec![4.0]);
+        let bilinear = AfterLimit::new(linear::LAW, vec![4.0]);
         for (measure, limit, after, expected) in [
             (
                 Measure::Tension,
@@ -293,7 +293,7 @@ mod tests {
                 Measure::Compression,
                 2e-4,
                 bilinear,
-                "softens (bilinear) from shortening -s = 2.0000e-4, breaks at 8.0000e-4",
+                "softens (linear) from shortening -s = 2.0000e-4, breaks at 8.0000e-4",
             ),
             (
                 Measure::Sliding,

@@ -69,11 +69,16 @@ fn after(wanted: &After, limits: &[f64], basis: &Basis<'_>) -> Result<AfterLimit
                 if limit.is_infinite() || brittle.is_infinite() {
                     return Ok(f64::INFINITY);
                 }
-                (parameter.for_energy)((brittle / limit).powi(2)).ok_or(NoLimit::NothingLeft {
-                    horizon: basis.system.bonds.horizon[bond],
-                    limit,
-                    brittle,
-                })
+                let energy = (brittle / limit).powi(2);
+                if energy <= parameter.least_energy {
+                    return Err(NoLimit::NothingLeft {
+                        horizon: basis.system.bonds.horizon[bond],
+                        limit,
+                        brittle,
+                        least: parameter.least_energy,
+                    });
+                }
+                Ok((parameter.for_energy)(energy))
             };
             let of_bonds = limits.iter().zip(&brittle).enumerate();
             of_bonds.map(of_bond).collect::<Result<_, _>>()?
@@ -180,7 +185,8 @@ impl Choice {
             Some(key) if self.spends_fracture_energy() => Err(Unfit::Missing {
                 key,
                 reason: format!(
-                    "with {kind}: up to the limit a bond takes all of the fracture energy"
+                    "with {kind}: up to the limit a bond takes all of the fracture energy, and nothing is left to soften by; or take \
+                     kind = \"bond-energy\", whose limit comes from the `tensile_strength`"
                 ),
             }),
             _ => Ok(()),

@@ -217,8 +217,15 @@ impl Choice {
         match (is_given, self.friction_angle) {
             (true, _) => &[],
             (false, Some(_)) => &[TENSILE_STRENGTH],
+            (false, None) if self.begins_at_strength() => &[TENSILE_STRENGTH],
             (false, None) => self.kind.takes,
         }
+    }
+
+    /// Whether bonds begin to soften at the strength, and spend the fracture energy from there on.
+    pub fn begins_at_strength(&self) -> bool {
+        let can = self.kind.measures == [Measure::Energy] && self.after.law.softens;
+        can && self.limit.is_none() && self.after.parameter.is_none()
     }
 
     /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.

@@ -109,7 +109,7 @@ pub enum NoLimit {
         /// Compressive strength, Pa.
         compressive: f64,
     },
-    /// A fracture energy that a bond stores up to its limit.
+    /// A fracture energy of which a bond stores too much up to its limit.
     NothingLeft {
         /// Horizon of the bond, m.
         horizon: f64,
@@ -117,6 +117,8 @@ pub enum NoLimit {
         limit: f64,
         /// The measure at which a brittle bond takes the fracture energy.
         brittle: f64,
+        /// Fracture energy over what a bond stores up to its limit that would be too little.
+        least: f64,
     },
 }
 
@@ -138,12 +140,13 @@ impl fmt::Display for NoLimit {
                 horizon,
                 limit,
                 brittle,
+                least,
             } => write!(
                 formatter,
-                "nothing is left of the fracture energy after the limit: a bond of horizon {horizon:.3e} m stores all of it at \
-                 the limit {limit:.3e} (it would break at {brittle:.3e}); take a horizon below {:.3e} m, a larger \
+                "too little is left of the fracture energy after the limit: a bond of horizon {horizon:.3e} m begins to soften at \
+                 {limit:.3e}, and has stored all of it at {brittle:.3e}; take a horizon below {:.3e} m, a larger \
                  fracture_energy or a smaller strength",
-                horizon * (brittle / limit).powi(2)
+                horizon * (brittle / limit).powi(2) / least
             ),
         }
     }

@@ -142,7 +142,8 @@ fn write_tips(path: &Path, grown: &[Grown<'_>]) -> Result<(), Error> {
 
 fn write_growth(path: &Path, cracks: &StoredCracks, grown: &[Grown<'_>]) -> Result<(), Error> {
     let mut table = Table::create(path, CRACK_COLUMNS[2])?;
-    let length = |it: &Grown<'_>| it.lines.iter().map(CrackLine::length).sum::<f64>();
+    // A sum of nothing would be -0.0.
+    let length = |it: &Grown<'_>| (it.lines.iter()).fold(0.0, |sum, line| sum + line.length());
     let state = |it: &Grown<'_>| GrowthState {
         area: cracks.thickness * length(it),
         displacement: it.record.displacement,

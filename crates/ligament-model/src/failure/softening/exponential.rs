@@ -10,15 +10,13 @@ pub const LAST_FORCE: f64 = 1e-3;
 pub const LAW: Law = Law {
     word: "exponential",
     words: "Its force falls exponentially.",
-    force: "force falls exponentially, scale",
+    force: "force falls exponentially, with a scale of",
     parameter: Some(Parameter {
         key: "scale",
         above: 0.0,
         of_it_alone: "only a force that falls exponentially, after = \"exponential\", has a scale",
-        for_energy: |energy| {
-            let scale = 0.5 * (energy - 1.0) / (1.0 - LAST_FORCE);
-            (scale > 0.0).then_some(scale)
-        },
+        least_energy: 1.0,
+        for_energy: |energy| 0.5 * (energy - 1.0) / (1.0 - LAST_FORCE),
     }),
     softens: true,
     sliding_because: None,

@@ -34,9 +34,10 @@ pub struct Parameter {
     pub above: f64,
     /// Why no other law takes the key.
     pub of_it_alone: &'static str,
-    /// The parameter for which the whole life of a bond takes so many times what it stores at its limit; None if that is not
-    /// more than 1.
-    pub for_energy: fn(f64) -> Option<f64>,
+    /// Energy of the whole life of a bond, over what it stores at its limit, that any parameter exceeds.
+    pub least_energy: f64,
+    /// The parameter for which the whole life of a bond takes so many times what it stores at its limit, more than the least.
+    pub for_energy: fn(f64) -> f64,
 }
 
 impl PartialEq for Law {

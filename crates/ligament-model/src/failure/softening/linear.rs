@@ -4,20 +4,28 @@ use super::law::{Law, Parameter, Softened};
 
 /// The force falls in a straight line to zero at r = e_u/e_0, the key `end`.
 pub const LAW: Law = Law {
-    word: "bilinear",
-    words: "Its force falls in a straight line to zero.",
-    force: "force falls straight to zero at",
+    word: "linear",
+    words: "Its force falls in one straight line to zero.",
+    force: "force falls in one straight line, to zero at",
     parameter: Some(Parameter {
         key: "end",
         above: 1.0,
-        of_it_alone: "only a force that falls in a straight line, after = \"bilinear\", has an end",
-        for_energy: |energy| (energy > 1.0).then_some(energy),
+        of_it_alone: "only a force that falls in straight lines, after = \"linear\" or \"two-branch\", has an end",
+        least_energy: 1.0,
+        for_energy: |energy| energy,
     }),
     softens: true,
     sliding_because: None,
     at,
     end: |end| end,
     total: |end| end,
+};
+
+/// The law by its older word, which papers on concrete use for two lines.
+pub const BILINEAR: Law = Law {
+    word: "bilinear",
+    words: "Older word for `linear`: one straight line, not the two of `two-branch` that concrete has.",
+    ..LAW
 };
 
 /// mu = (r - kappa)/(r - 1) with r = e_u/e_0 (MPPD eqs 45, 46, 50), omega = mu/kappa; the energy gone grows with the deformation,
