@@ -201,6 +201,15 @@ pub enum Notice {
         /// What is missing, relative to the work.
         error: f64,
     },
+    /// A force has passed what the body carries.
+    #[error(
+        "step {step}: no larger force has an equilibrium any more; to follow the body past its peak, let a probe control the force \
+         (`control` of a [[stage]]), or follow the exact path (fracture.control = \"event\")"
+    )]
+    PastPeak {
+        /// The last load step.
+        step: usize,
+    },
     /// The intact model has more negative eigenvalues than its rotations explain.
     #[error(
         "the intact model is unstable: {negative} negative eigenvalues where {expected} are expected; \

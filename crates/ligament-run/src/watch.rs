@@ -100,6 +100,7 @@ impl<'a> Watch<'a> {
             }
             Notice::Unstable { .. }
             | Notice::Undeformed
+            | Notice::PastPeak { .. }
             | Notice::NegativeEnergy { .. }
             | Notice::EnergyUnbalanced { .. } => notice.to_string(),
         }

@@ -3,8 +3,10 @@
 mod course;
 mod dissipation;
 pub mod elastic;
+mod ends;
 pub mod event;
 mod outcome;
+mod parts;
 mod path;
 mod recorder;
 mod remarks;

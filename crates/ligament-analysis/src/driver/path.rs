@@ -18,10 +18,10 @@ use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::connectivity::Hold;
-use crate::equilibrium::{Equilibrium, Target};
+use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, Termination, View,
 };
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
@@ -29,9 +29,6 @@ use crate::serial::Serial;
 use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
-
-/// Below this fraction of the peak a body carries no load any more: what is left is rounding.
-pub(super) const NO_LOAD: f64 = 1e-9;
 
 /// A run on its way.
 pub(super) struct Path<'a> {
@@ -45,7 +42,7 @@ pub(super) struct Path<'a> {
     /// Whether a given force acts on a part that nothing holds any more.
     pub(super) collapsed: bool,
     pub(super) stop: StopRules,
-    started: Instant,
+    pub(super) started: Instant,
 }
 
 impl<'a> Path<'a> {
@@ -128,58 +125,6 @@ impl<'a> Path<'a> {
         let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equilibrium.soften();
-    }
-
-    /// Goes over to the part of this index of a programme, which begins where the present one ends.
-    pub(super) fn begin_part(&mut self, part: usize) {
-        let Some(here) = self.problem.loads.course().filter(|it| it.part != part) else {
-            return;
-        };
-        let start = here.factors(self.state.load_factor);
-        let next = LoadCourse::new(here.programme.clone(), part, &start);
-        let (begins, _) = next.programme.parts[part].span;
-        let Some(loads) = self.problem.loads.in_course(next) else {
-            return;
-        };
-        self.state.load_factor = begins;
-        (self.course.part, self.course.part_start) = (part, start);
-        let control = loads.course().and_then(LoadCourse::control);
-        let motion = control.map(|it| it.value(&self.state.displacement));
-        self.course.motion_start = motion.unwrap_or(0.0);
-        self.problem.loads = loads.clone();
-        self.equilibrium.load_with(loads);
-    }
-
-    /// Seeks equilibrium from here on after a share of the present part: of the way of the motion that controls it, or else at the load
-    /// factor of the state.
-    pub(super) fn aim(&mut self, share: f64) {
-        let loads = &self.problem.loads;
-        let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
-        let target = control.and_then(|(course, control)| {
-            let start = self.course.motion_start;
-            let way = control.end - start;
-            Some(Target {
-                rate: loads.in_course(course.rate())?,
-                weights: control.weights.clone(),
-                value: start + share * way,
-                way,
-            })
-        });
-        self.equilibrium.aim(target);
-    }
-
-    /// Whether a motion controls the present part.
-    pub(super) fn is_controlled(&self) -> bool {
-        let course = self.problem.loads.course();
-        course.and_then(LoadCourse::control).is_some()
-    }
-
-    /// Factor of the control load in a record.
-    pub(super) fn control_factor(&self, record: &StepRecord) -> f64 {
-        match self.problem.loads.course() {
-            Some(loads) => record.factors[loads.programme.control],
-            None => record.load_factor,
-        }
     }
 
     /// Tells the observer what comes next.
@@ -335,93 +280,12 @@ impl<'a> Path<'a> {
     }
 
     /// Displacement and force of the control load in an equilibrium, m and N.
-    fn control(&self, balanced: &Balanced) -> (f64, f64) {
+    pub(super) fn control(&self, balanced: &Balanced) -> (f64, f64) {
         let (loads, load_factor) = (&self.problem.loads, self.state.load_factor);
         (
             loads.control_displacement(load_factor, &self.state.displacement),
             loads.control_force(load_factor, &balanced.internal),
         )
-    }
-
-    /// Whether the load of an equilibrium is rounding against the largest so far.
-    pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
-        if let Some(loads) = self.problem.loads.course() {
-            return self.carries_no_part(loads, balanced);
-        }
-        let (_, reaction) = self.control(balanced);
-        reaction <= NO_LOAD * self.course.peak
-    }
-
-    /// The rule that ends the run wherever it is, if one does.
-    pub(super) fn interruption(&self) -> Option<Termination> {
-        let seconds = self.started.elapsed().as_secs_f64();
-        if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.course.broken >= bonds) {
-            return Some(Termination::BondsBroken { bonds });
-        }
-        let is_over = |&allowed: &f64| seconds >= allowed;
-        (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
-    }
-
-    /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
-    /// that the body collapsed under it.
-    pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
-        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
-        match reason {
-            Unbalanced::CarriedByHold { place, force } if !is_whole => {
-                Termination::LostStiffness { step, place, force }
-            }
-            reason => Termination::NoEquilibrium { step, reason },
-        }
-    }
-
-    /// What ends the run with an equilibrium that is at rest, however far the body is loaded.
-    pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
-        let (displacement, _) = self.control(balanced);
-        if let Some(displacement) = self
-            .stop
-            .displacement
-            .filter(|&wanted| displacement >= wanted)
-        {
-            return Some(Termination::DisplacementReached { displacement });
-        }
-        let carried = self.carried_by_the_damaged(balanced)?;
-        // What fell apart carries again where its faces close.
-        let is_over = !self.problem.system.faces_close();
-        let carries_nothing = match self.problem.loads.course() {
-            None => carried <= NO_LOAD * self.course.peak,
-            Some(course) => self.carries_no_part(course, balanced),
-        };
-        (is_over && carries_nothing).then_some(Termination::FellApart)
-    }
-
-    /// Whether no point of a body carries anything of the loads of a programme that act on it.
-    fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
-        let factors = course.factors(self.state.load_factor);
-        let acts = factors.iter().any(|factor| *factor != 0.0);
-        acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force
-    }
-
-    /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
-    /// could carry more.
-    pub(super) fn end_by_load_fraction(&self, balanced: &Balanced) -> Option<Termination> {
-        let carried = self.carried_by_the_damaged(balanced)?;
-        let fraction =
-            (self.stop.load_fraction).filter(|&fraction| carried <= fraction * self.course.peak)?;
-        Some(Termination::LoadFraction { fraction })
-    }
-
-    /// The load in an equilibrium, in its own direction, of a body of which bonds broke or softened, N.
-    fn carried_by_the_damaged(&self, balanced: &Balanced) -> Option<f64> {
-        // Bonds that soften take load away before any breaks.
-        if self.course.broken == 0
-            && (self.state.softening.remaining.is_empty() || self.course.peak == 0.0)
-        {
-            return None;
-        }
-        // A load the other way is carried the other way.
-        let (_, reaction) = self.control(balanced);
-        let factor = self.problem.loads.control_factor(self.state.load_factor);
-        Some(if factor < 0.0 { -reaction } else { reaction })
     }
 
     /// Records an equilibrium.

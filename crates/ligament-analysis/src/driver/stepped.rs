@@ -55,6 +55,7 @@ pub fn run(
         plan: &plan,
     };
     let termination = stepping.steps_from(0)?;
+    stepping.path.report_past_peak(&termination)?;
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
 }
 
@@ -113,6 +114,7 @@ pub fn resume(
         Some(end) => end,
         None => stepping.steps_from(counters.step + 1)?,
     };
+    stepping.path.report_past_peak(&termination)?;
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
 }
 

@@ -1,0 +1,111 @@
+//! What ends a run on its way: rules, and a body that carries no load any more.
+
+use super::path::Path;
+use crate::balanced::Balanced;
+use crate::history::{Notice, ObserverError, Termination};
+use crate::load_program::{ControlKind, LoadCourse};
+use crate::unbalanced::Unbalanced;
+
+/// Below this fraction of the peak a body carries no load any more: what is left is rounding.
+pub(super) const NO_LOAD: f64 = 1e-9;
+
+impl Path<'_> {
+    /// Whether the load of an equilibrium is rounding against the largest so far.
+    pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
+        if let Some(loads) = self.problem.loads.course() {
+            return self.carries_no_part(loads, balanced);
+        }
+        let (_, reaction) = self.control(balanced);
+        reaction <= NO_LOAD * self.course.peak
+    }
+
+    /// The rule that ends the run wherever it is, if one does.
+    pub(super) fn interruption(&self) -> Option<Termination> {
+        let seconds = self.started.elapsed().as_secs_f64();
+        if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.course.broken >= bonds) {
+            return Some(Termination::BondsBroken { bonds });
+        }
+        let is_over = |&allowed: &f64| seconds >= allowed;
+        (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
+    }
+
+    /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
+    /// that the body collapsed under it.
+    pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
+        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
+        match reason {
+            Unbalanced::CarriedByHold { place, force } if !is_whole => {
+                Termination::LostStiffness { step, place, force }
+            }
+            reason => Termination::NoEquilibrium { step, reason },
+        }
+    }
+
+    /// What ends the run with an equilibrium that is at rest, however far the body is loaded.
+    pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
+        let (displacement, _) = self.control(balanced);
+        if let Some(displacement) = self
+            .stop
+            .displacement
+            .filter(|&wanted| displacement >= wanted)
+        {
+            return Some(Termination::DisplacementReached { displacement });
+        }
+        let carried = self.carried_by_the_damaged(balanced)?;
+        // What fell apart carries again where its faces close.
+        let is_over = !self.problem.system.faces_close();
+        let carries_nothing = match self.problem.loads.course() {
+            None => carried <= NO_LOAD * self.course.peak,
+            Some(course) => self.carries_no_part(course, balanced),
+        };
+        (is_over && carries_nothing).then_some(Termination::FellApart)
+    }
+
+    /// Whether no point of a body carries anything of the loads of a programme that act on it.
+    fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
+        let factors = course.factors(self.state.load_factor);
+        let acts = factors.iter().any(|factor| *factor != 0.0);
+        acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force
+    }
+
+    /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
+    /// could carry more.
+    pub(super) fn end_by_load_fraction(&self, balanced: &Balanced) -> Option<Termination> {
+        let carried = self.carried_by_the_damaged(balanced)?;
+        let fraction =
+            (self.stop.load_fraction).filter(|&fraction| carried <= fraction * self.course.peak)?;
+        Some(Termination::LoadFraction { fraction })
+    }
+
+    /// The load in an equilibrium, in its own direction, of a body of which bonds broke or softened, N.
+    fn carried_by_the_damaged(&self, balanced: &Balanced) -> Option<f64> {
+        // Bonds that soften take load away before any breaks.
+        if self.course.broken == 0
+            && (self.state.softening.remaining.is_empty() || self.course.peak == 0.0)
+        {
+            return None;
+        }
+        // A load the other way is carried the other way.
+        let (_, reaction) = self.control(balanced);
+        let factor = self.problem.loads.control_factor(self.state.load_factor);
+        Some(if factor < 0.0 { -reaction } else { reaction })
+    }
+
+    /// Tells of a way on where a force has passed what a body of which bonds broke or softened carries: a larger one has no equilibrium.
+    pub(super) fn report_past_peak(&mut self, end: &Termination) -> Result<(), ObserverError> {
+        let is_force = self.problem.loads.control().kind == ControlKind::Force;
+        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
+        let gave_way = matches!(
+            end,
+            Termination::NoEquilibrium { .. }
+                | Termination::NotAtRest { .. }
+                | Termination::Collapsed
+                | Termination::LostStiffness { .. }
+        );
+        if !is_force || is_whole || !gave_way || self.is_controlled() {
+            return Ok(());
+        }
+        let step = self.course.history.last().map_or(0, |it| it.step);
+        self.observer.notice(&Notice::PastPeak { step })
+    }
+}

@@ -1,0 +1,60 @@
+//! A run on its way through the parts of a programme.
+
+use super::path::Path;
+use crate::equilibrium::Target;
+use crate::history::StepRecord;
+use crate::load_program::LoadCourse;
+
+impl Path<'_> {
+    /// Goes over to the part of this index of a programme, which begins where the present one ends.
+    pub(super) fn begin_part(&mut self, part: usize) {
+        let Some(here) = self.problem.loads.course().filter(|it| it.part != part) else {
+            return;
+        };
+        let start = here.factors(self.state.load_factor);
+        let next = LoadCourse::new(here.programme.clone(), part, &start);
+        let (begins, _) = next.programme.parts[part].span;
+        let Some(loads) = self.problem.loads.in_course(next) else {
+            return;
+        };
+        self.state.load_factor = begins;
+        (self.course.part, self.course.part_start) = (part, start);
+        let control = loads.course().and_then(LoadCourse::control);
+        let motion = control.map(|it| it.value(&self.state.displacement));
+        self.course.motion_start = motion.unwrap_or(0.0);
+        self.problem.loads = loads.clone();
+        self.equilibrium.load_with(loads);
+    }
+
+    /// Seeks equilibrium from here on after a share of the present part: of the way of the motion that controls it, or else at the load
+    /// factor of the state.
+    pub(super) fn aim(&mut self, share: f64) {
+        let loads = &self.problem.loads;
+        let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
+        let target = control.and_then(|(course, control)| {
+            let start = self.course.motion_start;
+            let way = control.end - start;
+            Some(Target {
+                rate: loads.in_course(course.rate())?,
+                weights: control.weights.clone(),
+                value: start + share * way,
+                way,
+            })
+        });
+        self.equilibrium.aim(target);
+    }
+
+    /// Whether a motion controls the present part.
+    pub(super) fn is_controlled(&self) -> bool {
+        let course = self.problem.loads.course();
+        course.and_then(LoadCourse::control).is_some()
+    }
+
+    /// Factor of the control load in a record.
+    pub(super) fn control_factor(&self, record: &StepRecord) -> f64 {
+        match self.problem.loads.course() {
+            Some(loads) => record.factors[loads.programme.control],
+            None => record.load_factor,
+        }
+    }
+}
