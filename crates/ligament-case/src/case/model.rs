@@ -26,7 +26,7 @@ pub struct ModelSection {
     /// Whether bonds run through holes, slots and notches of a mesh, as if these were filled.
     #[serde(default)]
     pub bonds_through_voids: bool,
-    /// Whether the faces of cracks carry pressure again where they close; of laws whose points turn; false without the key.
+    /// Whether the faces of cracks carry pressure again where they close; of laws whose points turn.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(extend("default" = false))]
     pub closing: bool,

@@ -321,6 +321,8 @@ limit = {} # stretch, EXAMPLE
         Law::MbbPd { .. } => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
         _ => "\
 # When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, frictional, critical-stretch, ...
+# With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with the `fracture_energy` of the material. Concrete:
+# bond-energy with after = \"two-branch\", with `tensile_strength` and `fracture_energy`.
 [[fracture.criterion]]
 kind = \"tension\"
 "
