@@ -36,7 +36,8 @@ const ENERGY: &str =
 /// the strength, and with the root of the energy. f is the mean of the ends. Rounding alone.
 #[test]
 fn limits_go_with_the_factor_of_what_they_come_from() {
-    let cases: [(&str, &str, fn(f64) -> f64); 9] = [
+    type Limit = fn(f64) -> f64;
+    let cases: [(&str, &str, Limit); 9] = [
         ("kind = \"strength\"", STRENGTH, |f| f),
         ("kind = \"tension\"", STRENGTH, |f| f),
         ("kind = \"tension\", limit = 1e-4", STRENGTH, |f| f),

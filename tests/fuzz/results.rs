@@ -8,7 +8,7 @@ use ligament_cli::explain::{self, Subject};
 use ligament_plot::picture::Target as Picture;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
-use ligament_plot::picture::{FieldRequest, Magnification, draw_fields};
+use ligament_plot::picture::{CrackDrawing, FieldRequest, Magnification, draw_fields};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use ligament_study::calibrate::line;
@@ -115,8 +115,9 @@ impl Results {
     fn draw(&self) -> Vec<String> {
         let target = || Picture {
             out: Some(self.beside.path().join("picture.svg")),
+            format: None,
             width: None,
-            dpi: 100.0,
+            dpi: Some(100.0),
         };
         let fields = draw_fields(&FieldRequest {
             folders: vec![self.out()],
@@ -124,7 +125,8 @@ impl Results {
             field: None,
             choice: Choice::Default,
             magnification: Magnification::Auto,
-            crack: true,
+            crack: Some(CrackDrawing::Bonds),
+            lines: Vec::new(),
             window: None,
             bands: None,
             range: None,

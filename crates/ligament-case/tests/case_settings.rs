@@ -77,7 +77,7 @@ fn the_case_is_read_as_it_is_written() {
         y: None,
         rotation: None,
     };
-    assert_eq!(case.supports[1].displacement, held);
+    assert_eq!(case.supports[1].displacement, Some(held));
     let ordered = Region {
         group: None,
         r#box: Some(Rectangle([[-0.01, 0.04], [0.01, 0.05]])),

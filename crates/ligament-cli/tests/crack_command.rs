@@ -101,7 +101,6 @@ fn a_ligament_that_parts_is_one_crack_with_its_energy() {
         .map(|row| [8, 9, 10].map(|it| number(&row[it])))
         .collect();
     let mean = |of: usize| rates.iter().map(|it| it[of]).sum::<f64>() / rates.len() as f64;
-    eprintln!("{} rates: {} {} {}", rates.len(), mean(0), mean(1), mean(2));
     assert!(rates.len() > 3);
     assert!((mean(2) / 50.0 - 1.0).abs() < 0.1, "{}", mean(2));
     assert!(mean(1) > 0.99 * mean(2) && (mean(0) / mean(1) - 1.0).abs() < 0.15);

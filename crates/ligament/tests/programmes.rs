@@ -486,7 +486,7 @@ fn a_force_that_follows_its_displacement_is_its_reaction() {
         let (given, _) = run(pulled_at_a_point(
             Action::Displacement(moved),
             None,
-            criterion.clone(),
+            criterion,
         ));
         let control = Control {
             probes: vec![("hook".to_owned(), 1.0)],

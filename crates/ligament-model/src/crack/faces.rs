@@ -184,6 +184,7 @@ fn mean(places: impl ExactSizeIterator<Item = [f64; 2]>) -> [f64; 2] {
 }
 
 #[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 
