@@ -706,7 +706,7 @@ fn the_check_lists_criteria_and_limits() {
         check(&case, Extent::Model, None, &mut out).unwrap();
         String::from_utf8(out).unwrap()
     };
-    let several = "fracture.criterion=[{ kind = \"tension\", after = \"bilinear\" }, { kind = \"compression\" }, { kind = \"sliding\", \
+    let several = "fracture.criterion=[{ kind = \"tension\", after = \"linear\" }, { kind = \"compression\" }, { kind = \"sliding\", \
                    after = \"plastic\" }, { kind = \"critical-stretch\" }]";
     let text = told(&[
         several,
@@ -717,7 +717,7 @@ fn the_check_lists_criteria_and_limits() {
     let limit = (40.0 / (opening * 0.001)).sqrt();
     let end = (limit / 2.5e-4).powi(2);
     for line in [
-        format!("  tension               s = 2.5000e-4; force falls straight to zero at {end:.4e} times that; 4 bonds never fail\n"),
+        format!("  tension               s = 2.5000e-4; force falls in one straight line, to zero at {end:.4e} times that; 4 bonds never fail\n"),
         "  compression           -s = 7.5000e-4; brittle; 4 bonds never fail\n".to_owned(),
         "  sliding               |gamma| = 1.5625e-4; force stays; 4 bonds never fail\n".to_owned(),
         format!("  critical-stretch      s = {limit:.4e}; brittle; 4 bonds never fail\n"),

@@ -79,7 +79,10 @@ fn assert_same(name: &str, (outcome, watch): &Run, (expected, its_watch): &Run) 
     };
     assert_eq!(bonds(watch), bonds(its_watch), "{name}");
     assert_eq!(watch.held, its_watch.held, "{name}");
-    assert_eq!(watch.notices, its_watch.notices, "{name}");
+    // Numbers in the notices are known up to rounding, which their words leave out.
+    let words =
+        |watch: &Watch| -> Vec<String> { watch.notices.iter().map(ToString::to_string).collect() };
+    assert_eq!(words(watch), words(its_watch), "{name}");
     // Energies of an unstable body are in the message, with all their digits.
     assert_eq!(outcome.termination.name(), expected.termination.name());
     let counts = |outcome: &Outcome| -> Vec<(usize, usize, usize)> {

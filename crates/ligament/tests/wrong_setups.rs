@@ -180,7 +180,7 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
         ),
         (
             error(|it| it.supports[0] = Support::new("left", &[])),
-            "supports[0]: needs one of `x`, `y`, `rotation` or more",
+            "supports[0]: holds nothing: give a `displacement`, a `normal` or a `stiffness`",
         ),
         (
             error(|it| {
