@@ -226,7 +226,7 @@ group = "left"
 displacement = { x = 0.0, y = 0.0 }
 [[load]]
 group = "right"
-displacement = { x = 8e-5, y = 3e-5 }
+displacement = { x = 12e-5, y = 4.5e-5 }
 [[no_fail]]
 group = "left"
 [[probe]]
