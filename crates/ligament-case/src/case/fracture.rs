@@ -29,7 +29,7 @@ pub struct Fracture {
     /// What drives the load.
     #[serde(default)]
     pub control: Control,
-    /// The load steps: so many equal ones up to load factor 1, or a list of load factors. With a [[stage]] each stage has its own.
+    /// The load steps: so many equal ones up to load factor 1, or a list of load factors. With stages each of them has its own.
     pub steps: Option<Steps>,
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = stepped().rule.bonds_per_iteration))]
