@@ -1,7 +1,7 @@
 //! The exact equilibrium path, from breakage to breakage.
 //!
 //! Between two breakages the body is linear, and where the next bond reaches its limit is known in closed form: in proportion to
-//! the load factor ([`proportional`]), or along the line A + w B of a part of a programme ([`affine`]). It breaks there, the load
+//! the load factor (`proportional`), or along the line A + w B of a part of a programme (`affine`). It breaks there, the load
 //! held; the new equilibrium is in general no longer admissible at this load (or admissible beyond it), and the path
 //! goes on along its line to the next critical load factor, which may be lower. So the path snaps back as it must, and
 //! there is no step size. A stepped test in displacement follows its envelope, [`super::Outcome::envelope`].
