@@ -34,16 +34,19 @@ impl Body {
     /// If the file cannot be used.
     pub(crate) fn read(file: &VtuFile) -> Result<Self, Error> {
         let (corners, cells) = (file.points()?, file.cells()?);
-        let is_mesh = file
-            .components(FieldLocation::Point, "horizon")
-            .is_some();
+        let is_mesh = file.components(FieldLocation::Point, "horizon").is_some();
         let location = if is_mesh {
             FieldLocation::Point
         } else {
             FieldLocation::Cell
         };
         let (tagged, tags) = file.tags(location)?;
-        let around = |cell: &Cell| cell.points().iter().map(|&it| corners[it as usize]).collect();
+        let around = |cell: &Cell| {
+            cell.points()
+                .iter()
+                .map(|&it| corners[it as usize])
+                .collect()
+        };
         let squares: Vec<Vec<[f64; 2]>> = match is_mesh {
             true => Vec::new(),
             false => cells.iter().map(around).collect(),
@@ -102,7 +105,9 @@ fn order(positions: &[[f64; 2]]) -> Vec<u32> {
     };
     let low = [0, 1].map(|axis| bound(axis, f64::INFINITY, f64::min));
     let high = [0, 1].map(|axis| bound(axis, f64::NEG_INFINITY, f64::max));
-    let size = (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
+    let size = (high[0] - low[0])
+        .max(high[1] - low[1])
+        .max(f64::MIN_POSITIVE);
     let code = |it: &u32| {
         let position = positions[*it as usize];
         let [x, y] = [0, 1].map(|k| spread(((position[k] - low[k]) / size * RASTER) as u32));
@@ -115,13 +120,17 @@ fn order(positions: &[[f64; 2]]) -> Vec<u32> {
 
 /// The bits of a number with a free one between each two.
 fn spread(number: u32) -> u64 {
-    (0..16).fold(0, |sum, bit| sum | u64::from(number >> bit & 1) << (2 * bit))
+    (0..16).fold(0, |sum, bit| {
+        sum | u64::from(number >> bit & 1) << (2 * bit)
+    })
 }
 
 fn triangles(cells: &[Cell], place: &[u32]) -> Vec<[u32; 3]> {
     let mut triangles = Vec::new();
     for cell in cells {
-        let corners: Vec<u32> = (cell.points().iter()).map(|it| place[*it as usize]).collect();
+        let corners: Vec<u32> = (cell.points().iter())
+            .map(|it| place[*it as usize])
+            .collect();
         for pair in corners.get(1..).unwrap_or_default().windows(2) {
             triangles.push([corners[0], pair[0], pair[1]]);
         }

@@ -108,7 +108,12 @@ fn breaks(
         };
         let criteria = &run.model.criteria;
         let criterion = criteria.iter().position(|it| it.name == broke.criterion);
-        let row = [bond, broke.at.step, broke.round, criterion.unwrap_or_default()];
+        let row = [
+            bond,
+            broke.at.step,
+            broke.round,
+            criterion.unwrap_or_default(),
+        ];
         for (column, value) in found.iter_mut().zip(row) {
             column.push(value as i64);
         }

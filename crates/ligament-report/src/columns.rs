@@ -276,11 +276,17 @@ mod tests {
         assert_eq!((column.groups.len(), column.exponents.len()), (3, 20));
         for (place, read) in read(&column, 100).iter().enumerate() {
             let unit = power_of_ten(column.exponents[place]);
-            let largest = step(place).iter().filter(|it| it.is_finite()).fold(0.0, |a: f64, b| a.max(b.abs()));
+            let largest = step(place)
+                .iter()
+                .filter(|it| it.is_finite())
+                .fold(0.0, |a: f64, b| a.max(b.abs()));
             assert!(place == 0 || (1e4..1e5).contains(&(largest / unit)));
             for (read, value) in read.iter().zip(step(place)) {
                 let same = read.is_nan() && value.is_nan() || *read == value;
-                assert!(same || (read - value).abs() <= 0.5000001 * unit, "{read} {value}");
+                assert!(
+                    same || (read - value).abs() <= 0.5000001 * unit,
+                    "{read} {value}"
+                );
             }
         }
     }

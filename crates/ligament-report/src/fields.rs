@@ -22,6 +22,9 @@ const FIRST: [&str; 7] = [
     "rotation",
 ];
 
+/// Share of the points whose size is at most the usual one.
+const USUAL: f64 = 0.98;
+
 /// A field of all steps.
 #[derive(Debug)]
 pub(crate) struct Field {
@@ -37,9 +40,21 @@ pub(crate) struct Field {
     pub(crate) ranges: Vec<[f64; 2]>,
     /// Largest size of the steps: of a vector its length, else the largest component.
     pub(crate) magnitude: f64,
+    /// Largest size of the steps that few points exceed, so that a piece which flew off does not count.
+    pub(crate) usual: f64,
 }
 
 impl Field {
+    /// Whether a reader wants it first.
+    pub(crate) fn is_main(&self) -> bool {
+        self.rank() < FIRST.len()
+    }
+
+    fn rank(&self) -> usize {
+        let place = FIRST.iter().position(|it| self.name.starts_with(it));
+        place.unwrap_or(FIRST.len())
+    }
+
     /// Letters that it takes in a page.
     pub(crate) fn letters(&self) -> usize {
         self.columns.iter().map(Column::letters).sum()
@@ -55,6 +70,7 @@ struct Growing {
     encoders: Vec<Encoder>,
     ranges: Vec<[f64; 2]>,
     magnitude: f64,
+    usual: f64,
 }
 
 /// The fields of the outputs, those first that a reader wants first; `digits` of the largest value of each step are kept.
@@ -73,16 +89,19 @@ pub(crate) fn read(
         if growing.is_empty() {
             growing = begin(&file, body.location, digits);
         }
-        growing.par_iter_mut().try_for_each(|it| it.append(&file, body))?;
+        growing
+            .par_iter_mut()
+            .try_for_each(|it| it.append(&file, body))?;
     }
     let mut fields: Vec<Field> = growing.into_iter().map(Growing::finish).collect();
-    let rank = |it: &Field| FIRST.iter().position(|name| it.name.starts_with(name));
-    fields.sort_by_key(|it| rank(it).unwrap_or(FIRST.len()));
+    fields.sort_by_key(Field::rank);
     Ok(fields)
 }
 
 fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
-    let names = file.fields(location).filter(|it| !matches!(*it, "node" | "cell"));
+    let names = file
+        .fields(location)
+        .filter(|it| !matches!(*it, "node" | "cell"));
     let field = |name: &str| {
         let (stride, names) = file.components(location, name).unwrap_or((1, &[]));
         let components: Vec<String> = match (stride, names) {
@@ -104,6 +123,7 @@ fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
             ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; count],
             components,
             magnitude: 0.0,
+            usual: 0.0,
         }
     };
     names.map(field).collect()
@@ -118,23 +138,37 @@ impl Growing {
                 reason: format!("{} is not of the points of the first output", self.name),
             });
         }
-        for point in all.chunks_exact(self.stride) {
-            let size = match (self.stride, self.components.len()) {
-                (3, 2) => point[0].hypot(point[1]),
-                _ => point.iter().fold(0.0_f64, |size, it| size.max(it.abs())),
-            };
-            if size.is_finite() {
-                self.magnitude = self.magnitude.max(size);
-            }
+        let mut sizes = self.sizes(&all);
+        if let Some(last) = sizes.len().checked_sub(1) {
+            let place = (USUAL * last as f64) as usize;
+            let usual = *sizes.select_nth_unstable_by(place, f64::total_cmp).1;
+            self.usual = self.usual.max(usual);
+            self.magnitude = sizes.into_iter().fold(self.magnitude, f64::max);
         }
         for (place, encoder) in self.encoders.iter_mut().enumerate() {
-            let component: Vec<f64> = all.iter().skip(place).step_by(self.stride).copied().collect();
+            let component: Vec<f64> = all
+                .iter()
+                .skip(place)
+                .step_by(self.stride)
+                .copied()
+                .collect();
             let finite = component.iter().filter(|it| it.is_finite());
             let range = &mut self.ranges[place];
             *range = finite.fold(*range, |[low, high], &it| [low.min(it), high.max(it)]);
             encoder.append(&ordered(&component, &body.order));
         }
         Ok(())
+    }
+
+    /// Finite sizes of the values of the points.
+    fn sizes(&self, all: &[f64]) -> Vec<f64> {
+        let is_vector = self.stride == 3 && self.components.len() == 2;
+        let size = |point: &[f64]| match is_vector {
+            true => point[0].hypot(point[1]),
+            false => point.iter().fold(0.0_f64, |size, it| size.max(it.abs())),
+        };
+        let sizes = all.chunks_exact(self.stride).map(size);
+        sizes.filter(|it| it.is_finite()).collect()
     }
 
     fn finish(self) -> Field {
@@ -145,6 +179,7 @@ impl Growing {
             components: self.components,
             ranges: self.ranges,
             magnitude: self.magnitude,
+            usual: self.usual,
         }
     }
 }

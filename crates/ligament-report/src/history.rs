@@ -46,7 +46,10 @@ pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
 
 /// A column with the unit to show it in.
 pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
-    let shown = shown(unit, values.iter().fold(0.0, |largest, it| largest.max(it.abs())));
+    let shown = shown(
+        unit,
+        values.iter().fold(0.0, |largest, it| largest.max(it.abs())),
+    );
     let rounded: Vec<f64> = values.iter().map(|&it| rounded(it)).collect();
     json!({"name": name, "unit": shown.0, "shift": shown.1, "values": rounded})
 }

@@ -130,7 +130,10 @@ fn labels(request: &Request) -> Result<Vec<String>, ReportError> {
         return Ok(request.labels.clone());
     }
     if n_labels > 0 {
-        return Err(ReportError::Labels { n_labels, n_results });
+        return Err(ReportError::Labels {
+            n_labels,
+            n_results,
+        });
     }
     let name = |folder: &PathBuf| {
         let whole = folder.canonicalize().unwrap_or_else(|_| folder.clone());
@@ -155,7 +158,11 @@ fn page(runs: &[PageRun], texts: &Texts, request: &Request) -> String {
     for (number, run) in runs.iter().enumerate() {
         let hidden = if number == 0 { "" } else { " hidden" };
         // Writing to a text does not fail.
-        let _ = writeln!(summaries, "<div class=\"summary\" data-run=\"{number}\"{hidden}>{}", run.html);
+        let _ = writeln!(
+            summaries,
+            "<div class=\"summary\" data-run=\"{number}\"{hidden}>{}",
+            run.html
+        );
         if !run.left_out.is_empty() {
             let names = escaped(&run.left_out.join(", "));
             let _ = writeln!(
@@ -167,7 +174,10 @@ fn page(runs: &[PageRun], texts: &Texts, request: &Request) -> String {
     }
     let mut columns = String::new();
     for (number, text) in texts.0.iter().enumerate() {
-        let _ = writeln!(columns, "<script type=\"text/plain\" id=\"t{number}\">{text}</script>");
+        let _ = writeln!(
+            columns,
+            "<script type=\"text/plain\" id=\"t{number}\">{text}</script>"
+        );
     }
     filled(&[
         ("title", &escaped(&title)),
@@ -216,10 +226,20 @@ mod tests {
 
     #[test]
     fn the_page_has_a_place_for_every_part() {
-        for part in ["title", "style", "summaries", "description", "columns", "program"] {
+        for part in [
+            "title",
+            "style",
+            "summaries",
+            "description",
+            "columns",
+            "program",
+        ] {
             assert!(PAGE.contains(&format!("{{{{{part}}}}}")), "{part}");
         }
         let page = filled(&[("title", "{{style}}")]);
-        assert!(page.contains("<title>{{style}}"), "parts are not filled in again");
+        assert!(
+            page.contains("<title>{{style}}"),
+            "parts are not filled in again"
+        );
     }
 }

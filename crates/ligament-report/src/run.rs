@@ -91,10 +91,10 @@ impl PageRun {
         let mut budget = Budget::new(choice.letters);
         let fields = fields::read(&files, &body, choice.digits)?;
         let moved = fields.iter().find(|it| it.name == "displacement");
-        let drawn = describe_body(&body, moved.map_or(0.0, |it| it.magnitude), texts);
+        let drawn = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
         let fields: Vec<Value> = (fields.into_iter())
             .filter(|it| budget.takes(&it.name, it.letters()))
-            .map(|it| describe_field(it, texts))
+            .map(|it| describe_field(it, outputs.kind, texts))
             .collect();
         let bonds = bonds
             .filter(|it| budget.takes("bonds", it.letters()))
@@ -175,10 +175,11 @@ fn chosen(outputs: &Outputs, most: usize) -> Result<BTreeMap<usize, PathBuf>, Er
     let last = most.max(2) - 1;
     let places: Vec<usize> = (0..=last).map(|it| it * (count - 1) / last).collect();
     let numbered = outputs.files.iter().enumerate();
-    let of_choice = numbered.filter(|(place, (step, _))| {
-        places.binary_search(place).is_ok() || Some(**step) == peak
-    });
-    Ok(of_choice.map(|(_, (step, path))| (*step, path.clone())).collect())
+    let of_choice = numbered
+        .filter(|(place, (step, _))| places.binary_search(place).is_ok() || Some(**step) == peak);
+    Ok(of_choice
+        .map(|(_, (step, path))| (*step, path.clone()))
+        .collect())
 }
 
 /// The summary; empty where the run has not come to its end.
@@ -200,8 +201,8 @@ fn stored(folder: &Path) -> Result<Option<StoredRun>, Error> {
     is_there.then(|| StoredRun::open(folder)).transpose()
 }
 
-/// The body, with the largest displacement of its points, m.
-fn describe_body(body: &Body, largest: f64, texts: &mut Texts) -> Value {
+/// The body, with the largest displacement that most of its points keep to, m.
+fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
     let mut places = |positions: &[[f64; 2]]| {
         [0, 1].map(|axis| {
             let along: Vec<f64> = positions.iter().map(|it| it[axis]).collect();
@@ -217,7 +218,7 @@ fn describe_body(body: &Body, largest: f64, texts: &mut Texts) -> Value {
     json!({
         "tagged": body.tagged,
         "size": body.size(),
-        "largestDisplacement": finite(largest),
+        "usualDisplacement": finite(usual),
         "count": body.tags.len(),
         "position": position,
         "corner": corner,
@@ -227,10 +228,16 @@ fn describe_body(body: &Body, largest: f64, texts: &mut Texts) -> Value {
     })
 }
 
-fn describe_field(field: Field, texts: &mut Texts) -> Value {
-    let (unit, shift) = shown(field.unit, field.magnitude);
+fn describe_field(field: Field, kind: OutputKind, texts: &mut Texts) -> Value {
+    // A mode has no size of its own.
+    let unit = match kind {
+        OutputKind::Steps => field.unit,
+        OutputKind::Modes => "-",
+    };
+    let (unit, shift) = shown(unit, field.magnitude);
     json!({
         "name": field.name,
+        "isMain": field.is_main(),
         "unit": unit,
         "shift": shift,
         "components": field.components,
@@ -291,9 +298,19 @@ fn cracks(folder: &Path, steps: &[usize]) -> Result<Value, Error> {
         let lines = cracks.lines(step).into_iter();
         let coordinate = |it: &f64| (it * 1e7).round() / 1e7;
         let now: Value = lines
-            .map(|line| line.places.as_flattened().iter().map(coordinate).collect::<Vec<f64>>())
+            .map(|line| {
+                line.places
+                    .as_flattened()
+                    .iter()
+                    .map(coordinate)
+                    .collect::<Vec<f64>>()
+            })
             .collect();
-        of_steps.push(if now == before { Value::Null } else { now.clone() });
+        of_steps.push(if now == before {
+            Value::Null
+        } else {
+            now.clone()
+        });
         before = now;
     }
     Ok(Value::Array(of_steps))

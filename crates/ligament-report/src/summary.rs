@@ -5,7 +5,7 @@ use ligament_plot::picture::units::Shown;
 use serde_json::Value;
 
 /// Steps of a stage that a reader of results wants to know the time of, s.
-const WORTH_TELLING: f64 = 0.001;
+const WORTH_TELLING: f64 = 0.005;
 
 /// Text that stands for itself in HTML.
 pub(crate) fn escaped(text: &str) -> String {
@@ -53,7 +53,9 @@ fn table(title: &str, rows: &[Entry]) -> String {
         format!("<tr><th scope=\"row\">{name}</th><td>{text}</td></tr>\n")
     };
     let rows: String = rows.iter().map(row).collect();
-    format!("<section class=\"card\"><h3>{title}</h3><table class=\"facts\">\n{rows}</table></section>\n")
+    format!(
+        "<section class=\"card\"><h3>{title}</h3><table class=\"facts\">\n{rows}</table></section>\n"
+    )
 }
 
 fn warnings(summary: &Value) -> String {
@@ -65,7 +67,12 @@ fn warnings(summary: &Value) -> String {
         texts.push(last.to_owned());
     }
     let told = summary["warnings"].as_array();
-    texts.extend(told.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned));
+    texts.extend(
+        told.into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .map(str::to_owned),
+    );
     if texts.is_empty() {
         return String::new();
     }
@@ -102,20 +109,32 @@ fn results_of_steps(summary: &Value) -> Vec<Entry> {
     tell("Largest load", load_at(&summary["peak"], units));
     let first_peak = &summary["first_peak"];
     let is_other = *first_peak != summary["peak"];
-    tell("First peak", load_at(first_peak, units).filter(|_| is_other));
+    tell(
+        "First peak",
+        load_at(first_peak, units).filter(|_| is_other),
+    );
     tell(onset, load_at(&summary["first_break"], units));
     tell("First softened bond", bond(&summary["first_softened_bond"]));
     tell("First broken bond", bond(&summary["first_broken_bond"]));
     let stiffness = format!("{}/{}", units[1], units[0]);
-    tell("Elastic stiffness", quantity(&summary["elastic_stiffness"], &stiffness));
+    tell(
+        "Elastic stiffness",
+        quantity(&summary["elastic_stiffness"], &stiffness),
+    );
     let steps = match summary["exact_path"] == true {
         true => "states of the exact path",
         false => "load steps",
     };
     let count = summary["steps"].as_u64();
-    tell("Broken bonds", count.map(|count| format!("{broke} in {count} {steps}")));
+    tell(
+        "Broken bonds",
+        count.map(|count| format!("{broke} in {count} {steps}")),
+    );
     let balance = summary["energy_balance_error"].as_f64();
-    tell("Energy balance", balance.map(|it| format!("off by {it:.1e} of the work")));
+    tell(
+        "Energy balance",
+        balance.map(|it| format!("off by {it:.1e} of the work")),
+    );
     let ended = summary["termination_message"].as_str();
     tell("Ended because", ended.map(str::to_owned));
     rows
@@ -128,7 +147,9 @@ fn bond(bond: &Value) -> Option<String> {
     let mm = |axis: usize| place.get(axis).and_then(Value::as_f64).map(|it| 1e3 * it);
     let (x, y) = (mm(0)?, mm(1)?);
     let (step, criterion) = (&bond["step"], bond["criterion"].as_str()?);
-    Some(format!("{a} to {b} at ({x:.2}, {y:.2}) mm, in step {step}, by {criterion}"))
+    Some(format!(
+        "{a} to {b} at ({x:.2}, {y:.2}) mm, in step {step}, by {criterion}"
+    ))
 }
 
 fn results_of_modes(summary: &Value) -> Vec<Entry> {
@@ -136,7 +157,10 @@ fn results_of_modes(summary: &Value) -> Vec<Entry> {
     let row = |mode: &Value| {
         let frequency = quantity(&mode["frequency"], "Hz")?;
         let kind = mode["kind"].as_str()?;
-        Some((format!("Mode {}", mode["mode"]), format!("{frequency}, {kind}")))
+        Some((
+            format!("Mode {}", mode["mode"]),
+            format!("{frequency}, {kind}"),
+        ))
     };
     let mut rows: Vec<Entry> = modes.into_iter().flatten().filter_map(row).collect();
     rows.extend(quantity(&summary["mass"], "kg").map(|it| ("Mass".to_owned(), it)));
@@ -149,15 +173,33 @@ fn model(summary: &Value) -> Vec<Entry> {
         rows.extend(text.map(|text| (name.to_owned(), text)));
     };
     let count = |name: &str| summary[name].as_u64().filter(|it| *it > 0);
-    tell("Formulation", summary["formulation"].as_str().map(str::to_owned));
+    tell(
+        "Formulation",
+        summary["formulation"].as_str().map(str::to_owned),
+    );
     tell("Points", count("points").map(|it| it.to_string()));
     let cut = count("cut_bonds").map_or(String::new(), |it| format!(", {it} cut by pre-cracks"));
     tell("Bonds", count("bonds").map(|it| format!("{it}{cut}")));
-    tell("Points with no_fail", count("no_fail_points").map(|it| it.to_string()));
+    tell(
+        "Points with no_fail",
+        count("no_fail_points").map(|it| it.to_string()),
+    );
     let horizon = |of: &str| quantity(&summary["horizon"][of], "m");
-    let spread = || Some(format!("{} to {}, mean {}", horizon("min")?, horizon("max")?, horizon("mean")?));
+    let spread = || {
+        Some(format!(
+            "{} to {}, mean {}",
+            horizon("min")?,
+            horizon("max")?,
+            horizon("mean")?
+        ))
+    };
     tell("Horizon", spread());
-    tell("Volume", summary["volume"].as_f64().map(|it| Shown::new("m^3", it).value(it)));
+    tell(
+        "Volume",
+        summary["volume"]
+            .as_f64()
+            .map(|it| Shown::new("m^3", it).value(it)),
+    );
     rows
 }
 
@@ -165,10 +207,16 @@ fn provenance(summary: &Value) -> Vec<Entry> {
     let of = &summary["provenance"];
     let mut rows = Vec::new();
     let version = summary["version"].as_str();
-    let commit = of["commit"].as_str().map(|it| it.chars().take(10).collect::<String>());
+    let commit = of["commit"]
+        .as_str()
+        .map(|it| it.chars().take(10).collect::<String>());
     let commit = commit.map_or(String::new(), |it| format!(", commit {it}"));
     rows.extend(version.map(|it| ("Program".to_owned(), format!("ligament {it}{commit}"))));
-    rows.extend(of["processor"].as_str().map(|it| ("Processor".to_owned(), it.to_owned())));
+    rows.extend(
+        of["processor"]
+            .as_str()
+            .map(|it| ("Processor".to_owned(), it.to_owned())),
+    );
     let inputs = of["inputs"].as_array().into_iter().flatten();
     let digest = |input: &Value| {
         let (file, digest) = (input["file"].as_str()?, input["xxh64"].as_str()?);
@@ -178,7 +226,9 @@ fn provenance(summary: &Value) -> Vec<Entry> {
     rows.extend(inputs.filter_map(digest));
     let stages = summary["stages"].as_array().into_iter().flatten();
     let time = |stage: &Value| {
-        let seconds = stage["seconds"].as_f64().filter(|it| *it >= WORTH_TELLING)?;
+        let seconds = stage["seconds"]
+            .as_f64()
+            .filter(|it| *it >= WORTH_TELLING)?;
         Some(format!("{} {seconds:.2} s", stage["name"].as_str()?))
     };
     let times: Vec<String> = stages.filter_map(time).collect();

@@ -58,13 +58,21 @@ impl ReportArgs {
         })?;
         let mut out = terminal::stdout();
         for it in &written.contents {
-            writeln!(out, "{}: {} points, {} steps", it.label, it.points, it.steps)?;
+            writeln!(
+                out,
+                "{}: {} points, {} steps",
+                it.label, it.points, it.steps
+            )?;
             if !it.left_out.is_empty() {
                 writeln!(out, "  no room for: {}", it.left_out.join(", "))?;
             }
         }
         let megabytes = written.size as f64 / MEGABYTE;
-        Ok(writeln!(out, "{} ({megabytes:.1} MB)", written.path.display())?)
+        Ok(writeln!(
+            out,
+            "{} ({megabytes:.1} MB)",
+            written.path.display()
+        )?)
     }
 }
 

@@ -1,7 +1,7 @@
 // A chart of curves as SVG, with a mark at the step that is seen.
 
 const SVG = "http://www.w3.org/2000/svg";
-const CHART = { width: 460, height: 270, left: 62, right: 14, top: 10, bottom: 42 };
+const CHART = { width: 460, height: 270, left: 72, right: 14, top: 10, bottom: 42 };
 
 function svgElement(name, attributes = {}, text = null) {
   const element = document.createElementNS(SVG, name);
@@ -78,14 +78,10 @@ class Chart {
       this.svg.append(svgElement("line", { class: "grid", x1: x, x2: x, y1: top, y2: bottom }));
       this.svg.append(svgElement("text", { x, y: bottom + 15, "text-anchor": "middle" }, tickText(value)));
     }
-    const places = this.logarithmic
-      ? ticks(Math.ceil(this.range.y[0]), Math.floor(this.range.y[1]), 5).filter(Number.isInteger)
-      : ticks(...this.range.y, 5);
-    for (const place of places) {
-      const value = this.logarithmic ? 10 ** place : place;
+    for (const value of this.logarithmic ? logarithmicTicks(...this.range.y) : ticks(...this.range.y, 5)) {
       const y = this.y(value);
       this.svg.append(svgElement("line", { class: "grid", x1: left, x2: left + width, y1: y, y2: y }));
-      this.svg.append(svgElement("text", { x: left - 6, y: y + 4, "text-anchor": "end" }, this.logarithmic ? `1e${place}` : tickText(value)));
+      this.svg.append(svgElement("text", { x: left - 6, y: y + 4, "text-anchor": "end" }, tickText(value)));
     }
     this.svg.append(svgElement("rect", { class: "frame", x: left, y: top, width, height }));
     this.svg.append(svgElement("text", { class: "label", x: left + width / 2, y: bottom + 35, "text-anchor": "middle" }, this.xLabel));
@@ -158,6 +154,17 @@ class Chart {
     this.svg.addEventListener("pointerdown", picked);
     this.svg.addEventListener("pointermove", (event) => event.buttons === 1 && picked(event));
   }
+}
+
+// Powers of ten between powers of ten; of few also twice and five times them.
+function logarithmicTicks(low, high) {
+  const decades = ticks(Math.ceil(low), Math.floor(high), 5).filter((it) => Number.isInteger(it) && it >= low && it <= high);
+  if (decades.length > 2) return decades.map((it) => Number(`1e${it}`));
+  const found = [];
+  for (let decade = Math.floor(low); decade <= high; decade++) {
+    for (const digit of [1, 2, 5]) found.push(Number(`${digit}e${decade}`));
+  }
+  return found.filter((it) => Math.log10(it) >= low && Math.log10(it) <= high);
 }
 
 function tickText(value) {

@@ -11,7 +11,8 @@ class Charts {
     this.curve = chart("curve", "Force over displacement");
     this.energies = chart("energies", "Energies over the steps");
     this.broken = chart("broken", "Broken bonds over the steps");
-    this.convergence = chart("convergence", "Iterations and residuals over the steps");
+    this.convergence = chart("convergence", "Last residual of each step");
+    this.iterations = chart("iterations", "Iterations over the steps");
     this.showCurve();
   }
 
@@ -58,19 +59,21 @@ class Charts {
     this.energies.show({ series: energies, xLabel, yLabel: labelWithUnit("energy", energy?.unit), pick });
     const broken = isStatic ? [] : over(["broken_bonds", "broken_in_step"]);
     this.broken.show({ series: broken, xLabel, yLabel: "bonds", pick });
-    const convergence = isStatic ? [] : over(["residual"]);
-    const counts = isStatic ? [] : over(["iterations", "rounds"]);
-    counts.forEach((series) => { series.colour += 1; });
-    this.convergence.show({ series: [...convergence, ...counts], xLabel, yLabel: "residual, iterations", logarithmic: true, pick });
-    for (const chart of [this.energies, this.broken, this.convergence]) {
-      chart.parent.closest("section").hidden = chart.series.length === 0;
-    }
+    const residuals = isStatic ? [] : over(["residual"], 0);
+    this.convergence.show({ series: residuals, xLabel, yLabel: "last residual", logarithmic: true, pick });
+    const iterations = isStatic ? [] : over(["iterations", "rounds"]);
+    this.iterations.show({ series: iterations, xLabel, yLabel: "in a step", pick });
+    for (const chart of this.ofSteps) chart.parent.closest("section").hidden = chart.series.length === 0;
+  }
+
+  get ofSteps() {
+    return [this.energies, this.broken, this.convergence, this.iterations];
   }
 
   mark(run, step) {
     const row = run.rows[step];
     this.curve.markAt(row, this.runs.indexOf(run));
-    for (const chart of [this.energies, this.broken, this.convergence]) chart.markAt(row);
+    for (const chart of this.ofSteps) chart.markAt(row);
   }
 }
 

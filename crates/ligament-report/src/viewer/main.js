@@ -7,7 +7,7 @@ const BROKEN = [0.9, 0.15, 0.16, 0.9];
 const CHOSEN = [1, 0.75, 0, 1];
 // Pixels from the pointer to a bond that it points at.
 const REACH = 7;
-// Share of the body that the largest displacement is drawn with.
+// Share of the body that the usual displacement is drawn with; of a mode twice as much.
 const DRAWN_SHARE = 0.05;
 
 const element = (id) => document.getElementById(id);
@@ -52,6 +52,7 @@ class Page {
     element("step").closest(".steps").hidden = run.steps.length < 2;
     this.offerMagnifications();
     this.offerCracks();
+    if (run.isModes) element("scale").value = "inner";
     element("run").value = this.runs.indexOf(run);
     for (const summary of document.querySelectorAll(".summary")) summary.hidden = Number(summary.dataset.run) !== this.runs.indexOf(run);
     this.charts.showRun(run);
@@ -68,8 +69,9 @@ class Page {
   }
 
   offerMagnifications() {
-    const { size, largestDisplacement: largest } = this.run.description.body;
-    const auto = largest > 0 ? roundedDown((DRAWN_SHARE * size) / largest) : 1;
+    const { size, usualDisplacement: usual } = this.run.description.body;
+    const share = this.run.isModes ? 2 * DRAWN_SHARE : DRAWN_SHARE;
+    const auto = usual > 0 ? roundedDown((share * size) / usual) : 1;
     const factors = [...new Set([0, 1, auto, 2 * auto, 5 * auto])].sort((one, other) => one - other);
     options(element("magnification"), factors.map((it) => [it, it === 0 ? "not drawn" : `× ${shortText(it, 1)}`]));
     element("magnification").value = auto;

@@ -22,26 +22,25 @@ class Panel {
   async showPoint(run, body, point, step, choice) {
     const asked = ++this.asked;
     const fields = [choice.field, ...run.fields.filter((it) => it !== choice.field)];
-    const write = (isWhole) => {
-      const rows = [pointRow(run, body, point)];
-      for (const field of fields) {
-        field.columns.forEach((column, place) => {
-          const multiples = column.ready(step);
-          const label = inWords([field.name, field.components[place]].filter(Boolean).join(" "));
-          if (multiples) rows.push([label, withUnit(exactText(multiples[point], column.exponents[step], field.shift), field.unit), field.components[place] ? `${field.name}.${field.components[place]}` : field.name]);
-          else if (!isWhole) rows.push([label, "…", null]);
-        });
-      }
-      this.values.replaceChildren(table(rows));
+    const isMain = (field) => field === choice.field || field.isMain;
+    const write = () => {
+      const rows = (chosen) => chosen.flatMap((field) => rowsOfField(field, point, step));
+      const more = document.createElement("details");
+      more.open = this.isOpen ?? false;
+      more.addEventListener("toggle", () => { this.isOpen = more.open; });
+      const summary = document.createElement("summary");
+      summary.textContent = "More of this point";
+      more.append(summary, table(rows(fields.filter((it) => !isMain(it)))));
+      this.values.replaceChildren(table([pointRow(body, point), ...rows(fields.filter(isMain))]), more);
     };
-    write(false);
+    write();
     await this.showHistory(run, point, step, choice, asked);
     // A pointer that moves on asks for the next point before everything is read.
     await new Promise((done) => { setTimeout(done, 120); });
     if (asked !== this.asked) return;
     await Promise.all(fields.flatMap((field) => field.columns.map((column) => column.multiples(step))));
     if (asked !== this.asked) return;
-    write(true);
+    write();
     this.values.dataset.whole = `${point} ${step}`;
   }
 
@@ -104,13 +103,14 @@ class Panel {
     ];
     const { criteria } = run.bonds;
     for (const [name, { multiple, exponent }] of properties) {
-      if (name === "absent" || name.startsWith("step_of") || name.startsWith("criterion_of")) continue;
+      if (name === "absent" || name === "utilisation" || name.endsWith("_of_largest")) continue;
       const isHorizon = name === "horizon";
       rows.push([isHorizon ? "bond horizon" : inWords(name), withUnit(exactText(multiple, exponent, isHorizon ? 3 : 0), isHorizon ? "mm" : "")]);
     }
     const seen = properties.get("step_of_largest");
     const by = criteria[properties.get("criterion_of_largest")?.multiple];
-    if (seen && by && properties.get("utilisation")?.multiple > 0) rows.push(["largest utilisation", `in step ${seen.multiple}, by ${by}`]);
+    const largest = properties.get("utilisation");
+    if (largest?.multiple > 0) rows.push(["largest utilisation", `${exactText(largest.multiple, largest.exponent, 0)} in step ${seen?.multiple}, by ${by}`]);
     rows.push(["fate", fateOf(run, breaks, bond, properties.get("absent")?.multiple ?? 0)]);
     const order = breaks.order[bond];
     if (order >= 0) rows.push(["broke", `in step ${breaks.step[order]}, round ${breaks.round[order]}, by ${criteria[breaks.criterion[order]]}, at ${shortText(breaks.utilisation[order], 5)} of its limit`]);
@@ -125,7 +125,17 @@ function fateOf(run, breaks, bond, absent) {
   return order < 0 ? "intact" : `broke, number ${order + 1} of ${breaks.step.length}`;
 }
 
-function pointRow(run, body, point) {
+// The components of a field at a point; dots where they are not read yet.
+function rowsOfField(field, point, step) {
+  return field.columns.map((column, place) => {
+    const name = [field.name, field.components[place]].filter(Boolean).join(".");
+    const multiples = column.ready(step);
+    const text = multiples ? exactText(multiples[point], column.exponents[step], field.shift) : "…";
+    return [inWords(name), withUnit(text, field.unit), name];
+  });
+}
+
+function pointRow(body, point) {
   const mm = (column) => exactText(column.ready(0)[point], column.exponents[0], 3);
   const [x, y] = body.positionColumns.map(mm);
   return [`${body.tagged} ${body.tags[point]}`, `(${x}, ${y}) mm`, "tag"];
