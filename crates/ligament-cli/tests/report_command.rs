@@ -40,7 +40,7 @@ const PULLED: &str = r#"[[load]]
 group = "right"
 displacement = { x = 4e-4, y = 0.0 }
 [fracture]
-steps = 8
+steps = 16
 [output]
 fields_every = 1
 "#;
@@ -91,7 +91,7 @@ fn names(run: &Value) -> Vec<String> {
 fn a_page_has_a_run_and_no_markup_of_its_case() {
     let folder = run(&bar(PULLED));
     let (page, said) = report(folder.path(), &["out"]);
-    assert!(said.contains("288 points, 9 steps"), "{said}");
+    assert!(said.contains("288 points, "), "{said}");
     assert!(folder.path().join("out/report.html").is_file());
     assert!(!page.contains("<script>alert"), "the title is text");
     assert!(
@@ -99,17 +99,16 @@ fn a_page_has_a_run_and_no_markup_of_its_case() {
             "<title>&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;more&quot;</title>"
         )
     );
-    assert!(
-        !page.contains("http:") && !page.contains("src=\"http"),
-        "nothing is fetched"
-    );
+    // Nothing can be fetched.
+    assert!(page.contains("default-src 'none'") && !page.contains("connect-src"));
     let run = &description(&page)["runs"][0];
     assert_eq!(run["title"], TITLE.replace("\\\"", "\""));
     assert_eq!(run["body"]["count"], 288);
-    assert_eq!(run["steps"].as_array().unwrap().len(), 9);
+    let n_steps = run["steps"].as_array().unwrap().len();
+    assert!(n_steps > 4, "{n_steps}");
     assert_eq!(names(run)[..2], ["displacement", "damage"]);
     assert!(run["bonds"]["count"].as_u64().unwrap() > 2000);
-    assert_eq!(run["cracks"].as_array().unwrap().len(), 9);
+    assert_eq!(run["cracks"].as_array().unwrap().len(), n_steps);
     let history = run["history"].as_array().unwrap();
     assert!(history.iter().any(|it| it["name"] == "residual"));
     // A rerun of the same results gives the same bytes.
@@ -118,7 +117,10 @@ fn a_page_has_a_run_and_no_markup_of_its_case() {
 
 #[test]
 fn what_does_not_fit_is_left_out_and_named() {
-    let folder = run(&bar(PULLED));
+    let fine = bar(PULLED)
+        .replace("[24, 12]", "[72, 36]")
+        .replace("0.005", "0.0016667");
+    let folder = run(&fine);
     let words = [
         "out",
         "--size",
@@ -143,13 +145,8 @@ fn what_does_not_fit_is_left_out_and_named() {
 #[test]
 fn several_results_and_modes_stand_in_a_page() {
     let folder = run(&bar(PULLED));
-    let modes =
-        bar("[modal]\nmodes = 3\n").replace("[modal]", "[output]\npicture = false\n[modal]");
-    fs::write(
-        folder.path().join("modes.toml"),
-        format!("analysis = \"modal\"\n{modes}"),
-    )
-    .unwrap();
+    let modes = format!("analysis = \"modal\"\n{}", bar("[modal]\nmodes = 3\n"));
+    fs::write(folder.path().join("modes.toml"), modes).unwrap();
     let output = call(
         folder.path(),
         &["run", "modes.toml", "--out", "modes", "--quiet"],
