@@ -223,22 +223,31 @@ fn opening(
     (!target.weights.is_empty()).then_some(target)
 }
 
+/// A way of the motion that was tried.
+#[derive(Clone, Copy)]
+struct Tried {
+    way: f64,
+    /// What the energy is beyond its value there, J.
+    excess: f64,
+}
+
 /// How far a motion goes until the dissipated energy is right: less than it should be on one side, and more on the other.
 struct Bracket {
-    /// Way of the motion and what the energy lacks there.
-    low: [f64; 2],
-    /// Way of the motion and what the energy is beyond there.
-    high: Option<[f64; 2]>,
+    low: Tried,
+    high: Option<Tried>,
     /// The way to try.
     next: f64,
     was_below: bool,
 }
 
 impl Bracket {
-    /// From what the energy lacks at first, and a way to try.
-    fn new(lacking: f64, next: f64) -> Self {
+    /// From what the energy is beyond its value at first, negative, and a way to try.
+    fn new(excess: f64, next: f64) -> Self {
         Self {
-            low: [0.0, lacking],
+            low: Tried {
+                way: 0.0,
+                excess,
+            },
             high: None,
             was_below: true,
             next,
@@ -248,36 +257,39 @@ impl Bracket {
     /// Takes in what the energy at the tried way is beyond its value: false position, where a side that stays counts half (the Illinois
     /// rule). Where nothing is beyond yet, the way goes on as far as the last two say.
     fn learn(&mut self, excess: f64) {
-        let tried = self.next;
+        let tried = Tried {
+            way: self.next,
+            excess,
+        };
         let stays = (excess < 0.0) == self.was_below;
         self.was_below = excess < 0.0;
         if excess >= 0.0 {
             if stays {
-                self.low[1] *= 0.5;
+                self.low.excess *= 0.5;
             }
-            self.high = Some([tried, excess]);
+            self.high = Some(tried);
         } else {
-            let on = excess * (tried - self.low[0]) / (self.low[1] - excess);
-            self.low = [tried, excess];
+            let on = excess * (tried.way - self.low.way) / (self.low.excess - excess);
+            self.low = tried;
             let Some(high) = &mut self.high else {
-                let share = 1.0 + (on / tried).abs();
-                self.next = tried * share.clamp(1.0 + MISSED, FARTHEST);
+                let share = 1.0 + (on / tried.way).abs();
+                self.next = tried.way * share.clamp(1.0 + MISSED, FARTHEST);
                 return;
             };
             if stays {
-                high[1] *= 0.5;
+                high.excess *= 0.5;
             }
         }
-        if let Some([far, beyond]) = self.high {
-            let [near, lacking] = self.low;
-            self.next = near - lacking * (far - near) / (beyond - lacking);
+        if let Some(high) = self.high {
+            let low = self.low;
+            self.next = low.way - low.excess * (high.way - low.way) / (high.excess - low.excess);
         }
     }
 
     /// Tries the nearest way beyond.
     fn end_above(&mut self) {
-        if let Some([far, _]) = self.high {
-            self.next = far;
+        if let Some(high) = self.high {
+            self.next = high.way;
         }
     }
 }
