@@ -244,10 +244,7 @@ impl Bracket {
     /// From what the energy is beyond its value at first, negative, and a way to try.
     fn new(excess: f64, next: f64) -> Self {
         Self {
-            low: Tried {
-                way: 0.0,
-                excess,
-            },
+            low: Tried { way: 0.0, excess },
             high: None,
             was_below: true,
             next,
