@@ -4,9 +4,13 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
+
+mod support;
+
+use support::{ligament_in, text};
 
 /// A bar of 120 x 60 x 10 mm with a slit of 20 mm from below in its middle, between two columns of cells, pulled apart along the exact path.
 const BAR: &str = r#"title = "Bar with a slit"
@@ -52,12 +56,7 @@ impl Place {
     }
 
     fn call(&self, words: &[&str]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
-        command
-            .current_dir(self.0.path())
-            .args(words)
-            .output()
-            .unwrap()
+        ligament_in(self.0.path(), words)
     }
 
     fn table(&self, file: &str) -> Vec<Vec<String>> {
@@ -70,10 +69,6 @@ impl Place {
         let path = self.0.path().join("out/summary.json");
         serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
     }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 fn number(text: &str) -> f64 {
