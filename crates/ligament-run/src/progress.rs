@@ -63,7 +63,7 @@ impl StepLine {
     fn text(&self) -> String {
         let factor = self.load_factor;
         let mut text = match &self.stage {
-            Some(stage) => format!("stage {stage} to {:.1} %", 100.0 * factor),
+            Some(stage) => format!("stage {stage}, load factor {factor:.4}"),
             None => format!("load factor {factor:.4}"),
         };
         // Writing to a string cannot fail.
@@ -265,7 +265,7 @@ mod tests {
         };
         assert_eq!(
             log_line(&softening, false, None, Duration::ZERO),
-            "step 25 (under way): stage pull to 25.0 %, 7 bonds broken, 340 softened"
+            "step 25 (under way): stage pull, load factor 0.2500, 7 bonds broken, 340 softened"
         );
     }
 

@@ -265,8 +265,9 @@ impl Summary {
         } else {
             "load steps"
         };
-        let softened =
-            (self.softened_bonds).map_or(String::new(), |it| format!(", {it} more softened,"));
+        let softened = (self.softened_bonds).map_or(String::new(), |it| {
+            format!(", and {it} more that softened,")
+        });
         writeln!(
             out,
             "  broken bonds       {}{softened} in {} {unit}",
