@@ -16,13 +16,33 @@ use ligament_study::calibrate::line;
 use crate::Target;
 use crate::folder::Folder;
 
-const CASE: &str = concat!(
-    include_str!("../../crates/ligament-cli/tests/support/small-bar.toml"),
-    "[output]
+const CASE: &str = r#"title = "Small bar"
+[lattice]
+cells = [8, 4]
+spacing = 0.01
+[lattice.set]
+left = { left = 1 }
+right = { right = 1 }
+[material]
+young = 1e9
+poisson = 0.2
+tensile_strength = 1e6
+[model]
+law = "nhpd"
+horizon_factor = 2.2
+[[support]]
+group = "left"
+displacement = { x = 0.0, y = 0.0 }
+[[load]]
+group = "right"
+displacement = { x = 2e-4 }
+[fracture]
+steps = 4
+stop = { load_fraction = 0.5 }
+[output]
 fields_every = 1
 bonds = true
-"
-);
+"#;
 
 /// The case of a small bar that breaks, beside whose file its results may lie.
 pub(crate) fn small_bar(folder: &Path) -> CaseFile {
