@@ -4,7 +4,7 @@
 use ligament::Loading;
 use ligament::prelude::*;
 use ligament::run::{follow, restore, resume};
-use ligament::setup::Control;
+use ligament::setup::{Control, Quantity};
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::breaking::BreakingOrder;
 use ligament_analysis::driver::Outcome;
@@ -275,7 +275,7 @@ fn runs_in_stages_go_on_to_the_same_bits() {
         let turns = Course::through(&[0.2, 1.0]);
         stages.push(stage("turn", "right", turns, steps));
         let control = Control {
-            probes: vec![("opening".to_owned(), 0.5)],
+            quantity: Quantity::Probes(vec![("opening".to_owned(), 0.5)]),
             to: 3e-5,
         };
         stages.extend(steps.map(|_| Stage {
@@ -400,7 +400,7 @@ fn stages_that_make_no_sense_say_so() {
         "{order}"
     );
     let control = |probe: &str| Control {
-        probes: vec![(probe.to_owned(), 1.0)],
+        quantity: Quantity::Probes(vec![(probe.to_owned(), 1.0)]),
         to: 1e-5,
     };
     assert_eq!(
@@ -489,7 +489,7 @@ fn a_force_that_follows_its_displacement_is_its_reaction() {
             criterion,
         ));
         let control = Control {
-            probes: vec![("hook".to_owned(), 1.0)],
+            quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
             to: END,
         };
         let force = Action::Force([1e5, 0.0]);
@@ -549,7 +549,7 @@ fn the_opening_of_a_crack_leads_through_a_snap_back() {
     let pull = |steps| stage("pull", "right", Course::to(1.0), steps);
     let (exact, path) = run(cracked(Analysis::Event(event()), pull(None)));
     let control = Control {
-        probes: vec![("mouth".to_owned(), 1.0)],
+        quantity: Quantity::Probes(vec![("mouth".to_owned(), 1.0)]),
         to: 6e-5,
     };
     let mut settings = stepped(Vec::new());
