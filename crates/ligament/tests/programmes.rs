@@ -578,7 +578,7 @@ fn a_force_that_follows_its_displacement_closes_cracks() {
             ..Displacement::default()
         };
         let moved = Action::Displacement(moved);
-        let (given, _) = run(pressed_and_pulled(moved, TURNS, false, criterion.clone()));
+        let (given, _) = run(pressed_and_pulled(moved, TURNS, false, criterion));
         let force = Action::Force([1e5, 0.0]);
         let (followed, _) = run(pressed_and_pulled(force, TURNS, true, criterion));
         assert_eq!(given.history.len(), 61, "{name}: {}", given.termination);
