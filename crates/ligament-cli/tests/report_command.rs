@@ -156,7 +156,8 @@ fn several_results_and_modes_stand_in_a_page() {
         "out",
         "modes",
         "--labels",
-        "pulled,free",
+        "pulled",
+        "free",
         "--output",
         "both.html",
     ];

@@ -15,7 +15,7 @@ const MEGABYTE: f64 = 1e6;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament report results/disk                       writes results/disk/report.html
-  ligament report results/coarse results/fine --output both.html
+  ligament report results/coarse results/fine --labels '4 mm' '2 mm' --output both.html
   ligament report results/disk --digits 4 --steps 20 a smaller page
 
 The page is one file without anything from a network: open it in a browser, send it, print it. It has
@@ -32,7 +32,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Names of the results in the page, one for each [default: names of the folders]
-    #[arg(long, value_name = "LABEL", value_delimiter = ',')]
+    #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
     /// Digits that the largest value of a field in a step keeps
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(2..=8))]

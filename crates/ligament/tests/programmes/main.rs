@@ -4,7 +4,7 @@
 use ligament::Loading;
 use ligament::prelude::*;
 use ligament::run::{follow, restore, resume};
-use ligament::setup::Control;
+use ligament::setup::{Control, Quantity};
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::breaking::BreakingOrder;
 use ligament_analysis::driver::Outcome;
@@ -15,6 +15,8 @@ use ligament_analysis::probe::PointField;
 use ligament_analysis::{Attempt, BondDeformation, Equilibrium, LoadCourse, State};
 use ligament_model::failure::After;
 use ligament_model::failure::softening::linear;
+
+mod control;
 
 /// A plate of 12 by 12 cells of 10 mm with a hole, held at the left and at the bottom, pulled at the right and pressed from above.
 fn plate(analysis: Analysis, stages: Vec<Stage>) -> Setup {
@@ -275,7 +277,7 @@ fn runs_in_stages_go_on_to_the_same_bits() {
         let turns = Course::through(&[0.2, 1.0]);
         stages.push(stage("turn", "right", turns, steps));
         let control = Control {
-            probes: vec![("opening".to_owned(), 0.5)],
+            quantity: Quantity::Probes(vec![("opening".to_owned(), 0.5)]),
             to: 3e-5,
         };
         stages.extend(steps.map(|_| Stage {
@@ -400,7 +402,7 @@ fn stages_that_make_no_sense_say_so() {
         "{order}"
     );
     let control = |probe: &str| Control {
-        probes: vec![(probe.to_owned(), 1.0)],
+        quantity: Quantity::Probes(vec![(probe.to_owned(), 1.0)]),
         to: 1e-5,
     };
     assert_eq!(
@@ -430,159 +432,4 @@ fn stages_that_make_no_sense_say_so() {
         setup.loads.push(again);
     });
     assert!(both.contains("is moved by load `right` as well"), "{both}");
-}
-
-/// The plate, pulled at one point by a force or by a displacement, with bonds that cannot break around it.
-fn pulled_at_a_point(action: Action, control: Option<Control>, criterion: Choice) -> Setup {
-    let mut setup = plate(Analysis::Stepped(stepped(Vec::new())), Vec::new());
-    let mut load = Load::new(Place::At([0.115, 0.065]), action);
-    load.name = "hook".to_owned();
-    setup.loads[0] = load;
-    setup.no_fail = vec![Place::Box([[0.085, 0.0], [0.12, 0.12]])];
-    setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
-    setup.criteria = vec![criterion];
-    setup.probes = vec![Probe {
-        name: "hook".to_owned(),
-        reading: Reading::At {
-            position: [0.115, 0.065],
-            field: PointField::Motion(Component::X),
-        },
-    }];
-    setup.stages = vec![Stage {
-        control,
-        ..stage("pull", "hook", Course::to(1.0), Some(60))
-    }];
-    setup.curve = Some("hook".to_owned());
-    setup
-}
-
-fn brittle() -> Choice {
-    STRENGTH.into()
-}
-
-fn softening() -> Choice {
-    let mut choice: Choice = STRENGTH.into();
-    choice.after = After {
-        law: linear::LAW,
-        parameter: Some(10.0),
-    };
-    choice
-}
-
-/// A force on a point that follows the displacement of that point is the reaction to that displacement: both go through the same states,
-/// past the peak, brittle or softening. 1e-3 of the largest force where bonds soften: just past the
-/// peak cracks may go on at one end or another, to which iterates of another kind come a little differently.
-#[test]
-fn a_force_that_follows_its_displacement_is_its_reaction() {
-    const END: f64 = 6e-5;
-    for (name, criterion, tolerance) in [
-        ("brittle", brittle(), 1e-8),
-        ("softening", softening(), 1e-3),
-    ] {
-        let moved = Displacement {
-            x: Some(END),
-            ..Displacement::default()
-        };
-        let (given, _) = run(pulled_at_a_point(
-            Action::Displacement(moved),
-            None,
-            criterion,
-        ));
-        let control = Control {
-            probes: vec![("hook".to_owned(), 1.0)],
-            to: END,
-        };
-        let force = Action::Force([1e5, 0.0]);
-        let (followed, _) = run(pulled_at_a_point(force, Some(control), criterion));
-        assert_eq!(given.history.len(), 61);
-        assert!(given.state.broken_bonds() >= 3, "{name}");
-        let reactions = given.history.iter().map(|it| it.reaction);
-        let largest = reactions.fold(0.0, f64::max);
-        assert!(
-            given.history[60].reaction < 0.95 * largest,
-            "{name} is past its peak"
-        );
-        for (one, other) in given.history.iter().zip(&followed.history) {
-            assert!(
-                (one.displacement - other.displacement).abs() <= 1e-9 * END,
-                "{name}"
-            );
-            let difference = (one.reaction - other.reaction).abs() / largest;
-            assert!(
-                difference < tolerance,
-                "{name}, step {}: {difference:e}",
-                one.step
-            );
-            assert_eq!(other.factors, [other.load_factor, 0.0]);
-            let error = other.missing_energy().abs();
-            let allowed = if name == "brittle" { 1e-8 } else { 1e-5 };
-            assert!(
-                error <= allowed * other.external_work,
-                "{name}, step {}: {error:e}",
-                other.step
-            );
-        }
-    }
-}
-
-/// A plate with a pre-crack from below that a force pulls apart: where the opening of its mouth controls the force, bonds break in the
-/// order of the exact path as long as its opening grows, at the same forces, and the force and the displacement that it works on fall
-/// together: the load snaps back.
-#[test]
-fn the_opening_of_a_crack_leads_through_a_snap_back() {
-    let cracked = |analysis: Analysis, stage: Stage| {
-        let mut setup = plate(analysis, vec![stage]);
-        setup.loads = vec![Load::new("right", Action::Force([1e6, 0.0]))];
-        setup.precracks = vec![PreCrack {
-            points: vec![[0.03, -0.001], [0.03, 0.051]],
-            ends: Ends::Excluded,
-        }];
-        setup.probes = vec![Probe {
-            name: "mouth".to_owned(),
-            reading: Reading::Between {
-                positions: [[0.025, 0.005], [0.035, 0.005]],
-                component: Component::X,
-            },
-        }];
-        setup
-    };
-    let pull = |steps| stage("pull", "right", Course::to(1.0), steps);
-    let (exact, path) = run(cracked(Analysis::Event(event()), pull(None)));
-    let control = Control {
-        probes: vec![("mouth".to_owned(), 1.0)],
-        to: 6e-5,
-    };
-    let mut settings = stepped(Vec::new());
-    settings.rule.bonds_per_iteration = 1;
-    settings.rule.order = BreakingOrder::Ratio;
-    let steps = Stage {
-        control: Some(control),
-        ..pull(Some(600))
-    };
-    let (followed, breaks) = run(cracked(Analysis::Stepped(settings), steps));
-    assert_eq!(exact.termination, Termination::Collapsed);
-    assert_eq!(followed.termination, Termination::StepsDone);
-    let order = |records: &[BreakRecord]| records.iter().map(|it| it.bond).collect::<Vec<u32>>();
-    let broken = order(&breaks.breaks);
-    assert!(broken.len() > 60, "{}", broken.len());
-    assert_eq!(broken, order(&path.breaks[..broken.len()]));
-    // With the same bonds the body is linear in the one force: its states are those of the line that leads to the next event.
-    for record in &followed.history[1..] {
-        let on_path = exact.history.iter().rev();
-        let mut on_path = on_path.filter(|it| it.broken_bonds == record.broken_bonds);
-        let compliance = |it: &StepRecord| it.probes[0] / it.reaction;
-        if let Some(event) = on_path.next() {
-            let difference = compliance(record) / compliance(event) - 1.0;
-            assert!(
-                difference.abs() < 1e-8,
-                "step {}: {difference:e}",
-                record.step
-            );
-            assert!(record.reaction <= event.reaction * (1.0 + 1e-8));
-        }
-    }
-    let both_fall = |pair: &[StepRecord]| {
-        pair[1].reaction < pair[0].reaction && pair[1].displacement < pair[0].displacement
-    };
-    assert!(followed.history.windows(2).any(both_fall));
 }
