@@ -9,7 +9,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 12] = [
+const ARROWS: [(&str, &[&str]); 13] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
@@ -42,6 +42,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
         ],
     ),
     ("ligament-plot", &["ligament", "ligament-output"]),
+    ("ligament-report", &["ligament-output", "ligament-plot"]),
     (
         "ligament-study",
         &[
@@ -80,6 +81,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
             "ligament-verify",
@@ -113,6 +115,7 @@ const RESERVED: [(&str, &[&str]); 11] = [
             "ligament-case",
             "ligament-cli",
             "ligament-plot",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
         ],
@@ -124,11 +127,12 @@ const RESERVED: [(&str, &[&str]); 11] = [
 ];
 
 /// Crates that touch files.
-const WITH_FILES: [&str; 7] = [
+const WITH_FILES: [&str; 8] = [
     "ligament-case",
     "ligament-cli",
     "ligament-output",
     "ligament-plot",
+    "ligament-report",
     "ligament-run",
     "ligament-study",
     "ligament-verify",
