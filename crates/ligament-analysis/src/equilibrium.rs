@@ -1,15 +1,16 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
 mod active_set;
-mod anderson;
 mod controlled;
 mod curvature;
 mod equations;
 mod external;
 mod line_search;
 mod newton;
+mod precedents;
 mod residual;
 mod secant;
+mod target;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -31,8 +32,8 @@ use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use controlled::Target;
 pub(crate) use residual::ROUNDING;
+pub(crate) use target::Target;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
