@@ -158,11 +158,7 @@ impl Equations {
         let costs = Serial::read(from)?;
         self.solver.restore(from)?;
         if self.problem.criteria.soften() {
-            self.precedents = Serial::read(from)?;
-            let n_unknowns = self.degrees_of_freedom().len();
-            if !self.precedents.fit(state.displacement.len(), n_unknowns) {
-                return Err(CheckpointError::OtherModel);
-            }
+            self.precedents = Precedents::restored(from, self.stiffness.unknowns())?;
         }
         self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());

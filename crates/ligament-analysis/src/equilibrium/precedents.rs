@@ -2,8 +2,11 @@
 
 use super::curvature::Curvature;
 use super::target::Target;
+use crate::checkpoint::CheckpointError;
 use crate::serial;
+use crate::serial::Serial;
 use crate::state::State;
+use crate::unknowns::Unknowns;
 
 /// Largest growth of a load step over the one before with which the body is taken to go on as it did.
 const GROWTH: f64 = 2.0;
@@ -24,15 +27,30 @@ struct Precedent {
     displacement: Vec<f64>,
 }
 
-serial!(Precedents { curvature, equilibria });
-serial!(Precedent { load_factor, displacement });
+serial!(Precedents {
+    curvature,
+    equilibria
+});
+serial!(Precedent {
+    load_factor,
+    displacement
+});
 
 impl Precedents {
-    /// Whether all arrays are those of a body with so many degrees of freedom and unknowns.
-    pub(super) fn fit(&self, n_degrees_of_freedom: usize, n_unknowns: usize) -> bool {
-        let mut equilibria = self.equilibria.iter();
-        let is_whole = |it: &Precedent| it.displacement.len() == n_degrees_of_freedom;
-        equilibria.all(is_whole) && self.curvature.fits(n_unknowns)
+    /// The precedents as they were when the bytes were written.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or of another model.
+    pub(super) fn restored(from: &mut &[u8], unknowns: &Unknowns) -> Result<Self, CheckpointError> {
+        let precedents: Self = Serial::read(from)?;
+        let n = unknowns.layout().n_degrees_of_freedom();
+        let mut equilibria = precedents.equilibria.iter();
+        let is_whole = equilibria.all(|it| it.displacement.len() == n);
+        match is_whole && precedents.curvature.fits(unknowns.len()) {
+            true => Ok(precedents),
+            false => Err(CheckpointError::OtherModel),
+        }
     }
 
     /// Takes in an equilibrium; one after a breakage takes the place of that before it.
@@ -55,7 +73,9 @@ impl Precedents {
             return None;
         };
         let part = match target {
-            None => (state.load_factor - last.load_factor) / (last.load_factor - before.load_factor),
+            None => {
+                (state.load_factor - last.load_factor) / (last.load_factor - before.load_factor)
+            }
             Some(target) => {
                 let [first, second] = [before, last].map(|it| target.motion(&it.displacement));
                 (target.value - second) / (second - first)

@@ -40,7 +40,8 @@ const ONE_WAY_AFTER: usize = 150;
 /// ([`line_search`]). Both go down in energy, and end in an equilibrium that is stable. The factor may be off the secants, because
 /// neither asks for more than a stiffness that is near.
 ///
-/// A load step begins where the body would be if it went on as in the last one, if that leaves less out of balance. Otherwise the
+/// A load step begins where the body would be if it went on as in the last one, if that leaves less out of balance. Where faces close,
+/// nothing is taken from earlier equilibria. Otherwise the
 /// first correction takes the bonds as they were in the last equilibrium: what prescribed motions do to bonds before their
 /// surroundings follow says nothing about them. The iteration ends by NHPD's energy rule (eq. 21) with a residual below 2e-9, or with one below 1e-10.
 /// Extremes of iterates do not count unless equilibrium holds ([`Softening::follow`](crate::softening::Softening::follow)).
@@ -73,8 +74,9 @@ fn sought(
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
     let mut precedents = std::mem::take(&mut equations.precedents);
-    if !breakage.holds.is_empty() {
-        precedents.curvature.forget();
+    // Pairs that close and open change the stiffness at once, and a loose part moves as it never did.
+    if equations.problem.system.faces_close() || !breakage.holds.is_empty() {
+        precedents = Precedents::default();
     }
     let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &precedents);
     let mut mechanisms = Vec::new();
