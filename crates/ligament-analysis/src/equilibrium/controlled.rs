@@ -3,7 +3,6 @@
 
 use super::equations::{Equations, Iterate};
 use super::residual::RESIDUAL_TOLERANCE;
-use super::secant;
 use super::target::Target;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
@@ -17,8 +16,7 @@ const ITERATION_LIMIT: usize = 1000;
 /// A residual above this is no equilibrium whatever the energies say.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
-/// Brings a state into equilibrium at the value of a motion, and finds its load factor. Bonds that soften have their
-/// [own way](secant::balance_at) there.
+/// Brings a state into equilibrium at the value of a motion, and finds its load factor.
 pub(super) fn balance(
     equations: &mut Equations,
     state: &mut State,
@@ -26,9 +24,6 @@ pub(super) fn balance(
     target: &Target,
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
-    if !state.softening.remaining.is_empty() {
-        return secant::balance_at(equations, state, breakage, target, observer);
-    }
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
