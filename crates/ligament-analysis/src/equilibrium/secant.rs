@@ -208,6 +208,11 @@ fn next(
     is_one_way: bool,
 ) -> Result<Iterate, Unbalanced> {
     let force = equations.out_of_balance(state, iterate);
+    // A motion comes to its value by the whole of a correction, which what was shown elsewhere may lead astray.
+    let is_searched = target.is_none_or(|it| it.is_met(&state.displacement));
+    if !is_searched {
+        curvature.forget();
+    }
     let mut found = correction(equations, state, &force, curvature, target)?;
     if dot(&found.force, &found.step) <= 0.0 {
         curvature.forget();
@@ -224,8 +229,6 @@ fn next(
         let force = equations.out_of_balance(state, &iterate);
         (iterate, force)
     };
-    // A motion comes to its value by the whole of a correction.
-    let is_searched = target.is_none_or(|it| it.is_met(&start));
     let (mut iterate, mut left) = go(1.0);
     let mut part = 1.0;
     if is_searched {
