@@ -16,8 +16,8 @@ use crate::unbalanced::Unbalanced;
 /// the external forces, and the falling stiffness of softening bonds magnifies it.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
-/// The same where a load follows from a motion, or faces close: there the energies of a run balance to 2e-8 with the other, and to 1e-8
-/// with this.
+/// The largest residual where a load follows from a motion, or faces close: there the energies of a run balance to 2e-8 with 1e-8, and to
+/// 1e-8 with this.
 const LARGEST_FOLLOWING: f64 = 2e-9;
 
 /// Residual up to which a state that goes on as before begins the iteration at the value of a motion, where no residual without it tells
@@ -44,7 +44,7 @@ const ONE_WAY_AFTER: usize = 150;
 /// neither asks for more than a stiffness that is near.
 ///
 /// A load step begins where the body would be if it went on as in the last one, if that leaves less out of balance. Where faces close,
-/// nothing is taken from earlier equilibria. Otherwise the
+/// and of the stiffness after a breakage, nothing is taken from earlier equilibria. Otherwise the
 /// first correction takes the bonds as they were in the last equilibrium: what prescribed motions do to bonds before their
 /// surroundings follow says nothing about them. The iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-8, or with one below 1e-10.
 /// Extremes of iterates do not count unless equilibrium holds ([`Softening::follow`](crate::softening::Softening::follow)).
@@ -77,9 +77,12 @@ fn sought(
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
     let mut precedents = std::mem::take(&mut equations.precedents);
-    // Pairs that close and open change the stiffness at once, and a loose part moves as it never did.
-    if equations.problem.system.faces_close() || !breakage.holds.is_empty() {
+    // Pairs that close and open change the stiffness at once; and where one breakage brings on another, what was shown before it would
+    // decide on where the fall ends.
+    if equations.problem.system.faces_close() {
         precedents = Precedents::default();
+    } else if !breakage.bonds.is_empty() {
+        precedents.curvature.forget();
     }
     let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &precedents);
     let mut mechanisms = Vec::new();
