@@ -13,6 +13,8 @@ pub enum Origin {
     File(usize),
     /// In the override with this index.
     Override(usize),
+    /// In memory: a program handed the value over.
+    Memory,
 }
 
 /// A value and where it was written.

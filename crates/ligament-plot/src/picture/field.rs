@@ -109,7 +109,7 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
 }
 
 /// SI unit of a field.
-fn unit_of(field: &str) -> &'static str {
+pub fn unit_of(field: &str) -> &'static str {
     match field {
         "displacement" | "horizon" | "nearest_distance" => "m",
         "rotation" => "rad",
