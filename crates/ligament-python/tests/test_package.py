@@ -40,7 +40,7 @@ def test_the_command_starts_itself_for_a_sweep(tmp_path: Path) -> None:
     study.write_text(f'case = "{case}"\n[[axis]]\nkey = "model.horizon_factor"\nvalues = [2.0, 3.0]\n')
     done = program("sweep", str(study), "--out", str(tmp_path / "out"))
     assert done.returncode == 0, done.stderr
-    assert len((tmp_path / "out" / "runs.csv").read_text().splitlines()) == 3
+    assert len((tmp_path / "out" / "table.csv").read_text().splitlines()) == 3
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals are those of Unix")

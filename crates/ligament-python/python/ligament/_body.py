@@ -76,10 +76,11 @@ def _of_meshio(mesh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
             raise BodyError(f"cells of the kind `{block.type}` are in no planar mesh; triangles and quadrangles are")
         corners = np.ascontiguousarray(tags[np.asarray(block.data)[:, :n]])
         in_group = np.zeros(len(corners), dtype=bool)
-        sets = [(name, sets[place]) for name, sets in mesh.cell_sets.items() if not name.startswith("gmsh:")]
+        # A reader of Gmsh's files gives the same group as a set and by its number.
+        sets = {name: sets[place] for name, sets in mesh.cell_sets.items() if not name.startswith("gmsh:")}
         if physical is not None:
-            sets += list(_by_number(physical[place], min(n - 1, 2), names))
-        for name, chosen in sets:
+            sets.update(_by_number(physical[place], min(n - 1, 2), names))
+        for name, chosen in sets.items():
             if chosen is not None and len(chosen):
                 chosen = np.asarray(chosen, dtype=np.int64)
                 in_group[chosen] = True
