@@ -11,6 +11,13 @@ use crate::{Cli, terminal};
 /// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
 /// this program, for runs that it starts as processes of their own.
 pub fn execute(arguments: &[OsString], program: &[OsString]) -> ExitCode {
+    let code = answer(arguments, program);
+    // Where the program is a part of another one nobody else writes what is left of a line.
+    let _ = io::stdout().flush();
+    code
+}
+
+fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(told) => {

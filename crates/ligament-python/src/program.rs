@@ -1,7 +1,6 @@
 //! The command line, from Python.
 
 use std::ffi::OsString;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 use ligament_cli::program;
@@ -10,12 +9,7 @@ use pyo3::prelude::*;
 /// Does what the arguments of the program ask for, its name first, and gives the exit code; `itself` is the command that calls it.
 #[pyfunction]
 pub(crate) fn execute(py: Python<'_>, arguments: Vec<OsString>, itself: Vec<OsString>) -> u8 {
-    let ended = py.detach(|| {
-        let ended = program::execute(&arguments, &itself);
-        // Python does not know of what is still to be written there.
-        let _ = io::stdout().flush();
-        ended
-    });
+    let ended = py.detach(|| program::execute(&arguments, &itself));
     let mut codes = 0..=u8::MAX;
     codes
         .find(|&code| ExitCode::from(code) == ended)
