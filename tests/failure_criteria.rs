@@ -17,6 +17,7 @@ use ligament_cli::check::{Extent, check};
 use ligament_model::Bonds;
 use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
 use ligament_model::thermal::ThermalStrain;
+use ligament_output::quantity::{four_digits, quantity};
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
 use verification::numbers::{deviation, of_all, relative_error};
@@ -717,13 +718,21 @@ fn the_check_lists_criteria_and_limits() {
     let limit = (40.0 / (opening * 0.001)).sqrt();
     let end = (limit / 2.5e-4).powi(2);
     for line in [
-        format!("  tension               s = 2.5000e-4; force falls in one straight line, to zero at {end:.4e} times that; 4 bonds never fail\n"),
-        "  compression           -s = 7.5000e-4; brittle; 4 bonds never fail\n".to_owned(),
-        "  sliding               |gamma| = 1.5625e-4; force stays; 4 bonds never fail\n".to_owned(),
-        format!("  critical-stretch      s = {limit:.4e}; brittle; 4 bonds never fail\n"),
-        "separating a body takes G_c = 4.0000e1 J/m^2 (what shear of the bonds stores comes on top of it)\n".to_owned(),
-        format!("a bar without a crack fails at E s_0 = {:.4e} Pa, which changes with the horizon\n", YOUNG * limit),
-        ", F_t = 5.0000e6 Pa, F_c = 1.5000e7 Pa, G_c = 4.0000e1 J/m^2".to_owned(),
+        format!(
+            "  tension               s = 250.0e-6; force falls in one straight line, to zero at {} times the limit; 4 bonds never fail\n",
+            four_digits(end)
+        ),
+        "  compression           -s = 750.0e-6; brittle; 4 bonds never fail\n".to_owned(),
+        "  sliding               |gamma| = 156.2e-6; force stays; 4 bonds never fail\n".to_owned(),
+        format!(
+            "  critical-stretch      s = {}; brittle; 4 bonds never fail\n",
+            quantity(limit, "-")
+        ),
+        format!(
+            "a bar without a crack fails at E s_0 = {}, which changes with the horizon\n",
+            quantity(YOUNG * limit, "Pa")
+        ),
+        ", F_t = 5.000 MPa, F_c = 15.00 MPa, G_c = 40.00 J/m^2".to_owned(),
     ] {
         assert!(text.contains(&line), "no `{line}` in\n{text}");
     }

@@ -4,6 +4,7 @@ mod active_set;
 mod anderson;
 mod controlled;
 mod curvature;
+mod dissipating;
 mod equations;
 mod external;
 mod line_search;
@@ -32,6 +33,7 @@ use crate::unknowns::Unknowns;
 use equations::Equations;
 
 pub(crate) use controlled::Target;
+pub(crate) use dissipating::Dissipation;
 pub(crate) use residual::ROUNDING;
 
 /// A way to equilibrium.
@@ -45,12 +47,21 @@ enum Iteration {
     Secants,
 }
 
+/// What is held in the place of the load factor, which is then an unknown.
+#[derive(Debug, Clone)]
+pub(crate) enum Held {
+    /// A motion.
+    Motion(Target),
+    /// The energy that bonds have dissipated.
+    Energy(Dissipation),
+}
+
 /// The equations of a problem, kept up while its bonds break.
 pub struct Equilibrium {
     equations: Equations,
     connectivity: Connectivity,
     iteration: Iteration,
-    target: Option<Target>,
+    held: Option<Held>,
 }
 
 impl Equilibrium {
@@ -62,7 +73,7 @@ impl Equilibrium {
     /// If the factor is too large.
     pub fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         Ok(Self {
-            target: None,
+            held: None,
             equations: Equations::new(problem, energy_tolerance)?,
             connectivity: Connectivity::new(&*problem.system),
             iteration: if problem.system.faces_close() {
@@ -110,9 +121,9 @@ impl Equilibrium {
         self.equations.load_with(loads);
     }
 
-    /// From now on seeks equilibrium at a value of a motion, whatever the load factor; None: at the load factor of the state.
-    pub(crate) fn aim(&mut self, target: Option<Target>) {
-        self.target = target;
+    /// From now on seeks equilibrium with this held, whatever the load factor; None: at the load factor of the state.
+    pub(crate) fn aim(&mut self, held: Option<Held>) {
+        self.held = held;
     }
 
     /// The unknowns.
@@ -228,8 +239,13 @@ impl Equilibrium {
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
-        let attempt = match (&self.target, self.iteration) {
-            (Some(target), _) => controlled::balance(equations, state, breakage, target, observer),
+        let attempt = match (&self.held, self.iteration) {
+            (Some(Held::Motion(target)), _) => {
+                controlled::balance(equations, state, breakage, target, observer)
+            }
+            (Some(Held::Energy(goal)), _) => {
+                dissipating::balance(equations, state, breakage, goal, observer)
+            }
             (None, Iteration::Newton) => newton::balance(equations, state, breakage, observer),
             (None, Iteration::ActiveSet) => {
                 active_set::balance(equations, state, breakage, observer)

@@ -330,6 +330,12 @@ pub enum Termination {
     /// The exact path reached load factor one.
     #[error("the full load was reached")]
     FullLoad,
+    /// The exact path has dissipated the energy that its last stage is to.
+    #[error("the energy of {energy} J was dissipated")]
+    EnergyDissipated {
+        /// Energy asked for, J.
+        energy: f64,
+    },
     /// No bond is stretched: no load of this kind breaks another one.
     #[error("no bond is stretched any more: nothing breaks, whatever the load")]
     NothingBreaks,
@@ -421,6 +427,7 @@ impl Termination {
             | Self::Stopped
             | Self::NotAtRest { .. } => true,
             Self::FullLoad
+            | Self::EnergyDissipated { .. }
             | Self::NothingBreaks
             | Self::FellApart
             | Self::Collapsed
@@ -434,6 +441,7 @@ impl Termination {
         match self {
             Self::StepsDone => "steps-done",
             Self::FullLoad => "full-load",
+            Self::EnergyDissipated { .. } => "energy-dissipated",
             Self::NothingBreaks => "nothing-breaks",
             Self::LoadFraction { .. } => "load-fraction",
             Self::DisplacementReached { .. } => "displacement-reached",

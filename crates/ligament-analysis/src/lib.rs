@@ -46,8 +46,8 @@ pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
 pub use ligament_model::{Bonds, interface};
 pub use load_program::{
-    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, MotionControl, Part, Programme,
-    ProportionalLoading, StagedLoading,
+    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, MotionControl, Part, PartControl,
+    Programme, ProportionalLoading, StagedLoading,
 };
 pub use probe::Probe;
 pub use problem::Problem;

@@ -12,7 +12,7 @@ use crate::restraints::Restraints;
 use crate::unknowns::Layout;
 use ligament_model::thermal::ThermalStrain;
 
-pub use programme::{LoadCourse, MotionControl, Part, Programme};
+pub use programme::{LoadCourse, MotionControl, Part, PartControl, Programme};
 pub use proportional::{BoundaryError, ProportionalLoading};
 pub use staged::StagedLoading;
 

@@ -4,11 +4,15 @@
 //! left of its stiffness. What an opened bond lost it lacks in tension, shear and rotation, not in compression; see
 //! [`Weakened`].
 
+use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
 use crate::serial;
+
+/// Relative difference below which a bond is as far as it ever was.
+const SAME: f64 = 1e-9;
 
 /// State of bonds past their limits; empty where no bond softens.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -92,6 +96,45 @@ impl Softening {
         for (largest, trial) in self.largest.iter_mut().zip(&self.trial) {
             largest.copy_from_slice(trial);
         }
+    }
+
+    /// Energy that softening would have taken from an unbroken bond at a deformation, J.
+    pub(crate) fn dissipated_at(
+        &self,
+        system: &dyn Bonds,
+        criteria: &Criteria,
+        bond: usize,
+        deformation: &BondDeformation,
+    ) -> f64 {
+        let of = |(criterion, largest): (&Criterion, &Vec<f64>)| {
+            let largest = *largest.get(bond)?;
+            let utilisation = criterion.utilisation(bond, deformation);
+            let now = criterion.after.extreme(bond, utilisation);
+            let kappa = now.map_or(largest, |it| largest.max(it));
+            let taken = criterion.after.at(bond, kappa).dissipated;
+            (taken != 0.0).then(|| taken * system.energy_at_limit(criterion, bond))
+        };
+        let both = criteria.list.iter().zip(&self.largest);
+        both.filter_map(of).sum()
+    }
+
+    /// Whether an unbroken bond softens farther at a deformation and any larger one of its kind: whether it is as far as it ever was.
+    pub(crate) fn goes_on(
+        &self,
+        criteria: &Criteria,
+        bond: usize,
+        deformation: &BondDeformation,
+    ) -> bool {
+        let mut both = criteria.list.iter().zip(&self.largest);
+        both.any(|(criterion, largest)| {
+            let Some(&largest) = largest.get(bond) else {
+                return false;
+            };
+            let extreme = criterion
+                .after
+                .extreme(bond, criterion.utilisation(bond, deformation));
+            extreme.is_some_and(|it| it > 1.0 && it >= largest * (1.0 - SAME))
+        })
     }
 
     /// The bond under a criterion that softens, by its extreme in equilibrium; sound for one that does not.

@@ -73,6 +73,15 @@ impl State {
         self.intact.iter().filter(|intact| !**intact).count()
     }
 
+    /// Number of unbroken bonds whose force has begun to fall beyond a limit.
+    pub fn softened_bonds(&self) -> usize {
+        let beyond = |&bond: &usize| {
+            let mut largest = self.softening.largest.iter();
+            self.intact[bond] && largest.any(|it| it.get(bond).is_some_and(|it| *it > 1.0))
+        };
+        (0..self.intact.len()).filter(beyond).count()
+    }
+
     /// The bonds that are left, with their remaining stiffness.
     pub fn bonds(&self) -> BondsLeft<'_> {
         BondsLeft {

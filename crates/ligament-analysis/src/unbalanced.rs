@@ -74,6 +74,8 @@ pub enum Unbalanced {
     },
     /// The loads of a stage do not move what controls it.
     Unmoved,
+    /// No bond softens farther under the loads of a stage that dissipated energy controls.
+    NothingDissipates,
     /// The matrix could not be factorised.
     NoFactor(FactorError),
 }
@@ -146,6 +148,9 @@ impl Unbalanced {
             }
             Self::Unmoved => "the loads of the stage do not move the probe that controls it: let another probe control it, or another load \
                               grow".to_owned(),
+            Self::NothingDissipates => "no bond softens farther however far the loads of the stage go, so that they dissipate no energy: give \
+                                        the stage other loads, or less to dissipate"
+                .to_owned(),
             Self::NoFactor(error) => format!("the stiffness has no factor: {error}"),
         }
     }

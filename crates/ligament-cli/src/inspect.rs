@@ -7,6 +7,7 @@ use std::path::Path;
 use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_output::columns::WIDEST;
+use ligament_output::quantity::{between, quantity};
 
 use crate::lines::entry;
 
@@ -26,12 +27,15 @@ pub fn write_summary(out: &mut dyn Write, path: &Path, mesh: &Mesh) -> io::Resul
     entry("nodes", mesh.positions.len().to_string())?;
     let kinds = format!("{triangles} triangles, {quadrangles} quadrangles");
     entry("cells", format!("{cells} ({kinds})"))?;
-    entry("area", format!("{:.6e} m^2", mesh.area()))?;
-    let [[x0, y0], [x1, y1]] = [low, high];
-    let sides = format!("x {x0:.5e} to {x1:.5e} m, y {y0:.5e} to {y1:.5e} m");
-    entry("bounding box", sides)?;
+    entry("area", quantity(mesh.area(), "m^2"))?;
+    let [x, y] = [0, 1].map(|axis| between([low[axis], high[axis]], "m"));
+    entry("bounding box", format!("x {x}, y {y}"))?;
     let ratio = longest / shortest;
-    let lengths = format!("shortest {shortest:.4e} m, longest {longest:.4e} m, ratio {ratio:.2}");
+    let lengths = format!(
+        "shortest {}, longest {}, ratio {ratio:.2}",
+        quantity(shortest, "m"),
+        quantity(longest, "m")
+    );
     entry("edges", lengths)?;
     write_groups(out, mesh)?;
     for field in &mesh.fields {
@@ -81,12 +85,12 @@ fn kind_and_size(group: &Group, mesh: &Mesh) -> (&'static str, String) {
         1 => {
             let edges = group.edges.iter();
             let lengths = edges.map(|&edge| edge_length(&mesh.positions, edge));
-            ("curve", format!("{:.6e} m", lengths.sum::<f64>()))
+            ("curve", quantity(lengths.sum::<f64>(), "m"))
         }
         _ => {
             let cells = group.cells.iter().map(|&cell| &mesh.cells[cell as usize]);
             let area: f64 = cells.map(|cell| cell.area(&mesh.positions)).sum();
-            ("surface", format!("{area:.6e} m^2"))
+            ("surface", quantity(area, "m^2"))
         }
     }
 }
@@ -134,13 +138,13 @@ mod tests {
 square.msh
   nodes         4
   cells         2 (2 triangles, 0 quadrangles)
-  area          1.000000e0 m^2
-  bounding box  x 0.00000e0 to 1.00000e0 m, y 0.00000e0 to 1.00000e0 m
-  edges         shortest 1.0000e0 m, longest 1.4142e0 m, ratio 1.41
+  area          1.000 m^2
+  bounding box  x 0 to 1.000 m, y 0 to 1.000 m
+  edges         shortest 1.000 m, longest 1.414 m, ratio 1.41
   groups
     name   kind     number     nodes  size
-    left   curve         1         2  1.000000e0 m
-    plate  surface       2         4  1.000000e0 m^2
+    left   curve         1         2  1.000 m
+    plate  surface       2         4  1.000 m^2
 ";
         assert_eq!(text, expected);
     }

@@ -8,14 +8,14 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
+mod support;
+
+use support::text;
+
 fn case(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../cases")
         .join(name)
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// Calibrates a case into a folder of the given parent.

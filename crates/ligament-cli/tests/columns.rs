@@ -5,9 +5,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
+
+mod support;
+
+use support::{ligament_in, stderr};
 
 const PAGE: &str = include_str!("../../../docs/columns.md");
 
@@ -78,12 +81,9 @@ impl Place {
     }
 
     fn call(&self, words: &str) {
-        let output = Command::new(env!("CARGO_BIN_EXE_ligament"))
-            .current_dir(self.0.path())
-            .args(words.split_whitespace())
-            .output()
-            .unwrap();
-        let error = String::from_utf8_lossy(&output.stderr);
+        let arguments: Vec<&str> = words.split_whitespace().collect();
+        let output = ligament_in(self.0.path(), &arguments);
+        let error = stderr(&output);
         // A run may end while bonds break: its tables are whole.
         assert!(
             matches!(output.status.code(), Some(0 | 6)),

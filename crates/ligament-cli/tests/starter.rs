@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use ligament::setup::{Form, Law, Strains};
 use ligament_case::case::{CaseFile, schema};
@@ -11,6 +10,10 @@ use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
 use ligament_cli::check::{Extent, check};
 use serde_json::Value;
 use tempfile::TempDir;
+
+mod support;
+
+use support::ligament_in;
 
 fn meshes() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
@@ -107,22 +110,12 @@ fn without_groups_boxes_are_taken() {
     }
 }
 
-fn ligament(arguments: &[&str], folder: &Path) -> Output {
-    let program = Command::new(env!("CARGO_BIN_EXE_ligament"));
-    let mut program = program;
-    program
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
 /// Runs `new` with arguments and the case; the number of broken bonds.
 fn broken(arguments: &[&str]) -> u64 {
     let folder = TempDir::new().unwrap();
-    let made = ligament(&[&["new"], arguments].concat(), folder.path());
+    let made = ligament_in(folder.path(), &[&["new"], arguments].concat());
     assert!(made.status.success(), "{arguments:?}: {made:?}");
-    let run = ligament(&["run", "case.toml", "--out", "results"], folder.path());
+    let run = ligament_in(folder.path(), &["run", "case.toml", "--out", "results"]);
     let text = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
     assert!(run.status.success(), "{arguments:?}: {run:?}\n{text}");
     let summary = std::fs::read_to_string(folder.path().join("results/summary.json")).unwrap();
@@ -347,12 +340,12 @@ fn cases_are_not_overwritten() {
     let folder = TempDir::new().unwrap();
     let mesh = meshes().join("plate-coarse.msh");
     let mesh = mesh.to_str().unwrap();
-    let wrong = ligament(&["new", "nowhere.msh"], folder.path());
+    let wrong = ligament_in(folder.path(), &["new", "nowhere.msh"]);
     assert_eq!(wrong.status.code(), Some(1));
     assert!(!folder.path().join("case.toml").exists());
-    assert!(ligament(&["new", mesh], folder.path()).status.success());
+    assert!(ligament_in(folder.path(), &["new", mesh]).status.success());
     std::fs::write(folder.path().join("case.toml"), "mine").unwrap();
-    let again = ligament(&["new", mesh], folder.path());
+    let again = ligament_in(folder.path(), &["new", mesh]);
     assert_eq!(again.status.code(), Some(1));
     let said = String::from_utf8(again.stderr).unwrap();
     assert!(
@@ -362,12 +355,12 @@ fn cases_are_not_overwritten() {
     let kept = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
     assert_eq!(kept, "mine");
     assert!(
-        ligament(&["new", mesh, "--force"], folder.path())
+        ligament_in(folder.path(), &["new", mesh, "--force"])
             .status
             .success()
     );
-    assert_eq!(ligament(&["new"], folder.path()).status.code(), Some(2));
-    let elsewhere = ligament(&["new", mesh, "--out", "a/b/case.toml"], folder.path());
+    assert_eq!(ligament_in(folder.path(), &["new"]).status.code(), Some(2));
+    let elsewhere = ligament_in(folder.path(), &["new", mesh, "--out", "a/b/case.toml"]);
     assert!(elsewhere.status.success(), "{elsewhere:?}");
     assert!(CaseFile::load(&folder.path().join("a/b/case.toml"), &[]).is_ok());
 }

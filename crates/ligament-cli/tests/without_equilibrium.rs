@@ -3,7 +3,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+
+mod support;
+
+use support::ligament_in;
 
 /// A strip under a force; its loaded points lose their bonds one by one.
 const STRIP: &str = r#"
@@ -14,15 +17,9 @@ support = [{ group = "left", displacement = { x = 0.0, y = 0.0 } }]
 load = [{ group = "right", force = { x = 1e6 } }]
 "#;
 
-fn ligament(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
-    let command = command.current_dir(folder).args(arguments);
-    command.output().unwrap()
-}
-
 fn run(folder: &Path, case: &str) -> (Option<i32>, String, String) {
     fs::write(folder.join("case.toml"), case).unwrap();
-    let output = ligament(
+    let output = ligament_in(
         folder,
         &["run", "case.toml", "--out", "out", "--force", "-q"],
     );
@@ -85,12 +82,12 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
     assert_eq!(summary["last_state_not_at_rest"], true);
     assert_eq!(summary["termination"], "collapsed");
-    let told = ligament(folder, &["explain", "out", "--point", "30"]);
+    let told = ligament_in(folder, &["explain", "out", "--point", "30"]);
     let told = String::from_utf8(told.stdout).unwrap();
     assert!(told.contains("4 (not at rest)"), "{told}");
     for (file, more) in [("fields.svg", None), ("curve.svg", Some("--curve"))] {
         let arguments = ["plot", "out", "--out", file].into_iter().chain(more);
-        let drawn = ligament(folder, &arguments.collect::<Vec<_>>());
+        let drawn = ligament_in(folder, &arguments.collect::<Vec<_>>());
         assert_eq!(
             drawn.status.code(),
             Some(0),
@@ -143,7 +140,7 @@ fn studies_and_calibrations_mark_such_runs() {
             "case = \"{case}.toml\"\n[[axis]]\nkey = \"load.0.force.x\"\nvalues = {values}\n"
         );
         fs::write(folder.join("study.toml"), text).unwrap();
-        let output = ligament(folder, &["sweep", "study.toml", "--out", case]);
+        let output = ligament_in(folder, &["sweep", "study.toml", "--out", case]);
         let shown = String::from_utf8_lossy(&output.stdout).into_owned();
         let table = fs::read_to_string(folder.join(case).join("table.csv")).unwrap();
         (output.status.code(), shown, table)
@@ -189,7 +186,7 @@ fn studies_and_calibrations_mark_such_runs() {
             "--out",
             &out,
         ];
-        let output = ligament(folder, &arguments);
+        let output = ligament_in(folder, &arguments);
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         (
             output.status.code(),

@@ -21,6 +21,7 @@ pub mod csv;
 mod error;
 pub mod folder;
 pub mod pvd;
+pub mod quantity;
 pub mod results;
 pub mod terminal;
 pub mod vtu;

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use ligament::units::Units;
+use ligament_output::quantity::quantity;
 use ligament_output::terminal::plain;
 
 /// Steps that follow sooner than this on the last logged one are left out of a log, ...
@@ -38,7 +39,7 @@ impl ProgressMode {
 }
 
 /// State of the run in or at the end of a load step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct StepLine {
     /// The load step, from 1.
     pub step: u64,
@@ -52,19 +53,34 @@ pub struct StepLine {
     pub units: Units,
     /// Bonds broken so far.
     pub broken_bonds: u64,
+    /// Unbroken bonds whose force has begun to fall, at the end of the last load step; none where no bond softens.
+    pub softened_bonds: Option<u64>,
+    /// Stage of a programme, at the end of the last load step.
+    pub stage: Option<String>,
 }
 
 impl StepLine {
     fn text(&self) -> String {
-        let mut text = format!("factor {:.4}", self.load_factor);
+        let factor = self.load_factor;
+        let mut text = match &self.stage {
+            Some(stage) => format!("stage {stage}, load factor {factor:.4}"),
+            None => format!("load factor {factor:.4}"),
+        };
         // Writing to a string cannot fail.
-        if let Some(displacement) = self.displacement {
-            let _ = write!(text, ", {displacement:.3e} {}", self.units.displacement);
-        }
         if let Some(load) = self.load {
-            let _ = write!(text, ", {load:.4e} {}", self.units.force);
+            let _ = write!(text, ", {}", quantity(load, self.units.force));
         }
-        let _ = write!(text, ", {} broken", self.broken_bonds);
+        if let Some(displacement) = self.displacement {
+            let _ = write!(
+                text,
+                " at {}",
+                quantity(displacement, self.units.displacement)
+            );
+        }
+        let _ = write!(text, ", {} bonds broken", self.broken_bonds);
+        if let Some(softened) = self.softened_bonds {
+            let _ = write!(text, ", {softened} softened");
+        }
         text
     }
 }
@@ -223,13 +239,15 @@ mod tests {
         load: Some(1234.5),
         units: Units::FORCE,
         broken_bonds: 7,
+        softened_bonds: None,
+        stage: None,
     };
 
     #[test]
     fn a_log_line_has_the_state_and_the_time_left() {
         assert_eq!(
             log_line(&LINE, true, Some(100), Duration::from_secs(30)),
-            "step 25 of 100: factor 0.2500, -1.000e-4 m, 1.2345e3 N, 7 broken, 1 min 30 s left"
+            "step 25 of 100: load factor 0.2500, 1.234 kN at -0.1000 mm, 7 bonds broken, 1 min 30 s left"
         );
         let bare = StepLine {
             displacement: None,
@@ -238,7 +256,16 @@ mod tests {
         };
         assert_eq!(
             log_line(&bare, true, None, Duration::ZERO),
-            "step 25: factor 0.2500, 7 broken"
+            "step 25: load factor 0.2500, 7 bonds broken"
+        );
+        let softening = StepLine {
+            softened_bonds: Some(340),
+            stage: Some("pull".to_owned()),
+            ..bare
+        };
+        assert_eq!(
+            log_line(&softening, false, None, Duration::ZERO),
+            "step 25 (under way): stage pull, load factor 0.2500, 7 bonds broken, 340 softened"
         );
     }
 

@@ -13,6 +13,7 @@ use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::{Bonds, ProportionalLoading, Termination};
+use ligament_output::quantity::{between, quantity};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -62,6 +63,9 @@ pub struct Summary {
     pub first_peak: Option<PathPoint>,
     /// Broken bonds at the end.
     pub broken_bonds: usize,
+    /// Unbroken bonds at the end whose force had begun to fall; only of bonds that soften.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub softened_bonds: Option<usize>,
     /// Load steps done, or events of the exact path, with the last state.
     pub steps: usize,
     /// Whether [`steps`](Self::steps) counts events of the exact path.
@@ -211,6 +215,7 @@ impl Summary {
             reactions_at_peak: resultants_at_peak(boundary, model.system.layout(), outcome),
             first_peak: loaded(outcome.first_peak(DROP)),
             broken_bonds: outcome.state.broken_bonds(),
+            softened_bonds: (model.criteria.soften()).then(|| outcome.state.softened_bonds()),
             steps: history.len().saturating_sub(1),
             exact_path: outcome.rows == Rows::Events,
             termination: outcome.termination.name(),
@@ -248,8 +253,10 @@ impl Summary {
         writeln!(out, "  {}", self.model.formulation)?;
         writeln!(
             out,
-            "  points {}, bonds {}, volume {:.6e} m^3",
-            self.model.points, self.model.bonds, self.model.volume
+            "  points {}, bonds {}, volume {}",
+            self.model.points,
+            self.model.bonds,
+            quantity(self.model.volume, "m^3")
         )?;
         self.write_loads(out)?;
         self.write_first_bonds(out)?;
@@ -258,9 +265,12 @@ impl Summary {
         } else {
             "load steps"
         };
+        let softened = (self.softened_bonds).map_or(String::new(), |it| {
+            format!(", and {it} more that softened,")
+        });
         writeln!(
             out,
-            "  broken bonds       {} in {} {unit}",
+            "  broken bonds       {}{softened} in {} {unit}",
             self.broken_bonds, self.steps
         )?;
         writeln!(
@@ -310,18 +320,18 @@ impl Summary {
         if let Some(Spread { min, mean, max }) = self.temperature_change {
             writeln!(
                 out,
-                "  temperature change {min:.4e} to {max:.4e} K, mean {mean:.4e}"
+                "  temperature change {}, mean {}",
+                between([min, max], "K"),
+                quantity(mean, "K")
             )?;
         }
         if let Some(stiffness) = self.elastic_stiffness {
-            writeln!(
-                out,
-                "  elastic stiffness  {stiffness:.6e} {per_displacement}"
-            )?;
+            let stiffness = quantity(stiffness, per_displacement);
+            writeln!(out, "  elastic stiffness  {stiffness}")?;
         }
-        let broke = self.broken_bonds > 0;
+        let broke = self.broken_bonds > 0 || self.softened_bonds.is_some_and(|it| it > 0);
         let of_breaking = |point: Option<PathPoint>| point.filter(|_| broke);
-        let onset = match self.first_softened_bond {
+        let onset = match self.softened_bonds {
             Some(_) => "first softening",
             None => "first breakage",
         };
@@ -336,10 +346,8 @@ impl Summary {
                 ..
             }) = point
             {
-                writeln!(
-                    out,
-                    "  {name:<18} {reaction:.6e} {force} at {displacement:.6e} {along}"
-                )?;
+                let (load, at) = (quantity(reaction, force), quantity(displacement, along));
+                writeln!(out, "  {name:<18} {load} at {at}")?;
             }
         }
         Ok(())

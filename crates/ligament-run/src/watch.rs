@@ -47,6 +47,8 @@ impl<'a> Watch<'a> {
             load: None,
             units: setup.units(),
             broken_bonds: 0,
+            softened_bonds: None,
+            stage: None,
         };
         Self {
             writer,
@@ -119,7 +121,7 @@ impl Observer for Watch<'_> {
             step: step as u64,
             load_factor,
             broken_bonds: broken as u64,
-            ..self.last
+            ..self.last.clone()
         };
         if step > 0 && round > 0 {
             self.progress.round(&self.last);
@@ -174,6 +176,8 @@ impl Observer for Watch<'_> {
             load: Some(record.reaction),
             units: self.last.units,
             broken_bonds: record.broken_bonds as u64,
+            softened_bonds: (view.criteria.soften()).then(|| view.state.softened_bonds() as u64),
+            stage: (view.loads.course()).map(|it| it.programme.stage_name(record.part).to_owned()),
         };
         if record.step > 0 {
             self.progress.step(&self.last);

@@ -11,7 +11,7 @@
 //!
 //! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
 //! into stiffness ([`direction`] shows it over the direction of a bond), [`loading`] supports and loads into what acts on
-//! the points, and [`patch_test`] tells how stiff the body has become. What is wrong with a setup is a [`SetupError`] that
+//! the points, [`patch_test`] tells how stiff the body has become, and [`crack_energy`] what a crack through it spends. What is wrong with a setup is a [`SetupError`] that
 //! names the field, and what a user should know of a model is a [`Warning`].
 //!
 //! ```
@@ -43,6 +43,7 @@
 )]
 
 pub mod body;
+pub mod crack_energy;
 pub mod direction;
 pub mod error;
 mod faces;

@@ -4,7 +4,7 @@
 use ligament::Loading;
 use ligament::prelude::*;
 use ligament::run::{follow, restore, resume};
-use ligament::setup::Control;
+use ligament::setup::{Control, Quantity};
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::breaking::BreakingOrder;
 use ligament_analysis::driver::Outcome;
@@ -275,7 +275,7 @@ fn runs_in_stages_go_on_to_the_same_bits() {
         let turns = Course::through(&[0.2, 1.0]);
         stages.push(stage("turn", "right", turns, steps));
         let control = Control {
-            probes: vec![("opening".to_owned(), 0.5)],
+            quantity: Quantity::Probes(vec![("opening".to_owned(), 0.5)]),
             to: 3e-5,
         };
         stages.extend(steps.map(|_| Stage {
@@ -400,7 +400,7 @@ fn stages_that_make_no_sense_say_so() {
         "{order}"
     );
     let control = |probe: &str| Control {
-        probes: vec![(probe.to_owned(), 1.0)],
+        quantity: Quantity::Probes(vec![(probe.to_owned(), 1.0)]),
         to: 1e-5,
     };
     assert_eq!(
@@ -489,7 +489,7 @@ fn a_force_that_follows_its_displacement_is_its_reaction() {
             criterion,
         ));
         let control = Control {
-            probes: vec![("hook".to_owned(), 1.0)],
+            quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
             to: END,
         };
         let force = Action::Force([1e5, 0.0]);
@@ -525,6 +525,155 @@ fn a_force_that_follows_its_displacement_is_its_reaction() {
     }
 }
 
+/// The plate with a pre-crack from below, pressed at a point, pulled and pressed again, with faces that close.
+fn pressed_and_pulled(
+    action: Action,
+    turns: [f64; 3],
+    is_controlled: bool,
+    criterion: Choice,
+) -> Setup {
+    let mut setup = pulled_at_a_point(action, None, criterion);
+    setup.closing = true;
+    setup.precracks = vec![PreCrack {
+        points: vec![[0.03, -0.001], [0.03, 0.081]],
+        ends: Ends::Excluded,
+    }];
+    let turn = |(place, to): (usize, &f64)| {
+        let control = Control {
+            quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
+            to: *to,
+        };
+        // Under control the factor says no more than which way the load goes.
+        let factor = if is_controlled {
+            1.0 + place as f64
+        } else {
+            *to / 1e-5
+        };
+        Stage {
+            control: is_controlled.then_some(control),
+            ..stage(
+                &format!("turn-{place}"),
+                "hook",
+                Course::to(factor),
+                Some(20),
+            )
+        }
+    };
+    setup.stages = turns.iter().enumerate().map(turn).collect();
+    setup
+}
+
+/// Faces close where a point is pressed, open where it is pulled, and close again; the force that follows the displacement of the point is the
+/// reaction to that displacement, brittle and softening, and energies balance to 1e-8. 1e-3 of the largest force where bonds soften, as
+/// without faces that close.
+#[test]
+fn a_force_that_follows_its_displacement_closes_cracks() {
+    const TURNS: [f64; 3] = [-2e-5, 6e-5, -2e-5];
+    for (name, criterion, tolerance) in [
+        ("brittle", brittle(), 1e-8),
+        ("softening", softening(), 1e-3),
+    ] {
+        let moved = Displacement {
+            x: Some(1e-5),
+            ..Displacement::default()
+        };
+        let moved = Action::Displacement(moved);
+        let (given, _) = run(pressed_and_pulled(moved, TURNS, false, criterion.clone()));
+        let force = Action::Force([1e5, 0.0]);
+        let (followed, _) = run(pressed_and_pulled(force, TURNS, true, criterion));
+        assert_eq!(given.history.len(), 61, "{name}: {}", given.termination);
+        let dissipated = given.history[60].dissipated_energy;
+        assert!(
+            dissipated > 0.05 * given.history[40].external_work,
+            "{name}"
+        );
+        assert!(given.history[20].closed_pairs > 50 && given.history[40].closed_pairs == 0);
+        assert!(given.history[60].closed_pairs > 50, "{name}");
+        let largest = given.history.iter().map(|it| it.reaction.abs());
+        let largest = largest.fold(0.0, f64::max);
+        let work = given.history.iter().map(|it| it.external_work.abs());
+        let work = work.fold(0.0, f64::max);
+        assert_eq!(
+            followed.history.len(),
+            61,
+            "{name}: {}",
+            followed.termination
+        );
+        for (one, other) in given.history.iter().zip(&followed.history) {
+            let difference = (one.reaction - other.reaction).abs() / largest;
+            assert!(
+                difference < tolerance,
+                "{name}, step {}: {difference:e}",
+                one.step
+            );
+            for record in [one, other] {
+                let error = record.missing_energy().abs();
+                assert!(
+                    error < 1e-7 * work,
+                    "{name}, step {}: {:e}",
+                    one.step,
+                    error / work
+                );
+            }
+        }
+    }
+}
+
+/// A pressure that stays keeps a crack closed until the pull is larger: what a stage leaves closed is what the next one begins with, and
+/// stages of one load are its list of factors, to the rounding of the factors.
+#[test]
+fn faces_close_in_stages() {
+    let cycles = [-0.5, 1.0, -0.5];
+    let cracked = |analysis, stages| {
+        let mut setup = plate(analysis, stages);
+        setup.closing = true;
+        setup.precracks = vec![PreCrack {
+            points: vec![[0.03, -0.001], [0.03, 0.081]],
+            ends: Ends::Excluded,
+        }];
+        setup
+    };
+    let mut before = 0.0;
+    let mut factors = Vec::new();
+    let mut stages = Vec::new();
+    for (place, to) in cycles.into_iter().enumerate() {
+        factors.extend((1..=8).map(|step| before + f64::from(step) / 8.0 * (to - before)));
+        stages.push(stage(
+            &format!("turn-{place}"),
+            "right",
+            Course::to(to),
+            Some(8),
+        ));
+        before = to;
+    }
+    let mut alone = cracked(Analysis::Stepped(stepped(factors)), Vec::new());
+    let mut staged = cracked(Analysis::Stepped(stepped(Vec::new())), stages);
+    alone.loads.truncate(1);
+    staged.loads.truncate(1);
+    let ((one, _), (other, _)) = (run(alone), run(staged));
+    assert!(one.state.broken_bonds() > 3);
+    let largest = one.history.iter().map(|it| it.reaction.abs());
+    let largest = largest.fold(0.0, f64::max);
+    for (one, other) in one.history.iter().zip(&other.history) {
+        assert!((one.reaction - other.reaction).abs() < 1e-12 * largest);
+        assert_eq!(one.closed_pairs, other.closed_pairs);
+    }
+    assert!(one.history[8].closed_pairs > 50 && one.history[16].closed_pairs == 0);
+    let both = cracked(Analysis::Stepped(stepped(Vec::new())), preloaded(Some(8)));
+    let (both, _) = run(both);
+    let work = both.history.iter().map(|it| it.external_work.abs());
+    let work = work.fold(0.0, f64::max);
+    for record in &both.history {
+        assert!(record.missing_energy().abs() < 1e-8 * work, "{record:?}");
+    }
+    let refused = cracked(Analysis::Event(event()), preloaded(None));
+    let refused = refused.solve(&mut Unobserved).unwrap_err().to_string();
+    assert!(
+        refused.starts_with("closing: with a part of the load that stays"),
+        "{refused}"
+    );
+}
+
 /// A plate with a pre-crack from below that a force pulls apart: where the opening of its mouth controls the force, bonds break in the
 /// order of the exact path as long as its opening grows, at the same forces, and the force and the displacement that it works on fall
 /// together: the load snaps back.
@@ -549,7 +698,7 @@ fn the_opening_of_a_crack_leads_through_a_snap_back() {
     let pull = |steps| stage("pull", "right", Course::to(1.0), steps);
     let (exact, path) = run(cracked(Analysis::Event(event()), pull(None)));
     let control = Control {
-        probes: vec![("mouth".to_owned(), 1.0)],
+        quantity: Quantity::Probes(vec![("mouth".to_owned(), 1.0)]),
         to: 6e-5,
     };
     let mut settings = stepped(Vec::new());

@@ -27,8 +27,8 @@ pub(super) struct Course {
     pub(super) part_start: Vec<f64>,
     /// Part of the programme; 0 without one.
     pub(super) part: usize,
-    /// Value of the motion that controls the present part at its start, m or rad; 0 where none does.
-    pub(super) motion_start: f64,
+    /// Value of what controls the present part at its start, m, rad or J; 0 where nothing does.
+    pub(super) control_start: f64,
     /// Largest force at a point in any record, N.
     pub(super) largest_force: f64,
     /// Faces of cracks that passed through each other farthest.
@@ -45,7 +45,7 @@ serial!(Course {
     negative_eigenvalues,
     part_start,
     part,
-    motion_start,
+    control_start,
     largest_force,
     overlap,
 });

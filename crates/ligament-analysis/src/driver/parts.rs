@@ -1,9 +1,9 @@
 //! A run on its way through the parts of a programme.
 
 use super::path::Path;
-use crate::equilibrium::Target;
+use crate::equilibrium::{Dissipation, Held, Target};
 use crate::history::StepRecord;
-use crate::load_program::LoadCourse;
+use crate::load_program::{LoadCourse, PartControl};
 
 impl Path<'_> {
     /// Goes over to the part of this index of a programme, which begins where the present one ends.
@@ -21,31 +21,48 @@ impl Path<'_> {
         self.energies.begin_part(begins);
         (self.course.part, self.course.part_start) = (part, start);
         let control = loads.course().and_then(LoadCourse::control);
-        let motion = control.map(|it| it.value(&self.state.displacement));
-        self.course.motion_start = motion.unwrap_or(0.0);
+        let value = control.map(|it| match it {
+            PartControl::Motion(motion) => motion.value(&self.state.displacement),
+            PartControl::DissipatedEnergy { .. } => self.dissipated_energy(),
+        });
+        self.course.control_start = value.unwrap_or(0.0);
         self.problem.loads = loads.clone();
         self.equilibrium.load_with(loads);
     }
 
-    /// Seeks equilibrium from here on after a share of the present part: of the way of the motion that controls it, or else at the load
-    /// factor of the state.
+    /// Seeks equilibrium from here on after a share of the present part: of the way of what controls it, or else at the load factor of
+    /// the state.
     pub(super) fn aim(&mut self, share: f64) {
         let loads = &self.problem.loads;
         let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
-        let target = control.and_then(|(course, control)| {
-            let start = self.course.motion_start;
-            let way = control.end - start;
-            Some(Target {
-                rate: loads.in_course(course.rate())?,
-                weights: control.weights.clone(),
-                value: start + share * way,
-                way,
+        let held = control.and_then(|(course, control)| {
+            let start = self.course.control_start;
+            let way = control.end() - start;
+            let rate = loads.in_course(course.rate())?;
+            let value = start + share * way;
+            Some(match control {
+                PartControl::Motion(motion) => Held::Motion(Target {
+                    weights: motion.weights.clone(),
+                    rate,
+                    value,
+                    way,
+                }),
+                PartControl::DissipatedEnergy { .. } => Held::Energy(Dissipation {
+                    step: way / course.n_steps() as f64,
+                    energy: value,
+                    rate,
+                }),
             })
         });
-        self.equilibrium.aim(target);
+        self.equilibrium.aim(held);
     }
 
-    /// Whether a motion controls the present part.
+    /// Energy that the bonds have taken for good, J.
+    pub(super) fn dissipated_energy(&self) -> f64 {
+        self.state.dissipated.iter().sum()
+    }
+
+    /// Whether something else than the load factor controls the present part.
     pub(super) fn is_controlled(&self) -> bool {
         let course = self.problem.loads.course();
         course.and_then(LoadCourse::control).is_some()

@@ -79,7 +79,7 @@ impl<'a> Path<'a> {
                     .course()
                     .map_or_else(Vec::new, LoadCourse::start),
                 part: 0,
-                motion_start: 0.0,
+                control_start: 0.0,
                 largest_force: 0.0,
                 overlap: None,
             },

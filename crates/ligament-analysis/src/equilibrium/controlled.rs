@@ -53,7 +53,7 @@ pub(crate) struct Target {
 
 impl Target {
     /// The motion in displacements (n_degrees_of_freedom).
-    fn motion(&self, displacement: &[f64]) -> f64 {
+    pub(super) fn motion(&self, displacement: &[f64]) -> f64 {
         let terms = self.weights.iter();
         let terms = terms.map(|&(dof, weight)| weight * displacement[dof as usize]);
         terms.sum()

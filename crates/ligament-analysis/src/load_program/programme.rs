@@ -30,8 +30,30 @@ pub struct Part {
     pub ends: Vec<Option<f64>>,
     /// Equal load steps of the part.
     pub steps: usize,
-    /// The motion that grows steadily in the part, while the load factor follows from it; the load factor grows where there is none.
-    pub control: Option<MotionControl>,
+    /// What grows steadily in the part, while the load factor follows from it; the load factor grows where there is nothing.
+    pub control: Option<PartControl>,
+}
+
+/// What grows steadily in a part of a programme in the place of the load factor.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PartControl {
+    /// A motion.
+    Motion(MotionControl),
+    /// The energy that bonds have taken for good, from the start of the loading on.
+    DissipatedEnergy {
+        /// Value at the end of the stage, J.
+        end: f64,
+    },
+}
+
+impl PartControl {
+    /// The value at the end of the stage, m, rad or J.
+    pub fn end(&self) -> f64 {
+        match self {
+            Self::Motion(motion) => motion.end,
+            Self::DissipatedEnergy { end } => *end,
+        }
+    }
 }
 
 /// A linear function of the displacements that grows steadily in a stage.
@@ -144,9 +166,14 @@ impl LoadCourse {
         }
     }
 
-    /// The motion that controls the part, if one does.
-    pub fn control(&self) -> Option<&MotionControl> {
+    /// What controls the part in the place of the load factor, if something does.
+    pub fn control(&self) -> Option<&PartControl> {
         self.programme.parts[self.part].control.as_ref()
+    }
+
+    /// Load steps of the part.
+    pub fn n_steps(&self) -> usize {
+        self.programme.parts[self.part].steps
     }
 
     /// The share w of the part that is over at a load factor.

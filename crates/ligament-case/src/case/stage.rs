@@ -31,22 +31,33 @@ pub struct Stage {
     #[schemars(range(min = 1, max = MOST_STEPS))]
     pub steps: Option<u32>,
     /// What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
-    /// peaks and snap-backs; load steps alone. Without it the factors grow.
+    /// peaks and snap-backs. Without it the factors grow.
     pub control: Option<Control>,
 }
 
-/// A motion that controls a stage: one probe, or the sum of several with weights.
+/// What controls a stage: one probe, the sum of several with weights, or the dissipated energy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["probe", "probes"])))]
+#[schemars(extend("oneOf" = exactly_one(&["probe", "probes", "quantity"])))]
 pub struct Control {
-    /// Name of a probe that reads a displacement or one between two points.
+    /// Name of a probe that reads a displacement or one between two points; load steps alone.
     pub probe: Option<String>,
     /// Weights of such probes, by their names.
     #[schemars(extend("minProperties" = 1))]
     pub probes: Option<BTreeMap<String, f64>>,
-    /// The value at the end of the stage, in the unit of the probe.
+    /// A quantity of the whole body.
+    pub quantity: Option<Quantity>,
+    /// The value at the end of the stage, in the unit of the probe, or J.
     pub to: f64,
+}
+
+/// A quantity of the whole body that controls a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// The energy that bonds have taken for good since the loading began, a column of `history.csv`: in load steps of bonds that soften; along
+    /// the exact path it says how far the stage goes.
+    DissipatedEnergy,
 }
 
 /// The factors that a load goes to in a stage.
@@ -86,8 +97,14 @@ impl Control {
     fn setup(&self, key: &KeyPath) -> Result<setup::Control, KeyFault> {
         let one = self.probe.clone().map(|name| vec![(name, 1.0)]);
         let several = self.probes.clone().map(|it| it.into_iter().collect());
+        let energy = |Quantity::DissipatedEnergy| setup::Quantity::DissipatedEnergy;
+        let keys = [
+            ("probe", one.map(setup::Quantity::Probes)),
+            ("probes", several.map(setup::Quantity::Probes)),
+            ("quantity", self.quantity.map(energy)),
+        ];
         Ok(setup::Control {
-            probes: one_of(key, [("probe", one), ("probes", several)])?,
+            quantity: one_of(key, keys)?,
             to: self.to,
         })
     }

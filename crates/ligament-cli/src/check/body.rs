@@ -6,6 +6,8 @@ use ligament::body::{Body, Origin};
 use ligament_mesh::Mesh;
 use ligament_model::Lattice;
 
+use ligament_output::quantity::{between, quantity};
+
 use super::entry::entry;
 
 /// Writes what a body is made of, with the volume of its points.
@@ -13,7 +15,10 @@ pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Re
     match body.origin() {
         Origin::Mesh(mesh) => write_mesh(out, mesh, volume),
         Origin::Lattice(lattice) => write_lattice(out, body, lattice, volume),
-        Origin::Points => writeln!(out, "{} points of {volume:.6e} m^3", body.positions().len()),
+        Origin::Points => {
+            let (points, volume) = (body.positions().len(), quantity(volume, "m^3"));
+            writeln!(out, "{points} points of {volume}")
+        }
     }
 }
 
@@ -21,8 +26,8 @@ fn write_mesh(out: &mut dyn Write, mesh: &Mesh, volume: f64) -> io::Result<()> {
     writeln!(out, "mesh")?;
     let [nodes, cells] = [mesh.positions.len(), mesh.cells.len()];
     entry(out, "nodes, cells", format!("{nodes}, {cells}"))?;
-    entry(out, "area", format!("{:.6e} m^2", mesh.area()))?;
-    entry(out, "volume of the points", format!("{volume:.6e} m^3"))?;
+    entry(out, "area", quantity(mesh.area(), "m^2"))?;
+    entry(out, "volume of the points", quantity(volume, "m^3"))?;
     for group in &mesh.groups {
         let kinds = ["points", "curve", "surface"];
         let kind = kinds.get(usize::from(group.dimension)).unwrap_or(&"group");
@@ -46,15 +51,17 @@ fn write_lattice(
     writeln!(out, "lattice")?;
     let cells = format!("{left} of {nx} x {ny} ({removed} removed)");
     entry(out, "cells", cells)?;
-    entry(out, "spacing", format!("{dx:.6e} x {dy:.6e} m"))?;
-    let sides = format!("x {x:.5e} to {right:.5e} m, y {y:.5e} to {top:.5e} m");
+    let [wide, high] = [dx, dy].map(|it| quantity(it, "m"));
+    entry(out, "spacing", format!("{wide} x {high}"))?;
+    let [of_x, of_y] = [[x, right], [y, top]].map(|it| between(it, "m"));
+    let sides = format!("x {of_x}, y {of_y}");
     entry(out, "rectangle", sides)?;
-    entry(out, "area", format!("{area:.6e} m^2"))?;
-    entry(out, "volume of the points", format!("{volume:.6e} m^3"))?;
+    entry(out, "area", quantity(area, "m^2"))?;
+    entry(out, "volume of the points", quantity(volume, "m^3"))?;
     for name in body.group_names() {
         let mut words = format!("{} points", body.points_of(&name).unwrap_or_default().len());
         if let Some((_, length)) = body.lengths_of(&name).first() {
-            words += &format!(", {length:.4e} m of a side each");
+            words += &format!(", {} of a side each", quantity(*length, "m"));
         }
         entry(out, &format!("set {name}"), words)?;
     }

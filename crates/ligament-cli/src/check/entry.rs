@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
+use ligament_output::quantity::{between, quantity};
 use ligament_run::summary::Spread;
 
 use crate::lines;
@@ -12,15 +13,20 @@ pub(super) fn entry(out: &mut dyn Write, name: &str, value: impl Display) -> io:
     lines::entry(out, 21, name, value)
 }
 
-/// Writes a line with the smallest, largest and mean value of a quantity.
+/// Writes a line with the smallest, largest and mean value of a quantity in an SI unit, `-` for none.
 pub(super) fn spread(
     out: &mut dyn Write,
     name: &str,
     Spread { min, mean, max }: Spread,
     unit: &str,
 ) -> io::Result<()> {
-    let values = format!("{min:.4e} to {max:.4e}{unit}, mean {mean:.4e}");
-    entry(out, name, values)
+    let values = between([min, max], unit);
+    let mean = quantity(mean, unit);
+    if values == mean {
+        entry(out, name, values)
+    } else {
+        entry(out, name, format!("{values}, mean {mean}"))
+    }
 }
 
 /// Bytes in words, to a tenth of a megabyte.

@@ -9,14 +9,15 @@ use ligament_analysis::gauges;
 use ligament_analysis::probe::Reading;
 use ligament_analysis::{ControlKind, Equilibrium};
 use ligament_case::case::CaseFile;
+use ligament_output::quantity::quantity;
 use ligament_run::disk::{self, FieldsOnDisk};
 use ligament_run::gauges::words;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
-use ligament_run::summary::{Spread, temperature_change};
+use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
-use super::entry::{entry, megabytes};
+use super::entry::{entry, megabytes, spread};
 use super::{Extent, equations, model, restraints};
 
 /// Checks supports, loads and equations.
@@ -84,19 +85,19 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
         write_group(out, body, &group.name, &group.points)?;
     }
     restraints::write(out, &model.setup)?;
-    if let Some(Spread { min, mean, max }) = temperature_change(&loading.boundary) {
-        let values = format!("{min:.4e} to {max:.4e} K, mean {mean:.4e}");
-        entry(out, "temperature change", values)?;
+    if let Some(changes) = temperature_change(&loading.boundary) {
+        spread(out, "temperature change", changes, "K")?;
     }
     let control = &loading.boundary.control;
-    let points = format!("{} points", control.points.len());
+    let points = control.points.len();
+    let [moved, loaded] = ["moved by", "loaded by"].map(|it| format!("{points} points, {it}"));
     let units = model.setup.units();
     let (what, unit) = match control.kind {
-        ControlKind::Temperature => ("the temperature", units.displacement),
-        ControlKind::Displacement => (points.as_str(), units.displacement),
-        ControlKind::Force => (points.as_str(), units.force),
+        ControlKind::Temperature => ("the temperature, changed by", units.displacement),
+        ControlKind::Displacement => (moved.as_str(), units.displacement),
+        ControlKind::Force => (loaded.as_str(), units.force),
     };
-    let words = format!("{what}, size {:.4e} {unit}", control.magnitude);
+    let words = format!("{what} {}", quantity(control.magnitude, unit));
     entry(out, "controlled by", words)?;
     for probe in loading.probes.iter() {
         let reads = match &probe.reading {

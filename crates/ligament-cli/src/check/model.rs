@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use ligament_case::case::CaseFile;
 use ligament_model::{Elasticity, Plane};
+use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
 
@@ -28,7 +29,11 @@ fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         Plane::Strain => "plane strain",
     };
     let thickness = model.setup.thickness();
-    entry(out, "thickness", format!("{thickness} m, {state}"))
+    entry(
+        out,
+        "thickness",
+        format!("{}, {state}", quantity(thickness, "m")),
+    )
 }
 
 fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
@@ -44,22 +49,29 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             &material.name
         };
         let constants = match material.elasticity {
-            Elasticity::Isotropic(it) => format!("E = {:.4e} Pa, nu = {}", it.young, it.poisson),
+            Elasticity::Isotropic(it) => {
+                format!("E = {}, nu = {}", quantity(it.young, "Pa"), it.poisson)
+            }
             Elasticity::Orthotropic(it) => {
-                let [young_1, young_2] = it.young;
+                let [young_1, young_2, shear] =
+                    [it.young[0], it.young[1], it.shear_modulus].map(|it| quantity(it, "Pa"));
                 format!(
-                    "E_1 = {young_1:.4e} Pa, E_2 = {young_2:.4e} Pa, nu_12 = {}, G = {:.4e} Pa, axis 1 at {} rad",
-                    it.poisson, it.shear_modulus, it.angle
+                    "E_1 = {young_1}, E_2 = {young_2}, nu_12 = {}, G = {shear}, axis 1 at {} rad",
+                    it.poisson, it.angle
                 )
             }
             Elasticity::Anisotropic(it) => {
                 let c = it.stiffness;
                 let of_rows = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-                let values = of_rows.map(|place| format!("{:.4e}", c[place]));
-                format!("c11, c12, c16, c22, c26, c66 = {} Pa", values.join(", "))
+                let values = of_rows.map(|place| quantity(c[place], "Pa"));
+                format!("c11, c12, c16, c22, c26, c66 = {}", values.join(", "))
             }
         };
-        write!(out, "  {name}: {constants}, volume {volume:.6e} m^3")?;
+        write!(
+            out,
+            "  {name}: {constants}, volume {}",
+            quantity(volume, "m^3")
+        )?;
         for (name, value, unit) in [
             ("F_t", material.tensile_strength, "Pa"),
             ("F_c", material.compressive_strength, "Pa"),
@@ -67,19 +79,18 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             ("G_IIc", material.fracture_energy_sliding, "J/m^2"),
         ] {
             if let Some(value) = value {
-                write!(out, ", {name} = {value:.4e} {unit}")?;
+                write!(out, ", {name} = {}", quantity(value, unit))?;
             }
         }
         if let Some(expansion) = material.expansion {
             let [one, two] = expansion.in_plane;
-            write!(out, ", alpha = {one:.4e}")?;
+            write!(out, ", alpha = {}", quantity(one, "1/K"))?;
             if one != two {
-                write!(out, " and {two:.4e}")?;
+                write!(out, " and {}", quantity(two, "1/K"))?;
             }
-            write!(out, " 1/K")?;
         }
         match material.density {
-            Some(density) => writeln!(out, ", mass {:.6e} kg", density * volume)?,
+            Some(density) => writeln!(out, ", mass {}", quantity(density * volume, "kg"))?,
             None => writeln!(out)?,
         }
     }
@@ -96,14 +107,16 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         entry(out, "pairs across voids", model.across_voids())?;
     }
     entry(out, "points with no_fail", model.no_fail_points())?;
-    spread(out, "nearest distance", over(&system.cloud.spacing), " m")?;
-    spread(out, "horizon", over(&fixed.horizon), " m")?;
-    spread(out, "bonds of a point", family(model), "")?;
+    spread(out, "nearest distance", over(&system.cloud.spacing), "m")?;
+    spread(out, "horizon", over(&fixed.horizon), "m")?;
+    let Spread { min, mean, max } = family(model);
+    let of_points = format!("{min} to {max}, mean {mean:.1}");
+    entry(out, "bonds of a point", of_points)?;
     let formulation = formulation_line(&model.setup);
     writeln!(out, "  {formulation}")?;
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     writeln!(out, "  {correction}")?;
-    spread(out, "correction factor", over(&fixed.domain_factor), "")
+    spread(out, "correction factor", over(&fixed.domain_factor), "-")
 }
 
 fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
@@ -111,7 +124,7 @@ fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
     for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
         let Spread { min, mean, max } = Spread::over(ratios.iter().copied());
-        entry(out, mode, format!("{min:.6} to {max:.6}, mean {mean:.6}"))?;
+        entry(out, mode, format!("{min:.4} to {max:.4}, mean {mean:.4}"))?;
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use ligament::patch_test::{Constants, PatchTest, patch_test};
+use ligament_output::quantity::{place, quantity};
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
@@ -50,11 +51,11 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
         )?,
     }
     let percent = test.scatter.map(|it| format!("{:.2}", 100.0 * it));
-    let [x, y] = test.place;
     let words = format!(
-        "off the mean strain by {} % rms (along x, along y, in shear), at most {:.1} % at ({x:.4e}, {y:.4e}) m",
+        "off the mean strain by {} % rms (along x, along y, in shear), at most {:.1} % at {}",
         percent.join(", "),
-        100.0 * test.largest
+        100.0 * test.largest,
+        place(test.place)
     );
     entry(out, "strains of the bonds", words)
 }
@@ -66,7 +67,11 @@ fn write_constants(out: &mut dyn Write, constants: &Constants) -> io::Result<()>
         material,
     } = constants;
     let modulus = |found: f64, given: f64| {
-        format!("{found:.4e} Pa ({:+.2} %)", 100.0 * (found / given - 1.0))
+        format!(
+            "{} ({:+.2} %)",
+            quantity(found, "Pa"),
+            100.0 * (found / given - 1.0)
+        )
     };
     let [one, two] = [0, 1].map(|axis| modulus(body.young[axis], material.young[axis]));
     let [first, second] = match angle {

@@ -5,6 +5,8 @@ use std::io::{self, Write};
 use ligament::setup::{Load, Setup, Support};
 use ligament_analysis::Component;
 
+use ligament_output::quantity::quantity;
+
 use super::entry::entry;
 
 /// Writes what each support holds or resists, and which loads go through springs or a platen.
@@ -33,13 +35,14 @@ fn of_support(support: &Support) -> Vec<String> {
             Component::X | Component::Y => "N/m",
         };
         words.push(format!(
-            "{} by springs of {total:.4e} {unit}",
-            component.name()
+            "{} by springs of {}",
+            component.name(),
+            quantity(total, unit)
         ));
     }
     if let Some([x, y]) = support.restrained_normal() {
         let spring = support.stiffness.normal;
-        let spring = spring.map(|total| format!(" by springs of {total:.4e} N/m"));
+        let spring = spring.map(|total| format!(" by springs of {}", quantity(total, "N/m")));
         words.push(format!("along ({x}, {y}){}", spring.unwrap_or_default()));
     }
     words
@@ -47,7 +50,7 @@ fn of_support(support: &Support) -> Vec<String> {
 
 fn of_load(load: &Load) -> Vec<String> {
     let springs = load.stiffness;
-    let springs = springs.map(|total| format!("through springs of {total:.4e} N/m"));
+    let springs = springs.map(|total| format!("through springs of {}", quantity(total, "N/m")));
     let platen = load
         .tilts
         .then(|| "by a rigid platen that may tilt".to_owned());

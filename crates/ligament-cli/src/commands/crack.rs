@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::steps::StepChoice;
 use ligament_output::results::{CRACK_FILES, write_cracks};
@@ -47,21 +48,21 @@ impl CrackArgs {
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         writeln!(
             out,
-            "step {step}: {} crack line(s), {length:.5e} m, {:.5e} m^2",
+            "step {step}: {} crack line(s), {} long, {} in area",
             lines.len(),
-            length * cracks.thickness
+            quantity(length, "m"),
+            quantity(length * cracks.thickness, "m^2")
         )?;
         for (number, line) in (1..).zip(&lines) {
             let [from, to] = [0, line.places.len() - 1].map(|it| line.places[it]);
-            let place = |[x, y]: [f64; 2]| format!("({x:.5}, {y:.5})");
             writeln!(
                 out,
-                "  {number:<3} {} {} to {} {}, {:.5e} m",
+                "  {number:<3} from the {} at {} to the {} at {}, {} long",
                 line.ends[0].word(),
                 place(from),
                 line.ends[1].word(),
                 place(to),
-                line.length()
+                quantity(line.length(), "m")
             )?;
         }
         Ok(writeln!(

@@ -5,10 +5,11 @@ use std::io::{self, Write};
 use std::ops::Add;
 
 use ligament_model::Absence;
+use ligament_output::quantity::quantity;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
 use super::life::{Life, Lives};
-use super::words::{self, label, number, place};
+use super::words::{self, label, metres, number, place};
 use crate::lines::{self, Columns};
 use ligament::units::Units;
 
@@ -27,16 +28,16 @@ pub(super) fn bond(
         let pair = lives.absent.first().copied();
         return sentences(out, words::no_bond(run, [a, b], pair));
     };
-    let (length, degrees) = (number(life.length), angle(life));
+    let (length, degrees) = (metres(life.length), angle(life));
     entry(
         out,
         "length",
-        format!("{length} m, {degrees:.2} degrees from x"),
+        format!("{length}, {degrees:.2} degrees from x"),
     )?;
-    let [h_a, h_b] = [a, b].map(|end| number(run.model.horizon[end as usize]));
+    let [h_a, h_b] = [a, b].map(|end| metres(run.model.horizon[end as usize]));
     let bonds = &run.model.bonds;
-    let horizon = number(bonds.horizon[life.pair]);
-    let horizons = format!("{horizon} m (horizons of its ends {h_a} and {h_b} m)");
+    let horizon = metres(bonds.horizon[life.pair]);
+    let horizons = format!("{horizon} (horizons of its ends {h_a} and {h_b})");
     entry(out, "bond horizon H", horizons)?;
     let [alpha, omega] = [&bonds.length_factor, &bonds.domain_factor].map(|it| it[life.pair]);
     entry(out, "alpha, Omega", format!("{alpha:.5}, {omega:.5}"))?;
@@ -62,13 +63,13 @@ pub(super) fn family(
     let [x, y] = model.positions[point as usize];
     entry(out, "position", format!("({x:.6}, {y:.6}) m"))?;
     if let Some([at_x, at_y]) = sought {
-        let distance = number((at_x - x).hypot(at_y - y));
-        let words = format!("({at_x:.6}, {at_y:.6}) m, {distance} m from it");
+        let distance = metres((at_x - x).hypot(at_y - y));
+        let words = format!("({at_x:.6}, {at_y:.6}) m, {distance} from it");
         entry(out, "nearest to", words)?;
     }
-    let [volume, horizon] = [&model.volumes, &model.horizon].map(|it| number(it[point as usize]));
-    entry(out, "volume", format!("{volume} m^3"))?;
-    entry(out, "horizon", format!("{horizon} m"))?;
+    let volume = quantity(model.volumes[point as usize], "m^3");
+    entry(out, "volume", volume)?;
+    entry(out, "horizon", metres(model.horizon[point as usize]))?;
     entry(out, "bonds", counts(run, lives))?;
     if model.no_fail[point as usize] {
         entry(out, "no_fail", "its bonds never fail")?;
@@ -159,16 +160,10 @@ fn write_path(out: &mut dyn Write, lives: &Lives, rows: &Columns) -> io::Result<
     rows.write(out)
 }
 
-fn load_header(units: Units) -> Vec<String> {
-    vec![
-        "step".to_owned(),
-        "load factor".to_owned(),
-        format!("displacement {}", units.displacement),
-        format!("reaction {}", units.force),
-    ]
-}
+/// Names of the columns of [`load`].
+const LOAD_HEADER: [&str; 4] = ["step", "load factor", "displacement", "reaction"];
 
-fn load(moment: &StoredStep) -> Vec<String> {
+fn load(moment: &StoredStep, units: Units) -> Vec<String> {
     vec![
         if moment.at_rest {
             moment.step.to_string()
@@ -176,14 +171,14 @@ fn load(moment: &StoredStep) -> Vec<String> {
             format!("{} (not at rest)", moment.step)
         },
         format!("{:.6}", moment.load_factor),
-        number(moment.displacement),
-        number(moment.reaction),
+        quantity(moment.displacement, units.displacement),
+        quantity(moment.reaction, units.force),
     ]
 }
 
 /// Deformation and utilisations of a bond over the moments.
 fn bond_path(lives: &Lives, life: &Life) -> Columns {
-    let mut header = load_header(lives.units);
+    let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
     let names: &[&str] = match lives.components {
         strains @ [_, _, _] => strains,
         _ => &["stretch", "sliding"],
@@ -197,7 +192,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
     }
     let mut table = Columns::new(header);
     for (place, (moment, deformation)) in lives.moments.iter().zip(&life.deformation).enumerate() {
-        let mut row = load(moment);
+        let mut row = load(moment, lives.units);
         let values = deformation.strains().into_iter();
         row.extend(values.take(names.len()).map(number));
         for (criterion, limit) in life.limits.iter().enumerate() {
@@ -221,7 +216,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
 fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     let bonds = &run.model.bonds;
     let mut header = vec![run.model.tagged.to_owned()];
-    header.extend(["length m", "angle", "H m", "alpha", "Omega"].map(str::to_owned));
+    header.extend(["length", "angle", "H", "alpha", "Omega"].map(str::to_owned));
     let criteria = run.model.criteria.iter();
     header.extend(criteria.map(|it| format!("limit {}", it.name)));
     header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
@@ -239,9 +234,9 @@ fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     for life in order {
         let mut row = vec![
             run.model.tags[other_end(life.ends, point)].to_string(),
-            number(life.length),
+            metres(life.length),
             format!("{:.2}", angle(life)),
-            number(bonds.horizon[life.pair]),
+            metres(bonds.horizon[life.pair]),
             format!("{:.5}", bonds.length_factor[life.pair]),
             format!("{:.5}", bonds.domain_factor[life.pair]),
         ];
@@ -267,7 +262,7 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
 /// Intact bonds, damage and the bond nearest to breakage over the moments.
 fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     let tagged = run.model.tagged;
-    let mut header = load_header(lives.units);
+    let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
     header.extend([format!("to {tagged}"), "by".to_owned()]);
     let mut table = Columns::new(header);
@@ -283,7 +278,7 @@ fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
                 }
             }
         }
-        let mut row = load(moment);
+        let mut row = load(moment, lives.units);
         row.push(intact().count().to_string());
         row.push(format!("{:.4}", damage(run, lives, place)));
         row.extend(match worst {

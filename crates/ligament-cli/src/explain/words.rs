@@ -3,14 +3,19 @@
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Measure, Softened};
+use ligament_output::quantity::quantity;
 use ligament_output::results::stored::StoredRun;
 
 use super::life::{Life, Limit, Lives, Nearest};
 
-/// A number as all reports have it.
+/// A number without a unit.
 pub(super) fn number(value: f64) -> String {
-    // Without the sign of a zero.
-    format!("{:.4e}", value + 0.0)
+    quantity(value, "-")
+}
+
+/// A length.
+pub(super) fn metres(value: f64) -> String {
+    quantity(value, "m")
 }
 
 /// A measure in words: "stretch s".
@@ -101,12 +106,10 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
         }
         lines.push(format!("Then {}.", deformed(lives, &deformation)));
         lines.push(format!(
-            "Load factor {:.6}, displacement {} {}, reaction {} {}.",
+            "Load factor {:.6}, displacement {}, reaction {}.",
             broke.at.load_factor,
-            number(broke.at.displacement),
-            lives.units.displacement,
-            number(broke.at.reaction),
-            lives.units.force
+            quantity(broke.at.displacement, lives.units.displacement),
+            quantity(broke.at.reaction, lives.units.force)
         ));
         return lines;
     }
@@ -227,11 +230,11 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
     let distance = (q[0] - p[0]).hypot(q[1] - p[1]);
     let [h_a, h_b] = [a, b].map(|end| model.horizon[end as usize]);
     let mut lines = vec![format!(
-        "Their distance is {} m; the horizons are {} m ({}) and {} m ({}).",
-        number(distance),
-        number(h_a),
+        "Their distance is {}; the horizons are {} ({}) and {} ({}).",
+        metres(distance),
+        metres(h_a),
         label(run, a),
-        number(h_b),
+        metres(h_b),
         label(run, b)
     )];
     lines.push(match pair.and_then(|pair| model.bonds.absence[pair]) {
@@ -242,8 +245,8 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
             "No bond: a hole, slot or notch of the body lies between them.".to_owned()
         }
         None => format!(
-            "No bond: neither lies in the horizon of the other; bonds of these two reach {} m.",
-            number(h_a.max(h_b))
+            "No bond: neither lies in the horizon of the other; bonds of these two reach {}.",
+            metres(h_a.max(h_b))
         ),
     });
     lines
@@ -281,19 +284,19 @@ mod tests {
                 Measure::Tension,
                 2e-4,
                 AfterLimit::new(brittle::LAW, Vec::new()),
-                "breaks at stretch s = 2.0000e-4",
+                "breaks at stretch s = 200.0e-6",
             ),
             (
                 Measure::Friction,
                 2e-4,
                 AfterLimit::new(plastic::LAW, Vec::new()),
-                "softens (plastic) from |gamma| + s tan(beta) = 2.0000e-4, tan(beta) = 5.0000e-1, never breaks",
+                "softens (plastic) from |gamma| + s tan(beta) = 200.0e-6, tan(beta) = 0.5000, never breaks",
             ),
             (
                 Measure::Compression,
                 2e-4,
                 bilinear,
-                "softens (linear) from shortening -s = 2.0000e-4, breaks at 8.0000e-4",
+                "softens (linear) from shortening -s = 200.0e-6, breaks at 800.0e-6",
             ),
             (
                 Measure::Sliding,
@@ -305,7 +308,7 @@ mod tests {
                 Measure::MixedModeY,
                 1e-2,
                 AfterLimit::new(brittle::LAW, Vec::new()),
-                "breaks at sqrt(max(S_yy, 0)^2 + q S_xy^2) = 1.0000e-2, q = 2.5000e-1, G_IIc/G_Ic = 4.0000e0, eta = 2.0000e0",
+                "breaks at sqrt(max(S_yy, 0)^2 + q S_xy^2) = 0.01000, q = 0.2500, G_IIc/G_Ic = 4.000, eta = 2.000",
             ),
         ] {
             assert_eq!(said(measure, limit, after), expected);

@@ -1,5 +1,7 @@
 //! What is told of bonds, against closed forms and the other files of a run.
 
+use ligament_output::quantity::quantity;
+
 use super::*;
 
 /// Stretches, utilisations and steps of breaking of a bar under uniform strain, for bonds in three directions.
@@ -127,14 +129,14 @@ fn it_says_why_there_is_no_bond_or_no_breakage() {
     let far = say(cell(8, 4), cell(0, 0));
     let distance = SPACING * 8_f64.hypot(4.0);
     assert!(
-        far.contains(&format!("distance is {distance:.4e} m")),
+        far.contains(&format!("distance is {}", quantity(distance, "m"))),
         "{far}"
     );
     assert!(
         far.contains("neither lies in the horizon of the other"),
         "{far}"
     );
-    assert!(far.contains("reach 3.0000e-2 m"), "{far}");
+    assert!(far.contains("reach 30.00 mm"), "{far}");
     let held = say(cell(6, 2), cell(8, 2));
     assert!(held.contains("never fails by its stretch s"), "{held}");
     let why = format!("bonds of cell {} never fail (`no_fail`)", cell(8, 2));
@@ -162,7 +164,7 @@ fn a_hole_parts_its_sides() {
     // Row 0 is whole; rows 1 and 2 have 8 cells each: columns 3 and 5 of row 2 are beside the hole.
     let [left, right] = [9 + 8 + 4, 9 + 8 + 5].map(|tag| tag.to_string());
     let said = explain(&results, &["--bond", &left, &right]);
-    assert!(said.contains("distance is 2.0000e-2 m"), "{said}");
+    assert!(said.contains("distance is 20.00 mm"), "{said}");
     assert!(
         said.contains("a hole, slot or notch of the body lies between them"),
         "{said}"

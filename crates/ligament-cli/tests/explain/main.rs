@@ -5,24 +5,18 @@
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use ligament_output::results::stored::StoredRun;
 use serde_json::Value;
 
+#[path = "../support/mod.rs"]
+mod support;
+
+use support::{ligament, text};
+
 mod life;
 mod results;
-
-fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ligament"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 /// Runs a case in a folder; the results are in `results` there.
 fn run(folder: &Path, case: &str, settings: &[&str]) -> PathBuf {

@@ -125,7 +125,7 @@ fn a_name_may_be_longer_than_a_column() {
 fn constants_without_a_stiffness_are_refused() {
     let place = Place::new();
     let orthotropic = "young_1 = 1e10\nyoung_2 = 1e9\npoisson_12 = 0.2\nshear_modulus = 1e9\n";
-    let case = CASE
+    let case = SMALL_BAR
         .replace("young = 1e9\npoisson = 0.2\n", orthotropic)
         .replace("nhpd", "orthotropic");
     fs::write(place.path("orthotropic.toml"), case).unwrap();
@@ -167,7 +167,7 @@ fn pipes_and_devices_are_refused() {
 #[test]
 fn escape_sequences_are_not_sent() {
     let place = Place::new();
-    let case = CASE.replace("Small bar", "Small\\u001b]0;renamed\\u0007 bar\\u009b2J");
+    let case = SMALL_BAR.replace("Small bar", "Small\\u001b]0;renamed\\u0007 bar\\u009b2J");
     fs::write(place.path("case.toml"), case).unwrap();
     fs::write(
         place.path("names.msh"),
@@ -191,7 +191,7 @@ fn escape_sequences_are_not_sent() {
 #[test]
 fn a_name_is_no_option() {
     let place = Place::new();
-    fs::write(place.path("-case.toml"), CASE).unwrap();
+    fs::write(place.path("-case.toml"), SMALL_BAR).unwrap();
     let study =
         "case = \"-case.toml\"\n[[axis]]\nkey = \"model.horizon_factor\"\nvalues = [2.2, 2.4]\n";
     fs::write(place.path("study.toml"), study).unwrap();

@@ -9,37 +9,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+#[path = "../support/mod.rs"]
+mod support;
+
+use support::{SMALL_BAR, assert_success};
+
 mod disks;
 mod folders;
 mod inputs;
 mod paths;
-
-/// A bar that is pulled apart in 10 steps; a run takes some 20 ms.
-const CASE: &str = r#"title = "Small bar"
-[lattice]
-cells = [12, 6]
-spacing = 0.01
-thickness = 0.01
-[lattice.set]
-left = { left = 1 }
-right = { right = 1 }
-[material]
-young = 1e9
-poisson = 0.2
-tensile_strength = 1e6
-[model]
-law = "nhpd"
-horizon_factor = 2.2
-[[support]]
-group = "left"
-displacement = { x = 0.0, y = 0.0 }
-[[load]]
-group = "right"
-displacement = { x = 2e-4 }
-[fracture]
-steps = 10
-stop = { load_fraction = 0.5 }
-"#;
 
 /// Settings with which the bar takes some seconds.
 const LONG: [&str; 4] = [
@@ -57,7 +35,7 @@ struct Place {
 impl Place {
     fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("case.toml"), CASE).unwrap();
+        fs::write(folder.path().join("case.toml"), SMALL_BAR).unwrap();
         Self { folder }
     }
 
@@ -116,10 +94,6 @@ fn stderr(output: &Output) -> String {
 
 fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-fn assert_success(output: &Output) {
-    assert!(output.status.success(), "{}", stderr(output));
 }
 
 /// The program refused with exit status 1 and says so in these words.

@@ -26,7 +26,7 @@ fn assert_victim_whole(place: &Place, name: &str) {
 fn stopped() -> Place {
     let place = Place::new();
     fs::write(place.path("victim"), SECRET).unwrap();
-    let case = CASE.replace("stop = { load_fraction = 0.5 }", "stop = { bonds = 1 }");
+    let case = SMALL_BAR.replace("stop = { load_fraction = 0.5 }", "stop = { bonds = 1 }");
     fs::write(place.path("case.toml"), case).unwrap();
     place.run();
     assert!(place.path("out/checkpoint.bin").is_file());
@@ -193,7 +193,7 @@ fn names_in_results_lead_nowhere() {
 #[test]
 fn names_in_cases_lead_nowhere() {
     let place = Place::new();
-    let case = CASE
+    let case = SMALL_BAR
         .replace("left = { left", "\"../../evil\" = { left")
         .replace("group = \"left\"", "group = \"../../evil\"");
     let probes = "[[probe]]\nname = \"../../evil\"\nat = [0.0, 0.0]\nfield = \"displacement_x\"\n\
@@ -229,10 +229,11 @@ fn names_in_cases_lead_nowhere() {
 #[test]
 fn texts_of_other_files_are_not_told() {
     let place = stopped();
-    let temperature = format!("{CASE}[[temperature]]\nfile = \"victim\"\n");
+    let temperature = format!("{SMALL_BAR}[[temperature]]\nfile = \"victim\"\n");
     fs::write(place.path("heated.toml"), temperature).unwrap();
-    let lattice = &CASE[CASE.find("[lattice]").unwrap()..CASE.find("[material]").unwrap()];
-    let meshed = CASE.replace(lattice, "[mesh]\nfile = \"victim\"\nthickness = 0.1\n");
+    let lattice =
+        &SMALL_BAR[SMALL_BAR.find("[lattice]").unwrap()..SMALL_BAR.find("[material]").unwrap()];
+    let meshed = SMALL_BAR.replace(lattice, "[mesh]\nfile = \"victim\"\nthickness = 0.1\n");
     fs::write(place.path("meshed.toml"), meshed).unwrap();
     let study = "case = \"victim\"\n[[axis]]\nkey = \"title\"\nvalues = [\"a\"]\n";
     fs::write(place.path("study.toml"), study).unwrap();

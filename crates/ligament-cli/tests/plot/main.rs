@@ -9,9 +9,14 @@ mod series;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use resvg::usvg::roxmltree::Document;
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use support::{ligament, text};
 
 /// A plate of 12 x 8 cells with a pre-crack, pulled apart until it is in two; every step has fields.
 const LATTICE: &str = r#"
@@ -42,17 +47,6 @@ steps = 10
 [output]
 fields_every = 1
 "#;
-
-fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ligament"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 /// Runs a case; the results are in the folder that is returned.
 fn run(folder: &Path, case: &str, name: &str, settings: &[&str]) -> PathBuf {

@@ -134,10 +134,10 @@ fn a_file_that_no_run_could_read_is_told_first() {
         "case = \"bar/mesh.toml\"\n[[axis]]\nkey = \"mesh.file\"\nvalues = [\"here.msh\", \"missing.msh\"]\n",
     );
     let (from, to) = (
-        CASE.find("[lattice]").unwrap(),
-        CASE.find("[material]").unwrap(),
+        SMALL_BAR.find("[lattice]").unwrap(),
+        SMALL_BAR.find("[material]").unwrap(),
     );
-    let case = CASE[..from].to_owned() + "[mesh]\nfile = \"here.msh\"\n" + &CASE[to..];
+    let case = SMALL_BAR[..from].to_owned() + "[mesh]\nfile = \"here.msh\"\n" + &SMALL_BAR[to..];
     fs::write(place.path("bar/mesh.toml"), case).unwrap();
     fs::write(place.path("bar/here.msh"), "never read").unwrap();
     let output = place.sweep(&[]);

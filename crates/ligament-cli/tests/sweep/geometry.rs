@@ -18,10 +18,10 @@ values = [2.5, 3.0]
 fn each_mesh_is_made_once() {
     let place = Place::with(STUDY);
     let (from, to) = (
-        CASE.find("[lattice]").unwrap(),
-        CASE.find("[material]").unwrap(),
+        SMALL_BAR.find("[lattice]").unwrap(),
+        SMALL_BAR.find("[material]").unwrap(),
     );
-    let case = CASE[..from].to_owned() + "[mesh]\nthickness = 0.01\n" + &CASE[to..];
+    let case = SMALL_BAR[..from].to_owned() + "[mesh]\nthickness = 0.01\n" + &SMALL_BAR[to..];
     fs::write(place.path("bar/mesh.toml"), case).unwrap();
     fs::write(place.path("plate.geo"), "DefineConstant[ size = 0.1 ];\n").unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");

@@ -3,11 +3,15 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::SystemTime;
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use support::{SMALL_BAR, assert_success, ligament, stderr, stdout};
 
 mod faults;
 #[cfg(unix)]
@@ -15,33 +19,6 @@ mod geometry;
 mod resuming;
 mod shards;
 mod tables;
-
-/// A bar of 72 cells that is pulled apart in 10 steps; a run takes some 20 ms.
-const CASE: &str = r#"title = "Small bar"
-[lattice]
-cells = [12, 6]
-spacing = 0.01
-thickness = 0.01
-[lattice.set]
-left = { left = 1 }
-right = { right = 1 }
-[material]
-young = 1e9
-poisson = 0.2
-tensile_strength = 1e6
-[model]
-law = "nhpd"
-horizon_factor = 2.2
-[[support]]
-group = "left"
-displacement = { x = 0.0, y = 0.0 }
-[[load]]
-group = "right"
-displacement = { x = 2e-4 }
-[fracture]
-steps = 10
-stop = { load_fraction = 0.5 }
-"#;
 
 /// Two strengths and three horizons.
 const GRID: &str = r#"title = "Bars"
@@ -65,7 +42,7 @@ impl Place {
             folder: tempfile::tempdir().unwrap(),
         };
         fs::create_dir(place.path("bar")).unwrap();
-        fs::write(place.path("bar/case.toml"), CASE).unwrap();
+        fs::write(place.path("bar/case.toml"), SMALL_BAR).unwrap();
         place.study(study);
         place
     }
@@ -165,22 +142,4 @@ fn fields(line: &str) -> Vec<String> {
         }
     }
     fields
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-fn assert_success(output: &Output) {
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
-}
-
-/// Runs the program.
-fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    let program = env!("CARGO_BIN_EXE_ligament");
-    Command::new(program).args(arguments).output().unwrap()
 }

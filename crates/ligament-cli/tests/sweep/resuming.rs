@@ -180,7 +180,7 @@ fn two_sweeps_at_once_are_refused() {
 fn changed_inputs_are_computed_anew() {
     let study = GRID.replace("bar/case.toml", "bar/hot.toml");
     let place = Place::with(&study);
-    let hot = CASE.replace(
+    let hot = SMALL_BAR.replace(
         "[fracture]",
         "[[temperature]]\nfile = \"field.csv\"\n[fracture]",
     );

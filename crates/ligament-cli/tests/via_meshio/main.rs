@@ -9,16 +9,10 @@ use std::process::{Command, Output};
 
 use ligament_mesh::{Cell, Mesh, gmsh};
 
-fn ligament<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ligament"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+#[path = "../support/mod.rs"]
+mod support;
 
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
+use support::{ligament, text};
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

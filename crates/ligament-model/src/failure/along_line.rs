@@ -10,7 +10,8 @@ use crate::element::BondDeformation;
 /// All t from the first to the second.
 pub type Interval = [f64; 2];
 
-const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
+/// All t, to both sides without an end.
+pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// A strain along the line: value + t slope.
 #[derive(Debug, Clone, Copy)]

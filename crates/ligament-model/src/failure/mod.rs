@@ -20,6 +20,7 @@ mod basis;
 mod choosing;
 pub mod crack_at_points;
 pub mod crack_energies;
+pub mod crack_opening;
 mod criterion;
 pub mod fibre;
 pub mod fracture_energy;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
+use ligament_output::quantity::four_digits;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::vtu::read::VtuFile;
@@ -16,7 +17,7 @@ use super::panel::Panel;
 use super::request::{CrackDrawing, FieldRequest, Magnification};
 use super::select::{Choice, Chosen, Moment, chosen, moments};
 use super::strip::Entry;
-use super::units::{Shown, four_digits};
+use super::units::Shown;
 use super::{PictureError, labels_of};
 use crate::stored_loading::stored_loading;
 

@@ -1,5 +1,7 @@
 //! Units with the prefix that gives short numbers, and numbers as they are printed in pictures.
 
+use ligament_output::quantity::{self, four_digits};
+
 /// A unit to show values of a quantity in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
@@ -9,40 +11,19 @@ pub struct Shown {
     pub unit: String,
 }
 
-/// Prefixes by the power of ten, in steps of three from 10^-12.
-const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
-
 impl Shown {
     /// The unit for values of a size in an SI unit such as `J/m^3`; `-` is none.
     pub fn new(unit: &str, size: f64) -> Self {
-        let pretty = unit.replace("^2", "²").replace("^3", "³");
-        let symbol = if unit == "-" { "" } else { pretty.as_str() };
-        // Lengths are read best as 0.1 to 100, all else as 1 to 1000.
-        let shift = if unit == "m" { 1.0 } else { 0.0 };
-        let exact = if size > 0.0 && size.is_finite() {
-            size.log10()
-        } else {
-            0.0
+        let shown = quantity::Shown::new(unit, size);
+        let symbol = shown.unit.replace("^2", "²").replace("^3", "³");
+        let prefix = shown.prefix.replace('u', "µ");
+        let power = match shown.power {
+            0 => String::new(),
+            power => power_of_ten(power),
         };
-        let thousands = ((exact + shift) / 3.0 + 1e-9).floor() as i32;
-        let takes_prefix = matches!(unit, "m" | "rad" | "Pa" | "Hz")
-            || unit.starts_with('N')
-            || unit.starts_with('J');
-        let prefix = usize::try_from(thousands + 4)
-            .ok()
-            .and_then(|it| PREFIXES.get(it));
-        let scaled = |before: &str| Self {
-            factor: 10f64.powi(-3 * thousands),
-            unit: format!("{before}{symbol}"),
-        };
-        match prefix {
-            Some(prefix) if takes_prefix => scaled(prefix),
-            _ if (-3.0..5.0).contains(&exact) => Self {
-                factor: 1.0,
-                unit: symbol.to_owned(),
-            },
-            _ if symbol.is_empty() => scaled(&power_of_ten(3 * thousands)),
-            _ => scaled(&format!("{} ", power_of_ten(3 * thousands))),
+        Self {
+            factor: shown.factor,
+            unit: format!("{power} {prefix}{symbol}").trim().to_owned(),
         }
     }
 
@@ -78,15 +59,6 @@ fn power_of_ten(exponent: i32) -> String {
     format!("10{exponent}")
 }
 
-/// A number with four digits that count.
-pub(super) fn four_digits(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{}", value.abs());
-    }
-    let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 9);
-    format!("{value:.*}", decimals as usize)
-}
-
 /// Numbers with as many decimals as the widest of them needs to show `step`.
 pub(super) fn with_decimals_of(value: f64, step: f64) -> String {
     let needs = |decimals: usize| {
@@ -117,7 +89,8 @@ mod tests {
             ("Pa", 4e6, "MPa"),
             ("-", 0.4, ""),
             ("-", 3e-5, "10⁻⁶"),
-            ("m^3", 2e-6, "10⁻⁶ m³"),
+            ("m^3", 2e-6, "mm³"),
+            ("Pa/m^3", 2e-13, "10⁻¹⁵ Pa/m³"),
             ("K", 120.0, "K"),
             ("m", 0.0, "m"),
         ] {
@@ -125,7 +98,8 @@ mod tests {
         }
         assert_eq!(Shown::new("m", 1.8e-4).value(1.8e-4), "0.1800 mm");
         assert_eq!(Shown::new("N", 6.4e5).value(644_761.3), "644.8 kN");
-        assert_eq!(Shown::new("m^3", 2e-6).value(2e-6), "2.000 × 10⁻⁶ m³");
+        assert_eq!(Shown::new("m^3", 2e-6).value(2e-6), "2000 mm³");
+        assert_eq!(Shown::new("1/K", 2e-6).value(2e-6), "2.000 × 10⁻⁶ 1/K");
         assert_eq!(Shown::new("-", 0.4).label("damage"), "damage");
     }
 

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
+use ligament_output::quantity::{four_digits, quantity};
 use serde::Serialize;
 
 use crate::provenance::Provenance;
@@ -115,8 +116,9 @@ impl ModalSummary {
         writeln!(out, "  {formulation}")?;
         writeln!(
             out,
-            "  points {points}, bonds {bonds}, mass {:.6e} kg, rotations: {}",
-            self.mass, self.rotations
+            "  points {points}, bonds {bonds}, mass {}, rotations: {}",
+            quantity(self.mass, "kg"),
+            self.rotations
         )?;
         writeln!(
             out,
@@ -126,8 +128,11 @@ impl ModalSummary {
             let [x, y, turn] = mode.effective_shares.map(|share| 100.0 * share);
             writeln!(
                 out,
-                "  {:>4}  {:<8} {:>13.6e}   {x:>12.3} {y:>7.3} {turn:>11.3}     {:>6.1e}",
-                mode.mode, mode.kind, mode.frequency, mode.residual
+                "  {:>4}  {:<8} {:>13}   {x:>12.3} {y:>7.3} {turn:>11.3}     {:>6.1e}",
+                mode.mode,
+                mode.kind,
+                four_digits(mode.frequency),
+                mode.residual
             )?;
         }
         let [x, y, turn] = self.effective_shares.map(|share| 100.0 * share);

@@ -8,6 +8,7 @@ use ligament_analysis::driver::Outcome;
 use ligament_analysis::first_bonds::FirstBond;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::{Component, Layout, LoadProgram};
+use ligament_output::quantity::place;
 use ligament_output::results::criterion_labels;
 use serde::Serialize;
 
@@ -68,11 +69,12 @@ impl BondEvent {
 
 impl fmt::Display for BondEvent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ([a, b], [x, y]) = (self.ends, self.place);
+        let [a, b] = self.ends;
         let (tagged, criterion) = (self.tagged, &self.criterion);
         write!(
             f,
-            "{tagged}s {a} and {b}, at ({x:.5}, {y:.5}) m, in step {}, by {criterion}",
+            "{tagged}s {a} and {b} at {}, in step {}, by {criterion}",
+            place(self.place),
             self.step
         )
     }

@@ -30,9 +30,10 @@ const KIND: Kind = Kind {
 };
 
 /// Ends of a run at which it was still carrying more load than before, so that a peak may lie beyond.
-const CUT_SHORT: [&str; 5] = [
+const CUT_SHORT: [&str; 6] = [
     "steps-done",
     "full-load",
+    "energy-dissipated",
     "displacement-reached",
     "wall-time",
     "bonds-broken",

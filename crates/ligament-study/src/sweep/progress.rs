@@ -11,6 +11,7 @@ use super::record::Status;
 use super::report::unknown_names;
 use super::study::Study;
 use crate::quantities::Quantities;
+use ligament_output::quantity::quantity;
 use ligament_output::terminal::plain;
 use ligament_run::progress::{ProgressMode, duration_text};
 
@@ -143,15 +144,15 @@ fn outcome(results: &Quantities) -> String {
     };
     let mut parts = Vec::new();
     if let Some(peak) = number("first_peak.reaction").or_else(|| number("peak.reaction")) {
-        parts.push(format!("peak {peak:.4e} {}", word("units.force")));
+        parts.push(format!("peak {}", quantity(peak, word("units.force"))));
     }
     if let Some(broken) = number("broken_bonds") {
-        parts.push(format!("{broken} broken"));
+        parts.push(format!("{broken} bonds broken"));
     }
     if let Some(rigid) = number("rigid_motions")
         && let Some(frequency) = number(&format!("modes.{rigid}.frequency"))
     {
-        parts.push(format!("first frequency {frequency:.4e} Hz"));
+        parts.push(format!("first frequency {}", quantity(frequency, "Hz")));
     }
     let end = word("termination_message");
     if !end.is_empty() {

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use ligament_analysis::{
-    Component, Layout, LoadCourse, MotionControl, Part, Probe, Programme, ProportionalLoading,
-    StagedLoading,
+    Component, Layout, LoadCourse, MotionControl, Part, PartControl, Probe, Programme,
+    ProportionalLoading, StagedLoading,
 };
 use ligament_model::{BondSystem, Bonds};
 
 use super::boundary::{Acting, boundary};
 use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{self, Analysis, Setup, Stage};
+use crate::setup::{self, Analysis, Quantity, Setup, Stage};
 
 /// Shares of a stage that are nearer to each other are one.
 const SAME: f64 = 1e-9;
@@ -80,13 +80,16 @@ fn controlled_parts(setup: &Setup, layout: Layout, probes: &[Probe]) -> Vec<Part
     let mut parts = parts(setup);
     for part in &mut parts {
         let control = setup.stages[part.stage].control.as_ref();
-        part.control = control.map(|it| motion(it, layout, probes));
+        part.control = control.map(|it| match &it.quantity {
+            Quantity::Probes(of) => PartControl::Motion(motion(of, it.to, layout, probes)),
+            Quantity::DissipatedEnergy => PartControl::DissipatedEnergy { end: it.to },
+        });
     }
     parts
 }
 
-/// The motion that the probes of a control add up to.
-fn motion(control: &setup::Control, layout: Layout, probes: &[Probe]) -> MotionControl {
+/// The motion that probes with weights add up to, with its value at the end.
+fn motion(of: &[(String, f64)], end: f64, layout: Layout, probes: &[Probe]) -> MotionControl {
     let of_probe = |(name, factor): &(String, f64)| {
         let probe = probes.iter().find(|it| it.name == *name);
         let weights = probe.and_then(|it| it.reading.weights(layout));
@@ -95,8 +98,8 @@ fn motion(control: &setup::Control, layout: Layout, probes: &[Probe]) -> MotionC
         scaled.map(move |(dof, weight)| (dof, factor * weight))
     };
     MotionControl {
-        weights: control.probes.iter().flat_map(of_probe).collect(),
-        end: control.to,
+        weights: of.iter().flat_map(of_probe).collect(),
+        end,
     }
 }
 

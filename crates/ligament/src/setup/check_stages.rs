@@ -2,7 +2,7 @@
 
 use super::check::{Checked, contradiction, require, require_unique};
 use super::stage::TEMPERATURE;
-use super::{Analysis, Control, Course, Setup, Stage};
+use super::{Analysis, Course, Setup, Stage};
 use crate::error::{Fault, Field};
 
 impl Setup {
@@ -33,56 +33,6 @@ impl Setup {
             if let Some(control) = &stage.control {
                 self.check_control(field, stage, control)?;
             }
-        }
-        Ok(())
-    }
-
-    /// Motions of points control, in load steps, and loads that go one way.
-    fn check_control(&self, field: Field, stage: &Stage, control: &Control) -> Checked {
-        let part = field.part("control");
-        if !matches!(self.analysis, Analysis::Stepped(_)) {
-            let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic answer has none";
-            return contradiction(part, reason);
-        }
-        if self.closing {
-            let reason = "faces of cracks that close are not followed while a probe controls the load: leave them open";
-            return contradiction(part, reason);
-        }
-        for (name, weight) in &control.probes {
-            let Some(probe) = self.probes.iter().find(|it| it.name == *name) else {
-                return Err(part.error(Fault::UnknownName {
-                    what: "probe",
-                    found: name.clone(),
-                    candidates: self.probes.iter().map(|it| it.name.clone()).collect(),
-                }));
-            };
-            if !probe.reading.is_motion() {
-                let reason = format!(
-                    "`{name}` reads no motion of points, and only motions can control the load: a displacement, or one between two points"
-                );
-                return contradiction(part, reason);
-            }
-            let expected = format!("a weight of `{name}` other than 0");
-            require(weight.is_finite() && *weight != 0.0, part, expected, weight)?;
-        }
-        require(
-            control.to.is_finite(),
-            part,
-            "a finite value at the end",
-            control.to,
-        )?;
-        require(
-            !control.probes.is_empty(),
-            part,
-            "one probe or more",
-            &control.probes,
-        )?;
-        let goes_straight = |(_, course): &(String, Course)| course.points.len() == 1;
-        let ends = |(_, course): &(String, Course)| course.points[0][0] == 1.0;
-        if !stage.loads.iter().all(|it| goes_straight(it) && ends(it)) {
-            let reason = "with `control` the probe says how far the loads go: give each one factor, whose difference to what it is says \
-                          in what proportion they grow";
-            return contradiction(field.part("loads"), reason);
         }
         Ok(())
     }

@@ -30,6 +30,11 @@ impl Setup {
             let reason = "natural modes are of a body whose faces stay as they are: leave it out";
             return contradiction(field, reason);
         }
+        if matches!(self.analysis, Analysis::Event(_)) && !self.stages.is_empty() {
+            let reason = "with a part of the load that stays, faces open and close between two breakages, and the exact path does not follow \
+                          that: take load steps, or let all loads grow with one factor";
+            return contradiction(field, reason);
+        }
         Ok(())
     }
 }

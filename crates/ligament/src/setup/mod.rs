@@ -2,6 +2,7 @@
 
 mod analysis;
 mod check;
+mod check_control;
 mod check_stages;
 mod closing;
 mod conditions;
@@ -29,7 +30,7 @@ pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, SpringSti
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};
-pub use stage::{Control, Course, Stage};
+pub use stage::{Control, Course, Quantity, Stage};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 
 /// Description of a computation: body, section, materials, law, corrections, supports, loads and the analysis.

@@ -14,14 +14,24 @@ pub struct Stage {
     pub control: Option<Control>,
 }
 
-/// Probes of motions whose sum with weights grows in equal steps over a stage, while the loads of the stage follow: their factors, which go
-/// there from what they are in a fixed proportion, may fall and change sign.
+/// What grows in equal steps over a stage, while the loads of the stage follow: their factors, which go there from what they are in a
+/// fixed proportion, may fall and change sign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Control {
-    /// Names of probes with their weights.
-    pub probes: Vec<(String, f64)>,
-    /// The sum at the end of the stage, m or rad.
+    /// What grows.
+    pub quantity: Quantity,
+    /// Its value at the end of the stage, m, rad or J.
     pub to: f64,
+}
+
+/// What controls a stage.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Quantity {
+    /// Names of probes of motions with their weights in a sum.
+    Probes(Vec<(String, f64)>),
+    /// The energy that bonds have taken for good since the loading began: of bonds that soften in load steps, of brittle ones along the exact
+    /// path, where it says how far the stage goes.
+    DissipatedEnergy,
 }
 
 /// Name of the changes of temperature, all together, among the loads of a stage.

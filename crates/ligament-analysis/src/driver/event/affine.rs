@@ -6,6 +6,9 @@
 //! bonds: the load is held, and the bonds farthest beyond their limits break with those tied with them, group after group, until
 //! some load is admissible again. That is how sequentially linear analyses redistribute what was applied first (DeJong 2008;
 //! Elias 2010).
+//!
+//! A part that goes on until the bonds have dissipated an energy has no ends: the load goes as far either way as the path does, and the part
+//! is over before the first breakage at which that energy is gone.
 
 use std::mem;
 use std::time::Instant;
@@ -16,12 +19,13 @@ use super::way::{Goal, Way};
 use crate::balanced::Balanced;
 use crate::breaking::{FirstToBreak, first_to_break};
 use crate::driver::path::Path;
+use crate::driver::recorder::largest_ratio;
 use crate::history::Termination;
-use crate::load_program::LoadProgram;
+use crate::load_program::{LoadProgram, PartControl};
 use crate::unbalanced::Unbalanced;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
-use ligament_model::failure::along_line::Interval;
+use ligament_model::failure::along_line::{EVERYWHERE, Interval};
 
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
@@ -75,22 +79,42 @@ impl Way for Affine {
         let (begins, ends) = programme.parts[part].span;
         let criteria = path.criteria(line).into_owned();
         let intact = &path.state.intact;
-        let reach = [begins - now, ends - now];
+        let dissipates = match course.control() {
+            Some(&PartControl::DissipatedEnergy { end }) => Some(end),
+            Some(PartControl::Motion(_)) | None => None,
+        };
+        let reach = match dissipates {
+            Some(_) => EVERYWHERE,
+            None => [begins - now, ends - now],
+        };
         let goal = match admissible(&criteria, intact, [&line.deformations, &slopes], reach) {
             None => held(self.tie_tolerance, line, &criteria, path),
+            Some([_, upper]) if upper.is_infinite() => Goal {
+                load_factor: now,
+                ratio: largest_ratio(&path.state, line, &path.problem.criteria),
+                bonds: Vec::new(),
+                is_held: false,
+                ends_part: false,
+                end: Some(Termination::NothingBreaks),
+            },
             Some([_, upper]) => {
                 let at = deformations_at(line, &slopes, upper);
                 let tie = self.tie_tolerance;
                 let FirstToBreak { ratio, bonds } = first_to_break(tie, &at, &criteria, intact);
-                let ends_part = upper == reach[1];
+                let is_at_end = upper == reach[1];
+                let is_gone = dissipates.filter(|it| path.dissipated_energy() >= *it);
+                let ends_part = is_at_end || is_gone.is_some();
                 let is_last = part + 1 == programme.parts.len();
+                let end = is_gone.map_or(Termination::FullLoad, |energy| {
+                    Termination::EnergyDissipated { energy }
+                });
                 Goal {
-                    load_factor: if ends_part { ends } else { now + upper },
+                    load_factor: if is_at_end { ends } else { now + upper },
                     ratio,
                     bonds,
                     is_held: false,
                     ends_part,
-                    end: (ends_part && is_last).then_some(Termination::FullLoad),
+                    end: (ends_part && is_last).then_some(end),
                 }
             }
         };

@@ -1,0 +1,292 @@
+//! Equilibrium at a given energy that the bonds have dissipated, with the load factor as an unknown: it falls where the body does, past
+//! peaks and where the load snaps back (Gutierrez 2004; Verhoosel 2009).
+//!
+//! The dissipated energy D of bonds that soften is a function of their largest deformations, and grows as long as cracks do. It is no
+//! linear function of the displacements, and where nothing softens it is none at all, so that it is not held itself. What is held is a
+//! motion ([`controlled`](super::controlled)) that grows with it, and D follows from how far the motion goes:
+//!
+//! 1. Along the line u + w u_B of the present bonds there is a w > 0 at which D would be as it should; the bonds that soften farther there
+//!    are where the crack opens.
+//! 2. With the forces c = sum (1 - omega) K_b u of these bonds, which softening has taken from them, c . u is the motion: the opening of the
+//!    crack, each bond by what it no longer carries. The rate of dissipation is in proportion to it in a bond that falls along a straight line.
+//! 3. Equilibria at values of c . u give D; the value is found by false position between one below and one above.
+//!
+//! After a breakage c . u is held where it is, with the bonds that are at their largest deformations then.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use ligament_model::BondsLeft;
+use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::thermal::ThermalStrain;
+
+use super::controlled::{self, Target};
+use super::equations::Equations;
+use super::secant;
+use crate::balanced::Attempt;
+use crate::breakage::Breakage;
+use crate::history::{Observer, ObserverError};
+use crate::load_program::LoadProgram;
+use crate::problem::Problem;
+use crate::softening::Softening;
+use crate::state::State;
+use crate::unbalanced::Unbalanced;
+
+/// What the dissipated energy may miss its value by, relative to a step of it.
+const MISSED: f64 = 1e-2;
+
+/// Equilibria after which the last one is taken: where bonds fail at once, the energy jumps over its value.
+const EQUILIBRIUM_LIMIT: usize = 12;
+
+/// How much farther than before the motion goes at most while the energy is still below its value.
+const FARTHEST: f64 = 4.0;
+
+/// Part of a step that the energy along the line of the present bonds is known to: more would say nothing about the equilibrium.
+const NEAR: f64 = 0.01;
+
+/// Doublings and halvings in the search along that line.
+const HALVINGS: usize = 60;
+
+/// An energy that bonds have dissipated, which a load is to bring about.
+#[derive(Debug, Clone)]
+pub(crate) struct Dissipation {
+    /// What grows with the load factor, for a load factor of one.
+    pub(crate) rate: Arc<dyn LoadProgram>,
+    /// The energy, J.
+    pub(crate) energy: f64,
+    /// What a load step adds to it, J.
+    pub(crate) step: f64,
+}
+
+/// Brings a state into equilibrium with a dissipated energy, and finds its load factor; after a breakage with what opens held.
+pub(super) fn balance(
+    equations: &mut Equations,
+    state: &mut State,
+    breakage: &Breakage,
+    goal: &Dissipation,
+    observer: &mut dyn Observer,
+) -> Result<Attempt, ObserverError> {
+    let here = equations.deformations(state);
+    let start = dissipated(&equations.problem, state, &here);
+    if !breakage.bonds.is_empty() || goal.energy - start <= MISSED * goal.step {
+        let Some(target) = opening(&equations.problem, state, &here, goal) else {
+            return secant::balance(equations, state, breakage, observer);
+        };
+        return controlled::balance(equations, state, breakage, &target, observer);
+    }
+    let ahead = match ahead(equations, state, &here, goal) {
+        Ok(ahead) => ahead,
+        Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
+    };
+    let Some(there) = opening(&equations.problem, state, &ahead.deformations, goal) else {
+        return Ok(Attempt::Unbalanced(Unbalanced::NothingDissipates));
+    };
+    let from = there.motion(&state.displacement);
+    let softening = state.softening.clone();
+    let mut way = Bracket::new(
+        start - goal.energy,
+        ahead.load_factor * there.motion(&ahead.growth),
+    );
+    for count in 1.. {
+        let target = Target {
+            value: from + way.next,
+            way: way.next,
+            ..there.clone()
+        };
+        let attempt = controlled::balance(equations, state, breakage, &target, observer)?;
+        let Attempt::Balanced(balanced) = &attempt else {
+            return Ok(attempt);
+        };
+        let energy = dissipated(&equations.problem, state, &balanced.deformations);
+        let excess = energy - goal.energy;
+        if excess.abs() <= MISSED * goal.step || count == EQUILIBRIUM_LIMIT {
+            return Ok(attempt);
+        }
+        way.learn(excess);
+        if count + 1 == EQUILIBRIUM_LIMIT {
+            way.end_above();
+        }
+        state.softening = softening.clone();
+    }
+    unreachable!("the loop ends at its limit")
+}
+
+/// Energy that the bonds of a state would have dissipated at deformations (n_bonds), J.
+fn dissipated(problem: &Problem, state: &State, deformations: &[BondDeformation]) -> f64 {
+    let (system, criteria) = (&*problem.system, &problem.criteria);
+    let of_bond = |(bond, deformation): (usize, &BondDeformation)| match state.intact[bond] {
+        true => (state.softening).dissipated_at(system, criteria, bond, deformation),
+        false => state.dissipated[bond],
+    };
+    let of_bonds: Vec<f64> = (deformations.par_iter().enumerate()).map(of_bond).collect();
+    of_bonds.iter().sum()
+}
+
+/// Where the line of the present bonds would dissipate enough.
+struct Ahead {
+    /// Change of the load factor.
+    load_factor: f64,
+    /// Growth of the displacements with the load factor, shape (n_degrees_of_freedom).
+    growth: Vec<f64>,
+    /// Deformations there, shape (n_bonds).
+    deformations: Vec<BondDeformation>,
+}
+
+/// The first place ahead on the line of the present bonds, from deformations (n_bonds), with the dissipated energy that is sought.
+fn ahead(
+    equations: &mut Equations,
+    state: &mut State,
+    here: &[BondDeformation],
+    goal: &Dissipation,
+) -> Result<Ahead, Unbalanced> {
+    let growth = equations.growth(state, &*goal.rate)?;
+    let problem = &equations.problem;
+    let expansion = goal.rate.thermal_strain(1.0);
+    let slopes = (problem.system).deformations(&state.intact, &growth, expansion);
+    let largest = (slopes.par_iter().enumerate())
+        .filter(|(bond, _)| state.intact[*bond])
+        .map(|(bond, slope)| problem.criteria.utilisation(bond, slope))
+        .reduce(|| 0.0, f64::max);
+    let at = |by: f64| -> Vec<BondDeformation> {
+        let both = here.par_iter().zip(&slopes);
+        both.map(|(here, slope)| here.less(&slope.scaled(-by)))
+            .collect()
+    };
+    let excess = |by: f64| dissipated(problem, state, &at(by)) - goal.energy;
+    let (mut low, mut high) = (0.0, 1.0 / largest);
+    let mut above = excess(high);
+    for _ in 0..HALVINGS {
+        if above >= 0.0 {
+            break;
+        }
+        (low, high) = (high, 2.0 * high);
+        above = excess(high);
+    }
+    if !high.is_finite() || above.is_nan() || above < 0.0 {
+        return Err(Unbalanced::NothingDissipates);
+    }
+    for _ in 0..HALVINGS {
+        if above <= NEAR * goal.step {
+            break;
+        }
+        let middle = 0.5 * (low + high);
+        match excess(middle) {
+            below if below < 0.0 => low = middle,
+            beyond => (high, above) = (middle, beyond),
+        }
+    }
+    let deformations = at(high);
+    Ok(Ahead {
+        load_factor: high,
+        growth,
+        deformations,
+    })
+}
+
+/// The opening of the bonds that soften farther at deformations (n_bonds), at its value in a state; None where none does.
+fn opening(
+    problem: &Problem,
+    state: &State,
+    deformations: &[BondDeformation],
+    goal: &Dissipation,
+) -> Option<Target> {
+    let (system, criteria, intact) = (&*problem.system, &problem.criteria, &state.intact);
+    let mut there: Softening = state.softening.clone();
+    there.follow(criteria, intact, deformations, false);
+    let lost = |(bond, deformation): (usize, &BondDeformation)| {
+        let opens = intact[bond] && state.softening.goes_on(criteria, bond, deformation);
+        match opens {
+            true => Remaining::WHOLE.lost(&there.remaining[bond]),
+            false => Remaining::NOTHING,
+        }
+    };
+    let lost: Vec<Remaining> = (deformations.par_iter().enumerate()).map(lost).collect();
+    let bonds = BondsLeft {
+        remaining: &lost,
+        intact,
+    };
+    let forces = system.forces(bonds, deformations.to_vec(), ThermalStrain::NONE);
+    let values = forces.internal.values.into_iter().enumerate();
+    let weights: Vec<(u32, f64)> = values
+        .filter(|(_, weight)| *weight != 0.0)
+        .map(|(dof, weight)| (dof as u32, weight))
+        .collect();
+    let mut target = Target {
+        rate: goal.rate.clone(),
+        weights,
+        value: 0.0,
+        way: 0.0,
+    };
+    target.value = target.motion(&state.displacement);
+    target.way = target.value;
+    (!target.weights.is_empty()).then_some(target)
+}
+
+/// A way of the motion that was tried.
+#[derive(Clone, Copy)]
+struct Tried {
+    way: f64,
+    /// What the energy is beyond its value there, J.
+    excess: f64,
+}
+
+/// How far a motion goes until the dissipated energy is right: less than it should be on one side, and more on the other.
+struct Bracket {
+    low: Tried,
+    high: Option<Tried>,
+    /// The way to try.
+    next: f64,
+    was_below: bool,
+}
+
+impl Bracket {
+    /// From what the energy is beyond its value at first, negative, and a way to try.
+    fn new(excess: f64, next: f64) -> Self {
+        Self {
+            low: Tried { way: 0.0, excess },
+            high: None,
+            was_below: true,
+            next,
+        }
+    }
+
+    /// Takes in what the energy at the tried way is beyond its value: false position, where a side that stays counts half (the Illinois
+    /// rule). Where nothing is beyond yet, the way goes on as far as the last two say.
+    fn learn(&mut self, excess: f64) {
+        let tried = Tried {
+            way: self.next,
+            excess,
+        };
+        let stays = (excess < 0.0) == self.was_below;
+        self.was_below = excess < 0.0;
+        if excess >= 0.0 {
+            if stays {
+                self.low.excess *= 0.5;
+            }
+            self.high = Some(tried);
+        } else {
+            let on = excess * (tried.way - self.low.way) / (self.low.excess - excess);
+            self.low = tried;
+            let Some(high) = &mut self.high else {
+                let share = 1.0 + (on / tried.way).abs();
+                self.next = tried.way * share.clamp(1.0 + MISSED, FARTHEST);
+                return;
+            };
+            if stays {
+                high.excess *= 0.5;
+            }
+        }
+        if let Some(high) = self.high {
+            let low = self.low;
+            self.next = low.way - low.excess * (high.way - low.way) / (high.excess - low.excess);
+        }
+    }
+
+    /// Tries the nearest way beyond.
+    fn end_above(&mut self) {
+        if let Some(high) = self.high {
+            self.next = high.way;
+        }
+    }
+}

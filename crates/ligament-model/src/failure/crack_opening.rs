@@ -1,0 +1,104 @@
+//! Energy that a straight crack spends: what the bonds across it take until the crack has opened so far that each of them broke.
+//!
+//! The halves of the body are rigid and move apart by w along the normal n of the crack. A bond of the length l whose direction has the
+//! angle phi to n is stretched by s = w cos(phi)/l and slides by gamma = w sin(phi)/l. It breaks by the criterion that it meets first, at
+//! a deformation at which it has taken the energy
+//!
+//! W = (R_n s_0^2 + R_t gamma_0^2)/2 times the area under its law of softening (1 for a brittle bond),
+//!
+//! where s_0 and gamma_0 are those at its limit, and R_n and R_t its rigidities. A crack anywhere in a volume V meets a bond with the
+//! vector xi with the probability abs(xi . n) over the length of V along n, so that the crack spends per area
+//!
+//! G = sum_b W_b abs(xi_b . n)/V
+//!
+//! (Silling and Askari 2005, eq. 26, as a sum over the bonds that there are, with their shear and with any criterion).
+
+use super::criterion::{Criteria, Criterion};
+use super::measure::Weakened;
+use crate::element::BondDeformation;
+use crate::interface::Bonds;
+use crate::system::BondSystem;
+
+/// Energy that straight cracks across one direction spend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrackEnergy {
+    /// Energy per area of the crack G, J/m^2.
+    pub per_area: f64,
+    /// Share of the bonds across a crack that no opening breaks.
+    pub unbroken: f64,
+}
+
+impl CrackEnergy {
+    /// The energy of cracks with a normal, a vector of length one, among the points marked in `among` (n_points). A bond counts with one
+    /// half at each of its ends. None without such points, and for bonds with strains of their own, which the opening of a crack does not
+    /// tell.
+    pub fn of_opening(
+        system: &BondSystem,
+        criteria: &Criteria,
+        among: &[bool],
+        normal: [f64; 2],
+    ) -> Option<Self> {
+        if system.kinematics.kind().has_strains() {
+            return None;
+        }
+        let (mut energy, mut across, mut unbroken) = (0.0, 0.0, 0.0);
+        for (bond, &ends) in system.bonds.ends.iter().enumerate() {
+            let marked = ends.iter().filter(|&&end| among[end as usize]).count();
+            let length = system.bonds.length[bond];
+            let [x, y] = system.bonds.direction[bond];
+            let cosine = (x * normal[0] + y * normal[1]).abs();
+            let sine = (x * normal[1] - y * normal[0]).abs();
+            let met = 0.5 * marked as f64 * length * cosine;
+            across += met;
+            let opened = BondDeformation::new([cosine / length, sine / length, 0.0]);
+            match taken(system, criteria, bond, &opened) {
+                Some(taken) => energy += met * taken,
+                None => unbroken += met,
+            }
+        }
+        let marked = among.iter().zip(system.volumes());
+        let volume: f64 = marked
+            .filter(|(is, _)| **is)
+            .map(|(_, volume)| volume)
+            .sum();
+        (across > 0.0).then(|| Self {
+            per_area: energy / volume,
+            unbroken: unbroken / across,
+        })
+    }
+}
+
+/// Energy that a bond takes until it breaks while its deformation grows in proportion to the given one, J; None if it never breaks.
+fn taken(
+    system: &BondSystem,
+    criteria: &Criteria,
+    bond: usize,
+    growing: &BondDeformation,
+) -> Option<f64> {
+    let ends = criteria.list.iter().filter_map(|criterion| {
+        let measure = criterion.measure(bond, growing);
+        let end = criterion.break_limit(bond) / measure;
+        (measure > 0.0 && end.is_finite()).then_some((end, criterion))
+    });
+    let (end, first) = ends.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
+    Some(by_criterion(system, first, bond, &growing.scaled(end)))
+}
+
+/// Energy of a bond that breaks by a criterion at a deformation, J.
+fn by_criterion(
+    system: &BondSystem,
+    criterion: &Criterion,
+    bond: usize,
+    last: &BondDeformation,
+) -> f64 {
+    let after = &criterion.after;
+    // Of the elastic energy at the end of the law, that at the limit is 1/end^2, of which the law takes `total` times.
+    let softened = after.total_dissipated(bond) / after.end(bond).powi(2);
+    let [axial, shear] = match criterion.measure.weakens() {
+        Weakened::Opening | Weakened::Crushing => [softened; 2],
+        Weakened::Sliding => [1.0, softened],
+    };
+    let rigidities = &system.rigidities;
+    0.5 * (axial * rigidities.axial[bond] * last.stretch().powi(2)
+        + shear * rigidities.shear[bond] * last.shear().powi(2))
+}

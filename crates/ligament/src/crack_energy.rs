@@ -1,0 +1,26 @@
+//! Energy that a crack through a model spends under its criteria, beside the fracture energy that the material is given.
+
+use ligament_model::failure::crack_opening::CrackEnergy;
+use ligament_model::yielding::field::interior;
+
+use crate::model::Model;
+
+/// Energies of cracks that open along x, and along y, through a material of a model.
+///
+/// Only points count whose families are whole, of the one material, and free to break: a crack near a surface, an interface or a part
+/// that may not fail is another matter. None where there is no such point, without criteria, and for bonds with strains of their own
+/// (`mbb-pd`), whose criteria take the fracture energy by their definition.
+pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
+    if model.criteria.list.is_empty() {
+        return None;
+    }
+    let cloud = &model.system.cloud;
+    let rim = model.body().rim().into_iter().enumerate();
+    // Three times the smallest number above 1: shares are quotients of volumes.
+    let is_mixed = |point| cloud.shares(point)[material] < 1.0 - 3.0 * f64::EPSILON;
+    let is_excluded = |(point, on_rim)| on_rim || model.fixed.no_fail[point] || is_mixed(point);
+    let excluded: Vec<bool> = rim.map(is_excluded).collect();
+    let whole = interior(&model.system, &excluded, &model.fixed.precrack_share);
+    let along = |normal| CrackEnergy::of_opening(&model.system, &model.criteria, &whole, normal);
+    Some([along([1.0, 0.0])?, along([0.0, 1.0])?])
+}
