@@ -82,17 +82,11 @@ def test_examples_of_the_documentation() -> None:
     assert failed == 0
 
 
-@pytest.mark.parametrize("page", ["docs/python.md", "crates/ligament-python/README.md"])
-def test_snippets_of_pages(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = (REPOSITORY / page).read_text()
-    snippets = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+def test_snippets_of_the_page_of_the_package() -> None:
+    snippets = re.findall(r"^```python\n(.*?)^```", (CRATE / "README.md").read_text(), re.M | re.S)
     assert snippets
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "cases").symlink_to(REPOSITORY / "cases")
-    (tmp_path / "meshes").symlink_to(REPOSITORY / "meshes")
-    names: dict[str, object] = {}
-    for number, snippet in enumerate(snippets, start=1):
-        exec(compile(snippet, f"{page}, snippet {number}", "exec"), names)
+    for snippet in snippets:
+        exec(compile(snippet, "README.md", "exec"), {})
 
 
 @pytest.mark.parametrize("notebook", sorted((CRATE / "notebooks").glob("*.ipynb")), ids=lambda it: it.stem)

@@ -1,6 +1,7 @@
 """Results: the same numbers as the files of the program, arrays that are not copied, pictures."""
 
 import csv
+import importlib.util
 import json
 import subprocess
 import sys
@@ -62,6 +63,17 @@ def test_history_as_a_table_shares_the_arrays(result: Any) -> None:
     table = result.history
     assert isinstance(table, pandas.DataFrame) and len(table) == len(result.columns["step"])
     assert np.shares_memory(table["reaction"].to_numpy(), result.columns["reaction"])
+
+
+@pytest.mark.parametrize("there", ["polars", None])
+def test_history_without_pandas(result: Any, there: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    if there:
+        pytest.importorskip(there)
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: find(name) if name == there else None)
+    table = result.history
+    assert isinstance(table, dict) if there is None else type(table).__module__.startswith(there)
+    assert list(table["reaction"]) == list(result.columns["reaction"])
 
 
 def test_fields_are_there_for_the_steps_that_are_kept(result: Any) -> None:
