@@ -86,7 +86,7 @@ def sweep(
     /,
     *,
     jobs: int = 1,
-    progress: bool | Callable[[int, int], object] | None = None,
+    progress: Callable[[int, int], object] | None = None,
     **changes: Any,
 ) -> Sweep:
     """Runs a case over all combinations of the values of some keys: ``sweep(case, {"model.horizon_factor": [2, 3, 4]})``.
@@ -102,7 +102,7 @@ def sweep(
     results: list[Result] = []
     for done, result in enumerate(_all(cases, jobs), start=1):
         results.append(result)
-        if callable(progress):
+        if progress is not None:
             progress(done, len(cases))
     return Sweep(listed, settings, results)
 

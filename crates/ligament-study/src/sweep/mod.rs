@@ -128,13 +128,8 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
     let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
     todo.retain(|run| !unmeshed.contains_key(&run.name));
     let room = Room::new(settings.jobs, settings.memory);
-    let sum = launch::all(
-        &todo,
-        &folder,
-        (&claim.runs, &settings.program),
-        room,
-        &mut progress,
-    )?;
+    let start = (&*claim.runs, &*settings.program);
+    let sum = launch::all(&todo, &folder, start, room, &mut progress)?;
     let (wall, failed) = progress.finish();
 
     if settings.shard.is_none() {
