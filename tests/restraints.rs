@@ -81,7 +81,8 @@ fn a_block_slides_down_inclined_rollers_onto_a_spring() {
     );
 }
 
-/// The same rollers turned onto the axes are supports that hold: to 1e-5, what the rollers give way by.
+/// Inclined rollers whose normal is y are supports that hold y, and so are rollers 1e-9 off it: to 1e-5, by which springs in their place give
+/// way.
 #[test]
 fn a_nearly_vertical_normal_is_a_support() {
     let load = "load = [{ group = \"top\", displacement = { y = -1e-6 } }]";

@@ -222,6 +222,17 @@ fn criteria_name_what_they_lack_of_the_material() {
             "kind = \"bond-energy\"",
             "\"bond-energy\" without `limit`",
         ),
+        // The limit of bonds that soften comes from the strength, the fall after it from the energy.
+        (
+            tensile,
+            "kind = \"bond-energy\"\nafter = \"two-branch\"",
+            "\"bond-energy\" without `limit`",
+        ),
+        (
+            energy,
+            "kind = \"bond-energy\"\nlimit = 1e-4\nafter = \"two-branch\"",
+            "\"bond-energy\" without `end`",
+        ),
         (
             energy,
             "kind = \"tension\"\nlimit = 1e-3\nafter = \"linear\"",

@@ -20,7 +20,7 @@ pub struct Stage {
 pub struct Control {
     /// What grows.
     pub quantity: Quantity,
-    /// Its value at the end of the stage, m, rad or J.
+    /// Value of the quantity at the end of the stage, m, rad or J.
     pub to: f64,
 }
 
