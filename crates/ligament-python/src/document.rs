@@ -44,10 +44,10 @@ fn table(sections: &Bound<'_, PyDict>, place: &KeyPath) -> PyResult<Node> {
             });
         }
     }
-    Ok(of(Value::Table(entries)))
+    Ok(in_memory(Value::Table(entries)))
 }
 
-fn of(value: Value) -> Node {
+fn in_memory(value: Value) -> Node {
     Node {
         origin: Origin::Memory,
         value,
@@ -57,19 +57,19 @@ fn of(value: Value) -> Node {
 /// A value at a place; arrays and numbers of NumPy are taken as lists and numbers, paths as their text.
 fn node(value: &Bound<'_, PyAny>, place: &KeyPath) -> PyResult<Node> {
     if value.is_instance_of::<PyBool>() {
-        return Ok(of(Value::Boolean(value.extract()?)));
+        return Ok(in_memory(Value::Boolean(value.extract()?)));
     }
     if value.is_instance_of::<PyInt>() {
         let whole = value.extract::<i64>().map(Value::Integer);
         return whole
             .or_else(|_| Ok(Value::Float(value.extract()?)))
-            .map(of);
+            .map(in_memory);
     }
     if value.is_instance_of::<PyFloat>() {
-        return Ok(of(Value::Float(value.extract()?)));
+        return Ok(in_memory(Value::Float(value.extract()?)));
     }
     if value.is_instance_of::<PyString>() {
-        return Ok(of(Value::String(value.extract()?)));
+        return Ok(in_memory(Value::String(value.extract()?)));
     }
     if let Ok(sections) = value.cast::<PyDict>() {
         return table(sections, place);
@@ -79,7 +79,7 @@ fn node(value: &Bound<'_, PyAny>, place: &KeyPath) -> PyResult<Node> {
         for (index, element) in value.try_iter()?.enumerate() {
             nodes.push(node(&element?, &place.child(index))?);
         }
-        return Ok(of(Value::List(nodes)));
+        return Ok(in_memory(Value::List(nodes)));
     }
     for method in ["tolist", "__fspath__"] {
         if value.hasattr(method)? {

@@ -29,7 +29,7 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// The failure of a computation of a case, at the key that it comes from.
-    pub(crate) fn of(case: &CaseFile, error: ligament::Error) -> Self {
+    pub(crate) fn computing(case: &CaseFile, error: ligament::Error) -> Self {
         match error {
             ligament::Error::Setup(error) => Self::setup(case, error),
             other => Self::Other(other.into()),

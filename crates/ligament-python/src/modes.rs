@@ -80,7 +80,7 @@ fn find(case: &Case) -> Result<(ModalOutcome, Layout, BodyGrid), Failure> {
         return Err(Failure::setup(&case.file, error));
     };
     let located = |error| Failure::setup(&case.file, error);
-    let other = |error: ligament::Error| Failure::of(&case.file, error);
+    let other = |error: ligament::Error| Failure::computing(&case.file, error);
     let found = on_threads(setup.threads, || {
         let model = Model::build(setup, &mut ()).map_err(located)?;
         let vibration = Vibration::new(&model.setup, &model.system).map_err(located)?;

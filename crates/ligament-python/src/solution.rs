@@ -135,7 +135,7 @@ fn solve_here(
     let kept = collector.kept;
     let outcome = match outcome {
         Err(_) if stop.asked(2) => return Err(Failure::Stopped),
-        other => other.map_err(|it| Failure::of(case, it))?,
+        other => other.map_err(|it| Failure::computing(case, it))?,
     };
     Ok(Solved {
         model,

@@ -32,7 +32,7 @@ impl Table {
     /// Adds a row, the first of which says of what kind the columns are.
     pub(crate) fn append(&mut self, row: &[Value<'_>]) {
         if self.columns.is_empty() {
-            self.columns = row.iter().map(Column::of).collect();
+            self.columns = row.iter().map(Column::for_values_like).collect();
         }
         for (column, value) in self.columns.iter_mut().zip(row) {
             column.push(value);
@@ -57,7 +57,7 @@ impl Table {
 }
 
 impl Column {
-    fn of(value: &Value<'_>) -> Self {
+    fn for_values_like(value: &Value<'_>) -> Self {
         match value {
             Value::Integer(_) | Value::Count(_) => Self::Integers(Vec::new()),
             Value::Float(_) | Value::Missing => Self::Numbers(Vec::new()),

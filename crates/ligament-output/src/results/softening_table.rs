@@ -137,7 +137,7 @@ impl SoftenedBonds {
         }
     }
 
-    /// What is to be told of a state, the bonds farthest beyond their limits first; it is told from then on.
+    /// Bonds with news in a state, those farthest beyond their limits first; the news counts as given from then on.
     pub fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
         let changed = self.changed(view);
         let told = |(bond, criterion, now)| SoftenedBond {
