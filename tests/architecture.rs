@@ -9,7 +9,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 13] = [
+const ARROWS: [(&str, &[&str]); 14] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
@@ -42,6 +42,7 @@ const ARROWS: [(&str, &[&str]); 13] = [
         ],
     ),
     ("ligament-plot", &["ligament", "ligament-output"]),
+    ("ligament-report", &["ligament-output", "ligament-plot"]),
     (
         "ligament-study",
         &[
@@ -80,6 +81,7 @@ const ARROWS: [(&str, &[&str]); 13] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
             "ligament-verify",
@@ -132,6 +134,7 @@ const RESERVED: [(&str, &[&str]); 13] = [
             "ligament-cli",
             "ligament-plot",
             "ligament-python",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
         ],
@@ -143,11 +146,12 @@ const RESERVED: [(&str, &[&str]); 13] = [
 ];
 
 /// Crates that touch files.
-const WITH_FILES: [&str; 7] = [
+const WITH_FILES: [&str; 8] = [
     "ligament-case",
     "ligament-cli",
     "ligament-output",
     "ligament-plot",
+    "ligament-report",
     "ligament-run",
     "ligament-study",
     "ligament-verify",

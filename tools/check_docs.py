@@ -17,6 +17,8 @@ block says what the block is, and is not seen by readers:
     study in FOLDER        toml: a whole study
     into CASE              toml: keys that are put into this case; lists take the place of lists
     data                   toml, json: read, and no more
+    output                 text: lines that the block of commands before it says; numbers may be others
+    output of: COMMAND     text: lines that a command says, which is run for that
 
 A `toml` block needs one of them. `<!-- before: COMMAND -->` anywhere in a page is run before its blocks; the command `have FOLDER CASE OPTIONS`
 is `ligament run` where no earlier page has left the folder of results.
@@ -44,6 +46,7 @@ FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 DIRECTIVE = re.compile(r"<!-- ((?:(?!-->).)*) -->\s*\Z", re.DOTALL)
 BEFORE = re.compile(r"<!-- before: (.*?) -->", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\(([^)]+)\)")
+NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 INLINE = re.compile(r"`(ligament [^`]+)`")
 MARK = "::block "
 PRELUDE = """set -euo pipefail
@@ -135,6 +138,8 @@ def lines_of(block, number, gmsh):
     """The lines of a shell that try a block; none where there is nothing to run."""
     if (name := block.option("file")) is not None:
         return heredoc(name, block.text)
+    if (command := block.option("output of")) is not None:
+        return command + "\n"
     if block.language == "toml":
         return fragment(block, number)
     if block.language == "sh":
@@ -143,6 +148,18 @@ def lines_of(block, number, gmsh):
         text = block.text if block.text.endswith("\n") else block.text + "\n"
         return f"( set -e; {text}) || true\n" if block.option("may fail") is not None else text
     return ""
+
+
+def words(line):
+    """A line of output without its numbers and the width of its gaps."""
+    return " ".join(NUMBER.sub("#", line).split())
+
+
+def unsaid(block, said):
+    """The lines of a block of text that are not among those of an output; `...` and the command itself aside."""
+    there = {words(line) for line in said.splitlines()}
+    lines = [line for line in block.text.splitlines() if line.strip() not in ("", "...") and not line.startswith("$ ")]
+    return [line for line in lines if words(line) not in there]
 
 
 def read(block):
@@ -231,10 +248,27 @@ class Check:
             before, _, after = done.stdout.rpartition(MARK)
             line, _, said = after.partition("\n") if before or after else ("1", "", done.stdout)
             self.failures.append(f"{page.name}:{line.strip()}: exit code {done.returncode}\n{said[-1500:]}")
+        else:
+            self.outputs(page, done.stdout)
         self.options(page)
         seconds = time.monotonic() - began
         if seconds > 0.5:
             print(f"{seconds:6.1f} s  {page.name}", flush=True)
+
+    def outputs(self, page, stdout):
+        """Blocks of text that are called outputs hold what was said."""
+        said = {}
+        for part in stdout.split(MARK)[1:]:
+            line, _, text = part.partition("\n")
+            said[int(line)] = text
+        before = None
+        for block in page.blocks:
+            if block.option("output of") is not None or block.option("output") is not None:
+                self.counts["outputs compared"] += 1
+                if missing := unsaid(block, said.get(block.line, said.get(before, ""))):
+                    self.failures.append(f"{page.name}:{block.line}: not said by the commands: {missing[0]}")
+            elif block.line in said:
+                before = block.line
 
     def options(self, page):
         """Commands in the text of a page name a command of the program and options that it has."""

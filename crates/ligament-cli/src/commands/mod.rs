@@ -13,6 +13,7 @@ mod numbers;
 mod plot;
 mod profile;
 mod repeat;
+mod report;
 mod resume;
 mod run;
 mod schema;
@@ -39,6 +40,7 @@ pub use new::NewArgs;
 pub use plot::PlotArgs;
 pub use profile::ProfileArgs;
 pub use repeat::RepeatArgs;
+pub use report::ReportArgs;
 pub use resume::ResumeArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
@@ -71,6 +73,7 @@ Examples:
   ligament repeat results/disk              run it again: are all bits the same?
   ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament plot results/disk                a picture of its damage
+  ligament report results/disk              a page of it for a browser: fields, curves, bonds
   ligament crack results/disk               its cracks: path, tips, length, energy release rate
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
@@ -132,6 +135,12 @@ pub enum Command {
     /// asks for. Reads the folders of the results alone, also of a run that was cut short.
     #[command(after_help = plot::EXAMPLES)]
     Plot(PlotArgs),
+    /// One page of the results of runs for a browser, to look at, send and print (HTML)
+    ///
+    /// Writes a single file that needs no network: summary, warnings, curves linked to the steps, and the
+    /// deformed body with any field and its cracks, whose points and bonds tell their values.
+    #[command(after_help = report::EXAMPLES)]
+    Report(ReportArgs),
     /// Cracks of a run as lines: path, tips, length, area, energy release rate
     ///
     /// Finds the cracks in stored results, writes their lines as a table and for ParaView, and how their
@@ -209,6 +218,7 @@ impl Cli {
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),
             Command::Plot(args) => args.execute(),
+            Command::Report(args) => args.execute(),
             Command::Crack(args) => args.execute(),
             Command::Profile(args) => args.execute(),
             Command::Inspect(args) => args.execute(),
