@@ -9,7 +9,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 12] = [
+const ARROWS: [(&str, &[&str]); 14] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
@@ -42,6 +42,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
         ],
     ),
     ("ligament-plot", &["ligament", "ligament-output"]),
+    ("ligament-report", &["ligament-output", "ligament-plot"]),
     (
         "ligament-study",
         &[
@@ -80,15 +81,31 @@ const ARROWS: [(&str, &[&str]); 12] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
             "ligament-verify",
         ],
     ),
+    (
+        "ligament-python",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-cli",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+            "ligament-plot",
+            "ligament-run",
+            "ligament-study",
+        ],
+    ),
 ];
 
 /// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
-const RESERVED: [(&str, &[&str]); 11] = [
+const RESERVED: [(&str, &[&str]); 13] = [
     ("clap", &["ligament-cli"]),
     ("clap_complete", &["ligament-cli"]),
     ("indicatif", &["ligament-run", "ligament-study"]),
@@ -97,11 +114,14 @@ const RESERVED: [(&str, &[&str]); 11] = [
         &[
             "ligament-case",
             "ligament-cli",
+            "ligament-python",
             "ligament-run",
             "ligament-study",
             "ligament-verify",
         ],
     ),
+    ("numpy", &["ligament-python"]),
+    ("pyo3", &["ligament-python"]),
     ("schemars", &["ligament-case"]),
     (
         "serde",
@@ -113,6 +133,8 @@ const RESERVED: [(&str, &[&str]); 11] = [
             "ligament-case",
             "ligament-cli",
             "ligament-plot",
+            "ligament-python",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
         ],
@@ -124,11 +146,12 @@ const RESERVED: [(&str, &[&str]); 11] = [
 ];
 
 /// Crates that touch files.
-const WITH_FILES: [&str; 7] = [
+const WITH_FILES: [&str; 8] = [
     "ligament-case",
     "ligament-cli",
     "ligament-output",
     "ligament-plot",
+    "ligament-report",
     "ligament-run",
     "ligament-study",
     "ligament-verify",

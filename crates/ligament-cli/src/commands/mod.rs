@@ -13,6 +13,7 @@ mod numbers;
 mod plot;
 mod profile;
 mod repeat;
+mod report;
 mod resume;
 mod run;
 mod schema;
@@ -21,6 +22,7 @@ mod sweep;
 mod verify;
 mod yielding;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use crate::build::VERSION;
@@ -38,6 +40,7 @@ pub use new::NewArgs;
 pub use plot::PlotArgs;
 pub use profile::ProfileArgs;
 pub use repeat::RepeatArgs;
+pub use report::ReportArgs;
 pub use resume::ResumeArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
@@ -70,6 +73,7 @@ Examples:
   ligament repeat results/disk              run it again: are all bits the same?
   ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament plot results/disk                a picture of its damage
+  ligament report results/disk              a page of it for a browser: fields, curves, bonds
   ligament crack results/disk               its cracks: path, tips, length, energy release rate
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
@@ -131,6 +135,12 @@ pub enum Command {
     /// asks for. Reads the folders of the results alone, also of a run that was cut short.
     #[command(after_help = plot::EXAMPLES)]
     Plot(PlotArgs),
+    /// One page of the results of runs for a browser, to look at, send and print (HTML)
+    ///
+    /// Writes a single file that needs no network: summary, warnings, curves linked to the steps, and the
+    /// deformed body with any field and its cracks, whose points and bonds tell their values.
+    #[command(after_help = report::EXAMPLES)]
+    Report(ReportArgs),
     /// Cracks of a run as lines: path, tips, length, area, energy release rate
     ///
     /// Finds the cracks in stored results, writes their lines as a table and for ParaView, and how their
@@ -193,21 +203,22 @@ pub enum Command {
 }
 
 impl Cli {
-    /// Does what the command line asks for, and gives the exit code.
+    /// Does what the command line asks for, and gives the exit code; `program` is the command that calls this program.
     ///
     /// # Errors
     ///
     /// Whatever keeps the command from doing it, in words for the user.
-    pub fn execute(self) -> anyhow::Result<ExitCode> {
+    pub fn execute(self, program: &[OsString]) -> anyhow::Result<ExitCode> {
         let done = match self.command {
             Command::Run(args) => return args.execute(),
             Command::Resume(args) => return args.execute(),
             Command::Repeat(args) => return args.execute(),
-            Command::Sweep(args) => args.execute(),
+            Command::Sweep(args) => args.execute(program),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),
             Command::Plot(args) => args.execute(),
+            Command::Report(args) => args.execute(),
             Command::Crack(args) => args.execute(),
             Command::Profile(args) => args.execute(),
             Command::Inspect(args) => args.execute(),

@@ -108,8 +108,8 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
     }
 }
 
-/// SI unit of a field.
-fn unit_of(field: &str) -> &'static str {
+/// SI unit of a field of the results, without its component; `-` for a number without a unit.
+pub fn unit_of(field: &str) -> &'static str {
     match field {
         "displacement" | "horizon" | "nearest_distance" => "m",
         "rotation" => "rad",

@@ -29,13 +29,14 @@ mod strip;
 mod style;
 mod svg;
 mod target;
-mod units;
+pub mod units;
 
 use std::path::PathBuf;
 
 use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
+pub use field::unit_of;
 pub use fields::draw_fields;
 pub use of_run::{asks_for_pictures, draw_run};
 pub use request::{CrackDrawing, FieldRequest, Magnification};

@@ -4,16 +4,16 @@ use ligament_output::quantity::{self, four_digits};
 
 /// A unit to show values of a quantity in.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Shown {
+pub struct Shown {
     /// What a value in SI units is multiplied by.
-    pub(super) factor: f64,
+    pub factor: f64,
     /// The unit with its prefix or power of ten; empty for a number of no unit.
-    pub(super) unit: String,
+    pub unit: String,
 }
 
 impl Shown {
     /// The unit for values of a size in an SI unit such as `J/m^3`; `-` is none.
-    pub(super) fn new(unit: &str, size: f64) -> Self {
+    pub fn new(unit: &str, size: f64) -> Self {
         let shown = quantity::Shown::new(unit, size);
         let symbol = shown.unit.replace("^2", "²").replace("^3", "³");
         let prefix = shown.prefix.replace('u', "µ");
@@ -28,7 +28,7 @@ impl Shown {
     }
 
     /// A quantity with this unit, as labels have it.
-    pub(super) fn label(&self, quantity: &str) -> String {
+    pub fn label(&self, quantity: &str) -> String {
         if self.unit.is_empty() {
             quantity.to_owned()
         } else {
@@ -37,7 +37,7 @@ impl Shown {
     }
 
     /// A value with this unit, to four digits.
-    pub(super) fn value(&self, value: f64) -> String {
+    pub fn value(&self, value: f64) -> String {
         let number = four_digits(value * self.factor);
         match self.unit.as_str() {
             "" => number,

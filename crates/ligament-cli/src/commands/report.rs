@@ -1,0 +1,82 @@
+//! `ligament report`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use ligament_report::{Request, write_report};
+
+use super::numbers::number;
+use crate::terminal;
+
+/// Bytes of a megabyte.
+const MEGABYTE: f64 = 1e6;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  ligament report results/disk                       writes results/disk/report.html
+  ligament report results/coarse results/fine --labels '4 mm' '2 mm' --output both.html
+  ligament report results/disk --digits 4 --steps 20 a smaller page
+
+The page is one file without anything from a network: open it in a browser, send it, print it. It has
+summary and warnings, force over displacement, energies and convergence, and the body with any field,
+step by step; point at it for values, click for bonds and what became of them.";
+
+/// `ligament report`.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// Folders with results of runs
+    #[arg(value_name = "RESULT", required = true)]
+    pub results: Vec<PathBuf>,
+    /// The page [default: report.html in the first folder]
+    #[arg(long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Names of the results in the page, one for each [default: names of the folders]
+    #[arg(long, value_name = "TEXT", num_args = 1..)]
+    pub labels: Vec<String>,
+    /// Digits that the largest value of a field in a step keeps
+    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(2..=8))]
+    pub digits: u32,
+    /// Steps of a result at most; of more an even choice, with the largest load
+    #[arg(long, value_name = "N", default_value = "60", value_parser = clap::value_parser!(u32).range(2..))]
+    pub steps: u32,
+    /// Megabytes of the page at most: what a reader wants least is left out, and named
+    #[arg(long, value_name = "MB", default_value = "15", value_parser = megabytes)]
+    pub size: f64,
+}
+
+impl ReportArgs {
+    /// Does it.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let written = write_report(&Request {
+            folders: self.results,
+            labels: self.labels,
+            output: self.output,
+            digits: self.digits,
+            steps: self.steps as usize,
+            size: (self.size * MEGABYTE) as usize,
+        })?;
+        let mut out = terminal::stdout();
+        for it in &written.contents {
+            writeln!(
+                out,
+                "{}: {} points, {} steps",
+                it.label, it.points, it.steps
+            )?;
+            if !it.left_out.is_empty() {
+                writeln!(out, "  no room for: {}", it.left_out.join(", "))?;
+            }
+        }
+        let megabytes = written.size as f64 / MEGABYTE;
+        Ok(writeln!(
+            out,
+            "{} ({megabytes:.1} MB)",
+            written.path.display()
+        )?)
+    }
+}
+
+fn megabytes(text: &str) -> Result<f64, String> {
+    let size = number(text).filter(|it| (0.5..=2000.0).contains(it));
+    size.ok_or_else(|| "expected a number of megabytes from 0.5 to 2000".to_owned())
+}

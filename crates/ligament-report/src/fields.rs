@@ -1,0 +1,185 @@
+//! Fields of a run over the steps of the page.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use ligament_output::vtu::read::VtuFile;
+use ligament_output::{Error, FieldLocation};
+use ligament_plot::picture::unit_of;
+use rayon::prelude::*;
+
+use crate::body::{Body, ordered};
+use crate::columns::{Column, Digits, Encoder};
+
+/// Beginnings of names of fields, those first that a reader wants first; all others follow in the order of the files.
+const FIRST: [&str; 7] = [
+    "displacement",
+    "damage",
+    "stress",
+    "strain_energy",
+    "dissipated",
+    "temperature",
+    "rotation",
+];
+
+/// Share of the points whose size is at most the usual one.
+const USUAL: f64 = 0.98;
+
+/// A field of all steps.
+#[derive(Debug)]
+pub(crate) struct Field {
+    /// Name in the files.
+    pub(crate) name: String,
+    /// SI unit, `-` without one.
+    pub(crate) unit: &'static str,
+    /// Names of the components; none of a scalar.
+    pub(crate) components: Vec<String>,
+    /// A column a component.
+    pub(crate) columns: Vec<Column>,
+    /// Smallest and largest value of each component over the steps.
+    pub(crate) ranges: Vec<[f64; 2]>,
+    /// Largest size of the steps: of a vector its length, else the largest component.
+    pub(crate) magnitude: f64,
+    /// Largest size of the steps that few points exceed, so that a piece which flew off does not count.
+    pub(crate) usual: f64,
+}
+
+impl Field {
+    /// Whether a reader wants it first.
+    pub(crate) fn is_main(&self) -> bool {
+        self.rank() < FIRST.len()
+    }
+
+    fn rank(&self) -> usize {
+        let place = FIRST.iter().position(|it| self.name.starts_with(it));
+        place.unwrap_or(FIRST.len())
+    }
+
+    /// Letters that it takes in a page.
+    pub(crate) fn letters(&self) -> usize {
+        self.columns.iter().map(Column::letters).sum()
+    }
+}
+
+/// A field while its steps are read.
+struct Growing {
+    name: String,
+    /// Numbers a point in the files.
+    stride: usize,
+    components: Vec<String>,
+    encoders: Vec<Encoder>,
+    ranges: Vec<[f64; 2]>,
+    magnitude: f64,
+    usual: f64,
+}
+
+/// The fields of the outputs, those first that a reader wants first; `digits` of the largest value of each step are kept.
+///
+/// # Errors
+///
+/// If a file cannot be used, or has other points than the first.
+pub(crate) fn read(
+    files: &BTreeMap<usize, PathBuf>,
+    body: &Body,
+    digits: u32,
+) -> Result<Vec<Field>, Error> {
+    let mut growing: Vec<Growing> = Vec::new();
+    for path in files.values() {
+        let file = VtuFile::open(path)?;
+        if growing.is_empty() {
+            growing = begin(&file, body.location, digits);
+        }
+        growing
+            .par_iter_mut()
+            .try_for_each(|it| it.append(&file, body))?;
+    }
+    let mut fields: Vec<Field> = growing.into_iter().map(Growing::finish).collect();
+    fields.sort_by_key(Field::rank);
+    Ok(fields)
+}
+
+fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
+    let names = file
+        .fields(location)
+        .filter(|it| !matches!(*it, "node" | "cell"));
+    let field = |name: &str| {
+        let (stride, names) = file.components(location, name).unwrap_or((1, &[]));
+        let components: Vec<String> = match (stride, names) {
+            (1, _) => Vec::new(),
+            // The third component of a vector in the plane is zero.
+            (3, []) => ["x", "y"].map(str::to_owned).to_vec(),
+            (_, []) => (0..stride).map(|it| it.to_string()).collect(),
+            _ => names.to_vec(),
+        };
+        let digits = match name {
+            "fragment" | "held" => Digits::Whole,
+            _ => Digits::OfLargest(digits),
+        };
+        let count = components.len().max(1);
+        Growing {
+            name: name.to_owned(),
+            stride,
+            encoders: (0..count).map(|_| Encoder::new(digits)).collect(),
+            ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; count],
+            components,
+            magnitude: 0.0,
+            usual: 0.0,
+        }
+    };
+    names.map(field).collect()
+}
+
+impl Growing {
+    fn append(&mut self, file: &VtuFile, body: &Body) -> Result<(), Error> {
+        let all = file.required_numbers(body.location, &self.name)?;
+        if all.len() != self.stride * body.order.len() {
+            return Err(Error::Unreadable {
+                path: file.path().to_path_buf(),
+                reason: format!("{} is not of the points of the first output", self.name),
+            });
+        }
+        let mut sizes = self.sizes(&all);
+        if let Some(last) = sizes.len().checked_sub(1) {
+            let place = (USUAL * last as f64) as usize;
+            let usual = *sizes.select_nth_unstable_by(place, f64::total_cmp).1;
+            self.usual = self.usual.max(usual);
+            self.magnitude = sizes.into_iter().fold(self.magnitude, f64::max);
+        }
+        for (place, encoder) in self.encoders.iter_mut().enumerate() {
+            let component: Vec<f64> = all
+                .iter()
+                .skip(place)
+                .step_by(self.stride)
+                .copied()
+                .collect();
+            let finite = component.iter().filter(|it| it.is_finite());
+            let range = &mut self.ranges[place];
+            *range = finite.fold(*range, |[low, high], &it| [low.min(it), high.max(it)]);
+            encoder.append(&ordered(&component, &body.order));
+        }
+        Ok(())
+    }
+
+    /// Finite sizes of the values of the points.
+    fn sizes(&self, all: &[f64]) -> Vec<f64> {
+        let is_vector = self.stride == 3 && self.components.len() == 2;
+        let size = |point: &[f64]| match is_vector {
+            true => point[0].hypot(point[1]),
+            false => point.iter().fold(0.0_f64, |size, it| size.max(it.abs())),
+        };
+        let sizes = all.chunks_exact(self.stride).map(size);
+        sizes.filter(|it| it.is_finite()).collect()
+    }
+
+    fn finish(self) -> Field {
+        Field {
+            unit: unit_of(&self.name),
+            columns: self.encoders.into_iter().map(Encoder::finish).collect(),
+            name: self.name,
+            components: self.components,
+            ranges: self.ranges,
+            magnitude: self.magnitude,
+            usual: self.usual,
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The table of the steps of a run, and how its iterations converged.
+
+use std::path::Path;
+
+use ligament_output::Error;
+use ligament_output::csv::read::Sheet;
+use ligament_plot::picture::units::Shown;
+use ligament_plot::stored_loading::stored_loading;
+use serde_json::{Value, json};
+
+/// Digits of the numbers of the history.
+const DIGITS: i32 = 7;
+
+/// The columns of the history with their units, and of each row how many iterations it took and the last residual.
+///
+/// # Errors
+///
+/// If a table cannot be used.
+pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
+    let path = folder.join("history.csv");
+    if !path.is_file() {
+        return Ok(json!([]));
+    }
+    let sheet = Sheet::read(path)?;
+    let units = stored_loading(folder)?.units;
+    let mut columns = Vec::new();
+    for name in sheet.columns() {
+        let Ok(values) = sheet.values::<f64>(name) else {
+            // Names of stages.
+            continue;
+        };
+        let unit = match name.as_str() {
+            "displacement" => units.displacement,
+            "reaction" => units.force,
+            name if name.ends_with("_energy") || name == "external_work" => "J",
+            name if name.ends_with(".force_x") || name.ends_with(".force_y") => "N",
+            name if name.ends_with(".moment") => "N m",
+            _ => "-",
+        };
+        columns.push(column(name, unit, &values));
+    }
+    let steps = sheet.values::<usize>("step")?;
+    columns.extend(iterations(folder, &steps)?);
+    Ok(Value::Array(columns))
+}
+
+/// A column with the unit to show it in.
+pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
+    let shown = shown(
+        unit,
+        values.iter().fold(0.0, |largest, it| largest.max(it.abs())),
+    );
+    let rounded: Vec<f64> = values.iter().map(|&it| rounded(it)).collect();
+    json!({"name": name, "unit": shown.0, "shift": shown.1, "values": rounded})
+}
+
+/// A unit with its prefix, and the power of ten that values in SI units are multiplied by to be in it.
+pub(crate) fn shown(unit: &str, size: f64) -> (String, i32) {
+    let shown = Shown::new(unit, size);
+    let shift = shown.factor.log10().round() as i32;
+    (shown.unit, shift)
+}
+
+/// A number with the digits of the history.
+fn rounded(value: f64) -> f64 {
+    let digits = (DIGITS - 1) as usize;
+    format!("{value:.digits$e}").parse().unwrap_or(value)
+}
+
+/// Columns over the rows of the history: iterations, and the last residual of each.
+fn iterations(folder: &Path, steps: &[usize]) -> Result<Vec<Value>, Error> {
+    let path = folder.join("iterations.csv");
+    if !path.is_file() {
+        return Ok(Vec::new());
+    }
+    let rows = Sheet::read(path)?.numbers(["step", "residual"])?;
+    let mut counts = vec![0.0; steps.len()];
+    let mut residuals = vec![0.0; steps.len()];
+    let mut place = 0;
+    for [step, residual] in rows {
+        while steps.get(place).is_some_and(|it| (*it as f64) < step) {
+            place += 1;
+        }
+        if steps.get(place).is_some_and(|it| *it as f64 == step) {
+            counts[place] += 1.0;
+            residuals[place] = residual;
+        }
+    }
+    Ok(vec![
+        column("iterations", "-", &counts),
+        column("residual", "-", &residuals),
+    ])
+}

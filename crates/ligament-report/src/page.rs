@@ -1,0 +1,245 @@
+//! The page: what is asked for, and the file that is written.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use ligament_output::{Error, replace_file};
+use serde_json::{Value, json};
+use thiserror::Error as ThisError;
+
+use crate::run::{Choice, PageRun, Texts};
+use crate::summary::escaped;
+
+/// The page with places for its parts, and the parts of its program in the order in which they are joined.
+const PAGE: &str = include_str!("viewer/page.html");
+const STYLE: &str = include_str!("viewer/style.css");
+const PROGRAM: [&str; 11] = [
+    include_str!("viewer/columns.js"),
+    include_str!("viewer/numbers.js"),
+    include_str!("viewer/run.js"),
+    include_str!("viewer/colours.js"),
+    include_str!("viewer/places.js"),
+    include_str!("viewer/camera.js"),
+    include_str!("viewer/drawing.js"),
+    include_str!("viewer/chart.js"),
+    include_str!("viewer/charts.js"),
+    include_str!("viewer/panel.js"),
+    include_str!("viewer/main.js"),
+];
+
+/// Letters of a page that are none of columns: program, summaries and histories of usual length.
+const OTHER_LETTERS: usize = 400_000;
+
+/// A page that is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// Folders with results.
+    pub folders: Vec<PathBuf>,
+    /// Labels of the results; where empty, the names of their folders.
+    pub labels: Vec<String>,
+    /// The file; None: `report.html` in the first folder.
+    pub output: Option<PathBuf>,
+    /// Digits of the largest value of a field in each step.
+    pub digits: u32,
+    /// Steps of each result at most.
+    pub steps: usize,
+    /// Bytes of the page at most, as far as fields and bonds are concerned.
+    pub size: usize,
+}
+
+/// What was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The file.
+    pub path: PathBuf,
+    /// Bytes of the file.
+    pub size: usize,
+    /// What it has of each result.
+    pub contents: Vec<Contents>,
+}
+
+/// What a page has of a result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Contents {
+    /// Label of the result.
+    pub label: String,
+    /// Points of its body.
+    pub points: usize,
+    /// Steps, or modes.
+    pub steps: usize,
+    /// Names of fields and properties of bonds for which there was no room.
+    pub left_out: Vec<String>,
+}
+
+/// Why there is no page.
+#[derive(Debug, ThisError)]
+pub enum ReportError {
+    /// Results cannot be read, or the page cannot be written.
+    #[error(transparent)]
+    Results(#[from] Error),
+    /// There are as many labels as results, or none.
+    #[error("{n_labels} labels for {n_results} results; give one for each, in their order")]
+    Labels {
+        /// Labels given.
+        n_labels: usize,
+        /// Results given.
+        n_results: usize,
+    },
+}
+
+/// Writes a page of the results.
+///
+/// # Errors
+///
+/// If there are no results, they cannot be used, or the page cannot be written.
+pub fn write_report(request: &Request) -> Result<Written, ReportError> {
+    let labels = labels(request)?;
+    let share = request.size.saturating_sub(OTHER_LETTERS) / request.folders.len().max(1);
+    let choice = Choice {
+        digits: request.digits,
+        steps: request.steps,
+        letters: share,
+    };
+    let mut texts = Texts::default();
+    let mut runs = Vec::new();
+    for (folder, label) in request.folders.iter().zip(&labels) {
+        runs.push(PageRun::read(folder, label, choice, &mut texts)?);
+    }
+    let path = request.output.clone().unwrap_or_else(|| {
+        let first = request.folders.first().cloned().unwrap_or_default();
+        first.join("report.html")
+    });
+    let page = page(&runs, &texts, request);
+    replace_file(&path, page.as_bytes())?;
+    let contents = labels.into_iter().zip(runs).map(|(label, run)| Contents {
+        label,
+        points: run.points,
+        steps: run.steps,
+        left_out: run.left_out,
+    });
+    Ok(Written {
+        path,
+        size: page.len(),
+        contents: contents.collect(),
+    })
+}
+
+fn labels(request: &Request) -> Result<Vec<String>, ReportError> {
+    let (n_labels, n_results) = (request.labels.len(), request.folders.len());
+    if n_labels == n_results {
+        return Ok(request.labels.clone());
+    }
+    if n_labels > 0 {
+        return Err(ReportError::Labels {
+            n_labels,
+            n_results,
+        });
+    }
+    let name = |folder: &PathBuf| {
+        let whole = folder.canonicalize().unwrap_or_else(|_| folder.clone());
+        let name = whole.file_name().unwrap_or(whole.as_os_str());
+        name.to_string_lossy().into_owned()
+    };
+    Ok(request.folders.iter().map(name).collect())
+}
+
+fn page(runs: &[PageRun], texts: &Texts, request: &Request) -> String {
+    let titles: Vec<&str> = runs.iter().map(|it| it.title.as_str()).collect();
+    let mut title = titles.first().copied().unwrap_or_default().to_owned();
+    if titles.iter().any(|it| *it != title) {
+        title = titles.join(" and ");
+    }
+    let description = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "digits": request.digits,
+        "runs": runs.iter().map(|it| &it.description).collect::<Vec<&Value>>(),
+    });
+    let mut summaries = String::new();
+    for (number, run) in runs.iter().enumerate() {
+        let hidden = if number == 0 { "" } else { " hidden" };
+        // Writing to a text does not fail.
+        let _ = writeln!(
+            summaries,
+            "<div class=\"summary\" data-run=\"{number}\"{hidden}>{}",
+            run.html
+        );
+        if !run.left_out.is_empty() {
+            let names = escaped(&run.left_out.join(", "));
+            let _ = writeln!(
+                summaries,
+                "<p class=\"note\">Not in this page, for its size: {names}. --size gives more room, --digits shorter numbers.</p>"
+            );
+        }
+        summaries.push_str("</div>\n");
+    }
+    let mut columns = String::new();
+    for (number, text) in texts.0.iter().enumerate() {
+        let _ = writeln!(
+            columns,
+            "<script type=\"text/plain\" id=\"t{number}\">{text}</script>"
+        );
+    }
+    filled(&[
+        ("title", &escaped(&title)),
+        ("style", STYLE),
+        ("summaries", &summaries),
+        ("description", &script_safe(&description.to_string())),
+        ("columns", &columns),
+        ("program", &PROGRAM.join("\n")),
+    ])
+}
+
+/// The page with its parts in their places.
+fn filled(parts: &[(&str, &str)]) -> String {
+    let mut page = String::new();
+    let mut rest = PAGE;
+    while let Some((before, after)) = rest.split_once("{{") {
+        page.push_str(before);
+        let Some((name, after)) = after.split_once("}}") else {
+            break;
+        };
+        let part = parts.iter().find(|it| it.0 == name);
+        page.push_str(part.map_or("", |it| it.1));
+        rest = after;
+    }
+    page.push_str(rest);
+    page
+}
+
+/// JSON that cannot end the script that it stands in.
+fn script_safe(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_of_cases_are_no_markup() {
+        assert_eq!(escaped("<script>\"'&"), "&lt;script&gt;&quot;&#39;&amp;");
+        let json = script_safe(&json!({"title": "</script><script>alert(1)"}).to_string());
+        assert!(!json.contains('<'), "{json}");
+        let read: Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(read["title"], "</script><script>alert(1)");
+    }
+
+    #[test]
+    fn the_page_has_a_place_for_every_part() {
+        for part in [
+            "title",
+            "style",
+            "summaries",
+            "description",
+            "columns",
+            "program",
+        ] {
+            assert!(PAGE.contains(&format!("{{{{{part}}}}}")), "{part}");
+        }
+        let page = filled(&[("title", "{{style}}")]);
+        assert!(
+            page.contains("<title>{{style}}"),
+            "parts are not filled in again"
+        );
+    }
+}

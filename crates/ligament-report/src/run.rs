@@ -1,0 +1,317 @@
+//! The results of a run as a page has them.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ligament_output::csv::read::Sheet;
+use ligament_output::folder::RESOLVED_CASE;
+use ligament_output::results::cracks::StoredCracks;
+use ligament_output::results::outputs::{OutputKind, Outputs};
+use ligament_output::results::stored::StoredRun;
+use ligament_output::vtu::read::VtuFile;
+use ligament_output::{Error, read_text};
+use ligament_plot::stored_loading::stored_loading;
+use serde_json::{Value, json};
+
+use crate::body::Body;
+use crate::bonds::Bonds;
+use crate::columns::{Column, Digits};
+use crate::fields::{self, Field};
+use crate::history::{self, shown};
+use crate::summary;
+
+/// Digits of positions, of the largest coordinate.
+const PLACES: u32 = 6;
+
+/// What a page takes of a run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Choice {
+    /// Digits of the largest value of a field in each step.
+    pub(crate) digits: u32,
+    /// Steps at most.
+    pub(crate) steps: usize,
+    /// Letters that its fields and bonds may take.
+    pub(crate) letters: usize,
+}
+
+/// Texts of columns, which the description of a run names by number.
+#[derive(Debug, Default)]
+pub(crate) struct Texts(pub(crate) Vec<String>);
+
+impl Texts {
+    fn add(&mut self, column: Column) -> Value {
+        let first = self.0.len();
+        self.0.extend(column.groups);
+        json!({"texts": [first, self.0.len()], "exponents": column.exponents})
+    }
+}
+
+/// A run in a page.
+#[derive(Debug)]
+pub(crate) struct PageRun {
+    /// What the viewer reads.
+    pub(crate) description: Value,
+    /// Summary, warnings and case.
+    pub(crate) html: String,
+    /// Title of the case.
+    pub(crate) title: String,
+    /// Points of the body.
+    pub(crate) points: usize,
+    /// Steps, or modes.
+    pub(crate) steps: usize,
+    /// Names of fields and properties of bonds that are not in the page.
+    pub(crate) left_out: Vec<String>,
+}
+
+impl PageRun {
+    /// The results in a folder.
+    ///
+    /// # Errors
+    ///
+    /// If there are none, or a file cannot be used.
+    pub(crate) fn read(
+        folder: &Path,
+        label: &str,
+        choice: Choice,
+        texts: &mut Texts,
+    ) -> Result<Self, Error> {
+        let outputs = Outputs::list(folder)?;
+        let files = chosen(&outputs, choice.steps)?;
+        let summary = summary_of(folder)?;
+        let case = read_text(&folder.join(RESOLVED_CASE))?;
+        let Some(first) = files.values().next() else {
+            return Err(Error::NoResults {
+                path: folder.to_path_buf(),
+                reason: "no step of it was chosen".to_owned(),
+            });
+        };
+        let body = Body::read(&VtuFile::open(first)?)?;
+        let steps: Vec<usize> = files.keys().copied().collect();
+        let bonds = stored(folder)?.map(|run| Bonds::new(&run, &body));
+        let mut budget = Budget::new(choice.letters);
+        let fields = fields::read(&files, &body, choice.digits)?;
+        let moved = fields.iter().find(|it| it.name == "displacement");
+        let drawn = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
+        let fields: Vec<Value> = (fields.into_iter())
+            .filter(|it| budget.takes(&it.name, it.letters()))
+            .map(|it| describe_field(it, outputs.kind, texts))
+            .collect();
+        let bonds = bonds
+            .filter(|it| budget.takes("bonds", it.letters()))
+            .map_or(Value::Null, |it| describe_bonds(it, texts, &mut budget));
+        let is_modes = outputs.kind == OutputKind::Modes;
+        let (history, cracks) = match is_modes {
+            true => (modes(folder)?, Value::Null),
+            false => (history::read(folder)?, cracks(folder, &steps)?),
+        };
+        let title = summary["title"].as_str().unwrap_or(label).to_owned();
+        let follows_path = stored_loading(folder)?.follows_path;
+        Ok(Self {
+            html: summary::html(&summary, outputs.kind, &case),
+            points: body.tags.len(),
+            steps: steps.len(),
+            left_out: budget.left_out,
+            description: json!({
+                "label": label,
+                "title": title,
+                "kind": if is_modes { "modes" } else { "steps" },
+                "steps": steps,
+                "beforeBreakages": follows_path,
+                "history": history,
+                "body": drawn,
+                "fields": fields,
+                "bonds": bonds,
+                "cracks": cracks,
+            }),
+            title,
+        })
+    }
+}
+
+/// Letters that are left for columns.
+struct Budget {
+    letters: usize,
+    left_out: Vec<String>,
+}
+
+impl Budget {
+    fn new(letters: usize) -> Self {
+        Self {
+            letters,
+            left_out: Vec::new(),
+        }
+    }
+
+    /// Whether there is room for so many letters, which are then taken.
+    fn takes(&mut self, name: &str, letters: usize) -> bool {
+        match self.letters.checked_sub(letters) {
+            Some(left) => {
+                self.letters = left;
+                true
+            }
+            None => {
+                self.left_out.push(name.to_owned());
+                false
+            }
+        }
+    }
+}
+
+/// The files of the steps of a page: all, or an even choice with the first, the largest load and the last.
+fn chosen(outputs: &Outputs, most: usize) -> Result<BTreeMap<usize, PathBuf>, Error> {
+    let count = outputs.files.len();
+    if count <= most || outputs.kind == OutputKind::Modes {
+        return Ok(outputs.files.clone());
+    }
+    let history = outputs.folder.join("history.csv");
+    let peak = match history.is_file() {
+        true => {
+            let rows = Sheet::read(history)?.numbers(["step", "reaction"])?;
+            let largest = rows.into_iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+            largest.map(|it| it[0] as usize)
+        }
+        false => None,
+    };
+    let last = most.max(2) - 1;
+    let places: Vec<usize> = (0..=last).map(|it| it * (count - 1) / last).collect();
+    let numbered = outputs.files.iter().enumerate();
+    let of_choice = numbered
+        .filter(|(place, (step, _))| places.binary_search(place).is_ok() || Some(**step) == peak);
+    Ok(of_choice
+        .map(|(_, (step, path))| (*step, path.clone()))
+        .collect())
+}
+
+/// The summary; empty where the run has not come to its end.
+fn summary_of(folder: &Path) -> Result<Value, Error> {
+    let path = folder.join("summary.json");
+    if !path.is_file() {
+        let words = "The run did not come to its end: what is here is what it wrote so far.";
+        return Ok(json!({ "warnings": [words] }));
+    }
+    serde_json::from_str(&read_text(&path)?).map_err(|error| Error::Unreadable {
+        path,
+        reason: error.to_string(),
+    })
+}
+
+/// The model with its bonds, where the run wrote it.
+fn stored(folder: &Path) -> Result<Option<StoredRun>, Error> {
+    let is_there = folder.join("model.vtu").is_file() && folder.join("history.csv").is_file();
+    is_there.then(|| StoredRun::open(folder)).transpose()
+}
+
+/// The body, with the largest displacement that most of its points keep to, m.
+fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
+    let mut places = |positions: &[[f64; 2]]| {
+        [0, 1].map(|axis| {
+            let along: Vec<f64> = positions.iter().map(|it| it[axis]).collect();
+            texts.add(Column::single(&along, Digits::OfLargest(PLACES)))
+        })
+    };
+    let position = places(&body.positions);
+    let corner = match body.corners.is_empty() {
+        true => Value::Null,
+        false => json!(places(&body.corners)),
+    };
+    let corners_of_triangles = body.triangles.as_flattened();
+    json!({
+        "tagged": body.tagged,
+        "size": body.size(),
+        "usualDisplacement": finite(usual),
+        "count": body.tags.len(),
+        "position": position,
+        "corner": corner,
+        "nTriangles": body.triangles.len(),
+        "triangles": texts.add(Column::whole(corners_of_triangles.iter().map(|&it| i64::from(it)))),
+        "tags": texts.add(Column::whole(body.tags.iter().copied())),
+    })
+}
+
+fn describe_field(field: Field, kind: OutputKind, texts: &mut Texts) -> Value {
+    // A mode has no size of its own.
+    let unit = match kind {
+        OutputKind::Steps => field.unit,
+        OutputKind::Modes => "-",
+    };
+    let (unit, shift) = shown(unit, field.magnitude);
+    json!({
+        "name": field.name,
+        "isMain": field.is_main(),
+        "unit": unit,
+        "shift": shift,
+        "components": field.components,
+        "ranges": field.ranges.iter().map(|it| it.map(finite)).collect::<Vec<_>>(),
+        "magnitude": finite(field.magnitude),
+        "columns": field.columns.into_iter().map(|it| texts.add(it)).collect::<Vec<_>>(),
+    })
+}
+
+/// A number that JSON can hold; 0 for others, of columns without a number.
+fn finite(value: f64) -> f64 {
+    if value.is_finite() { value } else { 0.0 }
+}
+
+fn describe_bonds(bonds: Bonds, texts: &mut Texts, budget: &mut Budget) -> Value {
+    let ends = bonds.ends.map(|it| texts.add(it));
+    let mut columns = serde_json::Map::new();
+    for (name, column) in bonds.columns {
+        if budget.takes(&format!("{name} of bonds"), column.letters()) {
+            columns.insert(name, texts.add(column));
+        }
+    }
+    let n_broken = bonds.utilisation_at_break.len();
+    let [bond, step, round, criterion] = bonds.breaks.map(|it| texts.add(Column::whole(it)));
+    let utilisation = Column::single(&bonds.utilisation_at_break, Digits::OfLargest(5));
+    json!({
+        "count": bonds.count,
+        "ends": ends,
+        "columns": columns,
+        "criteria": bonds.criteria,
+        "breaks": {
+            "count": n_broken,
+            "bond": bond,
+            "step": step,
+            "round": round,
+            "criterion": criterion,
+            "utilisation": texts.add(utilisation),
+        },
+    })
+}
+
+/// Frequencies of the modes, as a table of one row a mode.
+fn modes(folder: &Path) -> Result<Value, Error> {
+    let rows = Sheet::read(folder.join("modes.csv"))?.numbers(["mode", "frequency_hz"])?;
+    let [mode, frequency] = [0, 1].map(|it| rows.iter().map(|row| row[it]).collect::<Vec<f64>>());
+    Ok(json!([
+        history::column("step", "-", &mode),
+        history::column("frequency", "Hz", &frequency),
+    ]))
+}
+
+/// The crack lines of the steps, each a list of lines of coordinates x, y; `null` for lines as in the step before.
+fn cracks(folder: &Path, steps: &[usize]) -> Result<Value, Error> {
+    let cracks = StoredCracks::open(folder)?;
+    let mut before = Value::Null;
+    let mut of_steps = Vec::new();
+    for &step in steps {
+        let lines = cracks.lines(step).into_iter();
+        let coordinate = |it: &f64| (it * 1e7).round() / 1e7;
+        let now: Value = lines
+            .map(|line| {
+                line.places
+                    .as_flattened()
+                    .iter()
+                    .map(coordinate)
+                    .collect::<Vec<f64>>()
+            })
+            .collect();
+        of_steps.push(if now == before {
+            Value::Null
+        } else {
+            now.clone()
+        });
+        before = now;
+    }
+    Ok(Value::Array(of_steps))
+}

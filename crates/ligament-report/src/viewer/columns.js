@@ -1,0 +1,105 @@
+// Columns of numbers, as the program wrote them (columns.rs): groups of steps in base64 of raw deflate, read back when first needed.
+
+const NOT_A_NUMBER = 2 ** 30;
+const STEPS_OF_A_GROUP = 8;
+
+// The bytes of a text of the page.
+async function bytesOfText(number) {
+  const binary = atob(document.getElementById(`t${number}`).textContent);
+  const bytes = new Uint8Array(binary.length);
+  for (let place = 0; place < bytes.length; place++) bytes[place] = binary.charCodeAt(place);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// What the predictions of a step left, from its planes of bytes. `along`: each number less the one before it.
+function leftovers(bytes, at, planes, count, along) {
+  const left = new Int32Array(count);
+  let previous = 0;
+  for (let place = 0; place < count; place++) {
+    let folded = 0;
+    for (let plane = 0; plane < planes; plane++) folded |= bytes[at + plane * count + place] << (8 * plane);
+    const number = (folded >>> 1) ^ -(folded & 1);
+    previous = along ? (number + previous) | 0 : number;
+    left[place] = previous;
+  }
+  return left;
+}
+
+// The steps of a group, each as whole multiples of its unit.
+function stepsOfGroup(bytes, count, units) {
+  const steps = [];
+  const rounded = [];
+  let at = 0;
+  for (const unit of units) {
+    const [mode, planes] = [bytes[at], bytes[at + 1]];
+    const multiples = leftovers(bytes, at + 2, planes, count, (mode & 1) === 1);
+    at += 2 + planes * count;
+    const order = mode >> 1;
+    const last = rounded[rounded.length - 1];
+    const before = rounded[rounded.length - 2];
+    const values = new Float64Array(count);
+    for (let place = 0; place < count; place++) {
+      if (order > 0) {
+        const predicted = order === 1 ? last[place] : 2 * last[place] - before[place];
+        multiples[place] += Math.floor(predicted / unit + 0.5);
+      }
+      // What is no number takes no part in predictions.
+      values[place] = multiples[place] < NOT_A_NUMBER ? multiples[place] * unit : 0;
+    }
+    steps.push(multiples);
+    rounded.push(values);
+  }
+  return steps;
+}
+
+class Column {
+  constructor(description, count) {
+    this.first = description.texts[0];
+    this.exponents = description.exponents;
+    this.units = this.exponents.map((exponent) => Number(`1e${exponent}`));
+    this.count = count;
+    this.promises = new Map();
+    this.groups = new Map();
+  }
+
+  // Multiples of a step, once they are read.
+  async multiples(step) {
+    const group = Math.floor(step / STEPS_OF_A_GROUP);
+    if (!this.promises.has(group)) this.promises.set(group, this.read(group));
+    return (await this.promises.get(group))[step % STEPS_OF_A_GROUP];
+  }
+
+  // Multiples of a step if they have been read.
+  ready(step) {
+    return this.groups.get(Math.floor(step / STEPS_OF_A_GROUP))?.[step % STEPS_OF_A_GROUP];
+  }
+
+  async read(group) {
+    const from = group * STEPS_OF_A_GROUP;
+    const units = this.units.slice(from, from + STEPS_OF_A_GROUP);
+    const steps = stepsOfGroup(await bytesOfText(this.first + group), this.count, units);
+    this.groups.set(group, steps);
+    return steps;
+  }
+
+  // Values of a step: SI units times a factor.
+  async values(step, factor = 1) {
+    const multiples = await this.multiples(step);
+    const unit = this.units[step] * factor;
+    const values = new Float64Array(multiples.length);
+    for (let place = 0; place < values.length; place++) values[place] = valueOf(multiples[place], unit);
+    return values;
+  }
+
+  // Forgets what was read of it.
+  forget() {
+    this.promises.clear();
+    this.groups.clear();
+  }
+}
+
+function valueOf(multiple, unit) {
+  if (multiple < NOT_A_NUMBER) return multiple * unit;
+  return multiple === NOT_A_NUMBER ? NaN : Infinity;
+}

@@ -1,0 +1,52 @@
+// Numbers as texts.
+
+const MOST_DECIMALS = 12;
+
+// A rounded value in its display unit, with the decimals that it has and no others.
+function exactText(multiple, exponent, shift) {
+  if (multiple >= NOT_A_NUMBER) return multiple === NOT_A_NUMBER ? "–" : "∞";
+  const power = exponent + shift;
+  const decimals = Math.min(Math.max(-power, 0), MOST_DECIMALS);
+  return minus(Number(`${multiple}e${power}`).toFixed(decimals));
+}
+
+// A value with four digits, in the display unit.
+function shortText(value, digits = 4) {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? "–" : "∞";
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  if (size >= 1e6 || size < 1e-4) return minus(value.toExponential(digits - 1).replace("e+", "e"));
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  return minus(value.toFixed(decimals));
+}
+
+function minus(text) {
+  return text.replace("-", "−");
+}
+
+function withUnit(text, unit) {
+  return unit ? `${text} ${unit}` : text;
+}
+
+function labelWithUnit(name, unit) {
+  return unit ? `${name} (${unit})` : name;
+}
+
+// The name of a column or field in words.
+function inWords(name) {
+  return name.replaceAll("_", " ").replaceAll(".", " ");
+}
+
+// Round numbers from low to high, about so many.
+function ticks(low, high, count) {
+  const rough = (high - low) / Math.max(count, 1);
+  if (!(rough > 0)) return [low];
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((it) => it * power).find((it) => it >= rough * 0.999);
+  const found = [];
+  for (let place = Math.ceil(low / step - 1e-9); place * step <= high + 1e-9 * step; place++) {
+    // A product has rounding of its own that a label must not show.
+    found.push(Number((place * step).toPrecision(12)));
+  }
+  return found;
+}

@@ -1,0 +1,177 @@
+// A result: its body, its fields and bonds, read from the page as they are asked for.
+
+class Run {
+  constructor(description) {
+    this.description = description;
+    this.label = description.label;
+    this.steps = description.steps;
+    this.isModes = description.kind === "modes";
+    const { body } = description;
+    this.nPoints = body.count;
+    this.fields = description.fields.map((field) => ({
+      ...field,
+      columns: field.columns.map((column) => new Column(column, body.count)),
+    }));
+    this.choices = this.fields.flatMap(choicesOfField);
+    this.history = new Map(description.history.map((column) => [column.name, column]));
+    const rows = this.history.get("step")?.values ?? [];
+    // The row of the history of each step of the page.
+    this.rows = this.steps.map((step) => rows.indexOf(step));
+    this.bonds = description.bonds ? new Bonds(description.bonds, this) : null;
+  }
+
+  // Positions, tags and triangles; read once.
+  body() {
+    this.bodyPromise ??= this.readBody();
+    return this.bodyPromise;
+  }
+
+  async readBody() {
+    const { body } = this.description;
+    const whole = (column, count) => new Column(column, count).multiples(0);
+    const numbers = (column, count) => new Column(column, count).values(0);
+    const positionColumns = body.position.map((it) => new Column(it, body.count));
+    const [x, y, tags, triangles] = await Promise.all([
+      ...positionColumns.map((column) => column.values(0)),
+      whole(body.tags, body.count),
+      whole(body.triangles, 3 * body.nTriangles),
+    ]);
+    const corners = body.corner && await Promise.all(body.corner.map((it) => numbers(it, 4 * body.count)));
+    return { x, y, tags, triangles, corners, positionColumns, tagged: body.tagged };
+  }
+
+  field(name) {
+    return this.fields.find((it) => it.name === name);
+  }
+
+  choice(id) {
+    return this.choices.find((it) => it.id === id) ?? this.choices[0];
+  }
+
+  // The field that a reader wants first.
+  get firstChoice() {
+    if (this.isModes) return "strain_energy_density";
+    const broke = this.history.get("broken_bonds")?.values.some((it) => it > 0);
+    return broke ? "damage" : "displacement";
+  }
+
+  // Values of a choice in its display unit.
+  async values({ field, place }, step) {
+    const factor = 10 ** field.shift;
+    if (place !== null) return field.columns[place].values(step, factor);
+    const [x, y] = await Promise.all(field.columns.map((column) => column.values(step, factor)));
+    return x.map((value, point) => Math.hypot(value, y[point]));
+  }
+
+  // Displacements of a step, m.
+  async displacement(step) {
+    const field = this.field("displacement");
+    return Promise.all(field.columns.map((column) => column.values(step)));
+  }
+
+  // Values of a choice at a point over the steps, in the display unit.
+  async valuesOfPoint({ field, place }, point) {
+    const columns = place === null ? field.columns : [field.columns[place]];
+    const of = async (column, step) => {
+      const multiples = await column.multiples(step);
+      return valueOf(multiples[point], column.units[step] * 10 ** field.shift);
+    };
+    const ofStep = async (_, step) => {
+      const values = await Promise.all(columns.map((column) => of(column, step)));
+      return values.length > 1 ? Math.hypot(...values) : values[0];
+    };
+    return Promise.all(this.steps.map(ofStep));
+  }
+
+  // Frees the memory of all fields but the one shown, those that all views need apart.
+  keepOnly(shown) {
+    for (const field of this.fields) {
+      if (field !== shown && field.name !== "displacement") field.columns.forEach((it) => it.forget());
+    }
+  }
+}
+
+// What can be shown of a field: itself, or its components; of a vector its length too.
+function choicesOfField(field) {
+  const words = inWords(field.name);
+  if (field.components.length === 0) return [{ id: field.name, label: words, field, place: 0 }];
+  const parts = field.components.map((name, place) => ({
+    id: `${field.name}.${name}`, label: `${words} ${name}`, field, place,
+  }));
+  const isVector = field.components.join() === "x,y";
+  return isVector ? [{ id: field.name, label: words, field, place: null }, ...parts] : parts;
+}
+
+// Bonds: ends, properties, and the order in which they broke.
+class Bonds {
+  constructor(description, run) {
+    this.description = description;
+    this.run = run;
+    this.criteria = description.criteria;
+    this.columns = Object.entries(description.columns).map(([name, column]) => ({
+      name, column: new Column(column, description.count),
+    }));
+  }
+
+  // Ends and the bonds of each point; read once.
+  ends() {
+    this.endsPromise ??= this.readEnds();
+    return this.endsPromise;
+  }
+
+  async readEnds() {
+    const { count, ends } = this.description;
+    const [a, b] = await Promise.all(ends.map((it) => new Column(it, count).multiples(0)));
+    const { nPoints } = this.run;
+    const first = new Uint32Array(nPoints + 1);
+    for (let bond = 0; bond < count; bond++) {
+      first[a[bond] + 1]++;
+      first[b[bond] + 1]++;
+    }
+    for (let point = 0; point < nPoints; point++) first[point + 1] += first[point];
+    const next = first.slice();
+    const ofPoints = new Uint32Array(2 * count);
+    for (let bond = 0; bond < count; bond++) {
+      ofPoints[next[a[bond]]++] = bond;
+      ofPoints[next[b[bond]]++] = bond;
+    }
+    return { a, b, first, ofPoints };
+  }
+
+  // Broken bonds in the order of breaking, and the place of each bond in it (-1: intact).
+  breaks() {
+    this.breaksPromise ??= this.readBreaks();
+    return this.breaksPromise;
+  }
+
+  async readBreaks() {
+    const { count, ...columns } = this.description.breaks;
+    const column = (name) => new Column(columns[name], count);
+    const [bond, step, round, criterion] = await Promise.all(
+      ["bond", "step", "round", "criterion"].map((name) => column(name).multiples(0)),
+    );
+    const utilisation = await column("utilisation").values(0);
+    const order = new Int32Array(this.description.count).fill(-1);
+    bond.forEach((it, place) => { order[it] = place; });
+    return { bond, step, round, criterion, utilisation, order };
+  }
+
+  // How many of the broken bonds have broken in the state of a step: on the exact path it is that before the step's breakages.
+  async countAt(stepNumber) {
+    const { step } = await this.breaks();
+    const before = this.run.description.beforeBreakages;
+    let count = 0;
+    while (count < step.length && (before ? step[count] < stepNumber : step[count] <= stepNumber)) count++;
+    return count;
+  }
+
+  // Texts of the properties of a bond by name.
+  async properties(bond) {
+    const texts = new Map();
+    await Promise.all(this.columns.map(async ({ name, column }) => {
+      const multiple = (await column.multiples(0))[bond];
+      texts.set(name, { multiple, exponent: column.exponents[0] });
+    }));
+    return texts;
+  }
+}
