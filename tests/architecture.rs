@@ -9,7 +9,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 13] = [
+const ARROWS: [(&str, &[&str]); 14] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
@@ -87,10 +87,25 @@ const ARROWS: [(&str, &[&str]); 13] = [
             "ligament-verify",
         ],
     ),
+    (
+        "ligament-python",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-cli",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+            "ligament-plot",
+            "ligament-run",
+            "ligament-study",
+        ],
+    ),
 ];
 
 /// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
-const RESERVED: [(&str, &[&str]); 11] = [
+const RESERVED: [(&str, &[&str]); 13] = [
     ("clap", &["ligament-cli"]),
     ("clap_complete", &["ligament-cli"]),
     ("indicatif", &["ligament-run", "ligament-study"]),
@@ -99,11 +114,14 @@ const RESERVED: [(&str, &[&str]); 11] = [
         &[
             "ligament-case",
             "ligament-cli",
+            "ligament-python",
             "ligament-run",
             "ligament-study",
             "ligament-verify",
         ],
     ),
+    ("numpy", &["ligament-python"]),
+    ("pyo3", &["ligament-python"]),
     ("schemars", &["ligament-case"]),
     (
         "serde",
@@ -115,6 +133,7 @@ const RESERVED: [(&str, &[&str]); 11] = [
             "ligament-case",
             "ligament-cli",
             "ligament-plot",
+            "ligament-python",
             "ligament-report",
             "ligament-run",
             "ligament-study",

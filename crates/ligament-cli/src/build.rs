@@ -3,7 +3,7 @@
 use ligament_run::provenance::Build;
 
 /// The build of this program.
-pub(crate) const BUILD: Build = Build {
+pub const BUILD: Build = Build {
     commit: known(env!("LIGAMENT_COMMIT")),
     uncommitted_changes: match env!("LIGAMENT_UNCOMMITTED").as_bytes() {
         b"true" => Some(true),

@@ -6,6 +6,7 @@
 //! | [`check`] | what `ligament check` tells of a case |
 //! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
 //! | [`inspect`] | what `ligament inspect` tells of a mesh |
+//! | [`program`] | from the arguments to the exit code |
 //! | [`terminal`] | where the program speaks to people |
 //! | `build` | the commit and the compiler that the program is from |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
@@ -21,7 +22,9 @@ pub mod commands;
 pub mod explain;
 pub mod inspect;
 mod lines;
+pub mod program;
 mod stop_signal;
 pub mod terminal;
 
+pub use build::BUILD;
 pub use commands::Cli;

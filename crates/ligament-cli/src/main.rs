@@ -1,34 +1,17 @@
 //! The `ligament` program.
 
-use std::io::{self, Write};
+use std::env;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::Parser;
-use ligament_cli::{Cli, terminal};
+use ligament_cli::program;
 
 fn main() -> ExitCode {
-    match Cli::parse().execute() {
-        Ok(code) => code,
-        Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
-        Err(error) => {
-            print_error(&error);
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// The error and its causes; a reader that has gone away does not want to hear of them.
-fn print_error(error: &anyhow::Error) {
-    let mut stderr = terminal::stderr();
-    let _ = writeln!(stderr, "error: {error}");
-    for cause in error.chain().skip(1) {
-        let _ = writeln!(stderr, "  because: {cause}");
-    }
-}
-
-/// Whether standard output was closed by its reader, as by `ligament inspect ... | head`.
-fn is_closed_pipe(error: &anyhow::Error) -> bool {
-    error
-        .downcast_ref::<io::Error>()
-        .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    let arguments: Vec<OsString> = env::args_os().collect();
+    // Without its own path it starts itself by the name that it was called by.
+    let itself = env::current_exe().map_or_else(
+        |_| arguments.iter().take(1).cloned().collect(),
+        |it| vec![it.into()],
+    );
+    program::execute(&arguments, &itself)
 }

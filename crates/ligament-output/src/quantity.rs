@@ -125,8 +125,12 @@ pub fn place([x, y]: [f64; 2]) -> String {
 
 /// A number with four digits that count.
 pub fn four_digits(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
+    if !value.is_finite() {
         return format!("{}", value.abs());
+    }
+    // What nine decimals do not show is nothing beside other values in the unit: a force of rounding in kN.
+    if value.abs() < 5e-10 {
+        return "0".to_owned();
     }
     // The power of ten after rounding: 999.96 has four digits as 1000.
     let rounded = format!("{value:.3e}");
@@ -175,6 +179,7 @@ mod tests {
         assert_eq!(between([3e-3, 3.0000001e-3], "m"), "3.000 mm");
         assert_eq!(between([-1.0, 2e4], "N"), "-0.001000 to 20.00 kN");
         assert_eq!(between([1e-4, 2e-4], "-"), "100.0e-6 to 200.0e-6");
+        assert_eq!(between([7e-28, 6155.0], "N"), "0 to 6.155 kN");
         assert_eq!(place([0.0125, -3e-3]), "(12.50, -3.000) mm");
     }
 }

@@ -8,6 +8,7 @@
 //! | [`inputs`] | what decides about the results of a run |
 //! | [`provenance`] | what results came from: program, processor, files |
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
+//! | [`loading`] | a body under loads, and by which rule its results are written |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
@@ -23,7 +24,7 @@ mod destination;
 pub mod disk;
 pub mod gauges;
 pub mod inputs;
-mod loading;
+pub mod loading;
 pub mod memory;
 pub mod model;
 mod modes;

@@ -56,7 +56,7 @@ impl LoadedBody<'_> {
         let problem = loading.problem(&model.system, &model.criteria);
         let analysis = &model.setup.analysis;
         let grid = model.body().grid();
-        let (fixed, rule) = (&model.fixed, self.rule());
+        let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
         let mut provenance = Provenance::new(build, case, &mut contents).map_err(unread)?;
@@ -91,20 +91,20 @@ impl LoadedBody<'_> {
         checkpoints.end(&outcome.termination)?;
         Ok(summary)
     }
+}
 
-    /// What is written, and when.
-    fn rule(&self) -> WriteRule {
-        let output = &self.case.case.output;
-        WriteRule {
-            fields_every: output.fields_every.unwrap_or_default() as usize,
-            bonds: output.bonds,
-            model: output.model,
-            virial: output.stress.contains(&StressField::Virial),
-            traction: output.stress.contains(&StressField::Traction),
-            time: match self.model.setup.analysis {
-                Analysis::Event(_) => Time::Step,
-                _ => Time::Load,
-            },
-        }
+/// The rule by which results of a case with an analysis are written.
+pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
+    let output = &case.case.output;
+    WriteRule {
+        fields_every: output.fields_every.unwrap_or_default() as usize,
+        bonds: output.bonds,
+        model: output.model,
+        virial: output.stress.contains(&StressField::Virial),
+        traction: output.stress.contains(&StressField::Traction),
+        time: match analysis {
+            Analysis::Event(_) => Time::Step,
+            _ => Time::Load,
+        },
     }
 }

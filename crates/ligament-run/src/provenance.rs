@@ -79,13 +79,18 @@ impl Provenance {
             let key = Some(key);
             inputs.push(Input { key, file, content });
         }
-        Ok(Self {
+        Ok(Self::of_inputs(build, inputs))
+    }
+
+    /// The provenance of a run that read no files, or whose files are not looked at again.
+    pub fn of_inputs(build: Build, inputs: Vec<Input>) -> Self {
+        Self {
             build,
             processor: processor(),
             vector_instructions: vector_instructions(),
             resumed: false,
             inputs,
-        })
+        }
     }
 }
 

@@ -7,7 +7,7 @@
 //! | [`bond_stiffness`] | how stiff bonds are over their direction |
 //! | [`yielding`] | at which load the first bond yields, and how the directions of the bonds distort that |
 //!
-//! What they share: results by their names (`quantities`), lines of least squares (`line_fit`), and meshes made by other programs
+//! What they share: results by their names ([`quantities`]), lines of least squares (`line_fit`), and meshes made by other programs
 //! ([`meshing`]), because a study may vary a geometry.
 #![cfg_attr(
     test,
@@ -18,6 +18,6 @@ pub mod bond_stiffness;
 pub mod calibrate;
 pub mod line_fit;
 pub mod meshing;
-mod quantities;
+pub mod quantities;
 pub mod sweep;
 pub mod yielding;

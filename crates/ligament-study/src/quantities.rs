@@ -20,7 +20,7 @@ const STAGES: &str = "stages";
 
 /// The single results of a run, in the order of its summary.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Quantities(Vec<(String, Value)>);
+pub struct Quantities(Vec<(String, Value)>);
 
 /// Why a result is not there.
 #[derive(Debug, thiserror::Error)]
@@ -68,7 +68,7 @@ pub enum QuantityError {
 impl Quantities {
     /// Flattens a summary: parts of tables and lists are joined by dots, `modes.0.frequency`. Of the warnings their number
     /// is left, of the stages `seconds` and `peak_bytes`; of the provenance nothing.
-    pub(crate) fn of_summary(summary: &Value) -> Self {
+    pub fn of_summary(summary: &Value) -> Self {
         let mut all = Vec::new();
         for (name, value) in summary.as_object().into_iter().flatten() {
             match value {
@@ -106,18 +106,18 @@ impl Quantities {
     }
 
     /// Names and values: numbers, words, truth values, or null where a run has none.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
     /// The value of a result; `None` where there is no such name.
-    pub(crate) fn get(&self, name: &str) -> Option<&Value> {
+    pub fn get(&self, name: &str) -> Option<&Value> {
         self.iter()
             .find_map(|(other, value)| (other == name).then_some(value))
     }
 
     /// The number of a result.
-    pub(crate) fn number(&self, name: &str) -> Result<f64, QuantityError> {
+    pub fn number(&self, name: &str) -> Result<f64, QuantityError> {
         let Some(value) = self.get(name) else {
             // A part of a run that has none is null as a whole: `first_break` instead of `first_break.reaction`.
             let above = self.iter().find(|(other, value)| {

@@ -13,6 +13,8 @@ pub enum Origin {
     File(usize),
     /// In the override with this index.
     Override(usize),
+    /// In memory: a program handed the value over.
+    Memory,
 }
 
 /// A value and where it was written.
@@ -220,7 +222,7 @@ mod tests {
         let document = Node::parse_document(TEXT).unwrap();
         match document.origin_of(&KeyPath::parse(path).unwrap())? {
             Origin::File(offset) => Some(line_and_column(TEXT, offset)),
-            Origin::Override(_) => None,
+            Origin::Override(_) | Origin::Memory => None,
         }
     }
 

@@ -44,8 +44,33 @@ impl CaseFile {
     ///
     /// If the text is not TOML, or a key or value of it or of an override is wrong.
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, CaseError> {
-        let source = Source::parse(path, text, overrides)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::read(Source::parse(path, text, overrides)?)
+    }
+
+    /// Like [`parse`](Self::parse), from a document that a program has made; `path` says where a file of it would be.
+    ///
+    /// # Errors
+    ///
+    /// If a key or value of it or of an override is wrong.
+    pub fn of_document(
+        path: &Path,
+        document: Node,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
+        Self::read(Source::of_document(path, document, overrides)?)
+    }
+
+    /// The case with further overrides on top of those that it has.
+    ///
+    /// # Errors
+    ///
+    /// If an override cannot be applied, or a key or value is wrong then.
+    pub fn with_overrides(&self, more: &[String]) -> Result<Self, CaseError> {
+        Self::read(self.source.with_overrides(more)?)
+    }
+
+    fn read(source: Source) -> Result<Self, CaseError> {
+        let folder = source.path.parent().unwrap_or(Path::new(""));
         let document = &source.document;
         let case = check_ranges(document).and_then(|()| Case::read(document, folder));
         let case = case.map_err(|fault| source.error(fault))?;
@@ -66,7 +91,7 @@ impl CaseFile {
     pub fn locate(&self, key: &str) -> Option<(usize, usize)> {
         match self.source.document.origin_of(&KeyPath::parse(key)?)? {
             Origin::File(offset) => Some(line_and_column(&self.source.text, offset)),
-            Origin::Override(_) => None,
+            Origin::Override(_) | Origin::Memory => None,
         }
     }
 

@@ -13,7 +13,7 @@ use super::overrides;
 pub struct Source {
     /// The file, as it was given.
     pub path: PathBuf,
-    /// The text of the file.
+    /// The text of the file; empty where a program handed the document over.
     pub text: String,
     /// The overrides, `key=value` or `-key` each, in their order.
     pub overrides: Vec<String>,
@@ -28,22 +28,49 @@ impl Source {
     ///
     /// If the text is not TOML, or an override cannot be applied.
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, CaseError> {
-        let mut document =
+        let document =
             Node::parse_document(&text).map_err(|error| syntax_error(path, &text, &error))?;
-        for (index, given) in overrides.iter().enumerate() {
-            overrides::apply(&mut document, given, index).map_err(|reason| {
+        let source = Self::of_document(path, document, overrides)?;
+        Ok(Self { text, ..source })
+    }
+
+    /// Takes a document from memory and applies the overrides; `path` says where a file of it would be.
+    ///
+    /// # Errors
+    ///
+    /// If an override cannot be applied.
+    pub fn of_document(
+        path: &Path,
+        document: Node,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
+        let source = Self {
+            path: path.to_owned(),
+            text: String::new(),
+            overrides: Vec::new(),
+            document,
+        };
+        source.with_overrides(overrides)
+    }
+
+    /// The source with further overrides on top of those that it has.
+    ///
+    /// # Errors
+    ///
+    /// If an override cannot be applied.
+    pub fn with_overrides(&self, more: &[String]) -> Result<Self, CaseError> {
+        let mut source = self.clone();
+        for given in more {
+            let index = source.overrides.len();
+            overrides::apply(&mut source.document, given, index).map_err(|reason| {
                 CaseError::Override {
                     given: given.clone(),
                     reason,
                 }
             })?;
+            source.overrides.push(given.clone());
         }
-        Ok(Self {
-            path: path.to_owned(),
-            text,
-            overrides: overrides.to_vec(),
-            document,
-        })
+        Ok(source)
     }
 
     /// The file's own name: that of its folder if the file has one of the `usual` names, else the file's own without its
@@ -90,7 +117,7 @@ impl Source {
     fn location(&self, origin: Option<Origin>) -> Location {
         let path = self.path.clone();
         match origin {
-            None => Location::Document { path },
+            None | Some(Origin::Memory) => Location::Document { path },
             Some(Origin::File(offset)) => {
                 let (line, column) = line_and_column(&self.text, offset);
                 Location::Position { path, line, column }

@@ -22,6 +22,7 @@ mod sweep;
 mod verify;
 mod yielding;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use crate::build::VERSION;
@@ -202,17 +203,17 @@ pub enum Command {
 }
 
 impl Cli {
-    /// Does what the command line asks for, and gives the exit code.
+    /// Does what the command line asks for, and gives the exit code; `program` is the command that calls this program.
     ///
     /// # Errors
     ///
     /// Whatever keeps the command from doing it, in words for the user.
-    pub fn execute(self) -> anyhow::Result<ExitCode> {
+    pub fn execute(self, program: &[OsString]) -> anyhow::Result<ExitCode> {
         let done = match self.command {
             Command::Run(args) => return args.execute(),
             Command::Resume(args) => return args.execute(),
             Command::Repeat(args) => return args.execute(),
-            Command::Sweep(args) => args.execute(),
+            Command::Sweep(args) => args.execute(program),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),

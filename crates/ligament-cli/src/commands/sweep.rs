@@ -1,5 +1,6 @@
 //! `ligament sweep`.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -76,7 +77,7 @@ pub struct SweepArgs {
 
 impl SweepArgs {
     /// Does it.
-    pub(super) fn execute(self) -> anyhow::Result<()> {
+    pub(super) fn execute(self, program: &[OsString]) -> anyhow::Result<()> {
         let task = if self.list {
             Task::List
         } else if self.collect {
@@ -89,6 +90,7 @@ impl SweepArgs {
                 force: self.force,
                 gmsh: self.gmsh,
                 progress: ProgressMode::detect(self.quiet),
+                program: program.to_vec(),
             })
         };
         let request = Request {

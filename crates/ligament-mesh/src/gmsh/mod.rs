@@ -14,6 +14,7 @@
 //! elements are in no group here, which [`Remark::UndescribedEntities`](crate::Remark) tells. Its
 //! writer of 2.2 (`gmsh22`) keeps the groups.
 
+mod arrays;
 mod assembly;
 mod cells;
 mod cursor;
@@ -29,6 +30,7 @@ mod v2;
 mod v4;
 mod write;
 
+pub use arrays::{Element, assemble};
 pub use error::{GmshError, Place};
 pub use write::write;
 

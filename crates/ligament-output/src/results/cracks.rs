@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use ligament_analysis::history::StepRecord;
 use ligament_mesh::Cell;
-use ligament_model::Canvas;
 use ligament_model::crack::{CrackLine, Faces, Part, crack_lines};
+use ligament_model::{BodyGrid, Canvas};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::softening_table;
@@ -96,6 +97,34 @@ impl StoredCracks {
         })
     }
 
+    /// The cracks of a run that is in memory: its body with the horizons of the points (n_points, m), the pairs of points that
+    /// pre-cracks part, the pairs of the bonds that broke, in their order, those of the bonds that opened as they softened, each
+    /// with its step, and the history.
+    pub fn in_memory(
+        (body, horizon): (&BodyGrid, Vec<f64>),
+        cut: &[[u32; 2]],
+        broken: &[[u32; 2]],
+        softened: &[([u32; 2], usize)],
+        (history, thickness): (&[StepRecord], f64),
+    ) -> Self {
+        let faces = Faces::new(&body.positions, &body.canvas);
+        let breaks = (1..).zip(broken);
+        let breaks = breaks.map(|(order, ends)| (*ends, Moment::Breakage(order)));
+        let opened = softened
+            .iter()
+            .map(|(ends, step)| (*ends, Moment::Step(*step)));
+        let all = breaks.chain(opened);
+        let opened = all.filter_map(|(ends, moment)| Some((faces.between(ends)?, moment)));
+        Self {
+            thickness,
+            cut: cut.iter().filter_map(|ends| faces.between(*ends)).collect(),
+            opened: opened.collect(),
+            horizon,
+            records: history.iter().map(CrackRecord::from).collect(),
+            faces,
+        }
+    }
+
     /// The cracks in the state of a step: what pre-cracks parted is none, but cracks start there. Without such a step those of the
     /// last before it.
     pub fn lines(&self, step: usize) -> Vec<CrackLine> {
@@ -147,6 +176,20 @@ impl StoredCracks {
     /// The steps of the history.
     pub fn steps(&self) -> Vec<usize> {
         self.records.iter().map(|it| it.step).collect()
+    }
+}
+
+impl From<&StepRecord> for CrackRecord {
+    fn from(step: &StepRecord) -> Self {
+        Self {
+            step: step.step,
+            load_factor: step.load_factor,
+            displacement: step.displacement,
+            reaction: step.reaction,
+            released_energy: step.released_energy,
+            dissipated_energy: step.dissipated_energy,
+            broken_bonds: step.broken_bonds,
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
 /// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
-pub(super) fn fixed_fields<'a>(
+pub fn fixed_fields<'a>(
     fixed: &'a FixedFields,
     volumes: &'a [f64],
     spacing: &'a [f64],

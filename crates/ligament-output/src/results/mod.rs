@@ -41,16 +41,20 @@ use crate::pvd::Collection;
 use crate::vtu::{self, Field, UnstructuredGrid};
 
 pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
-pub use grid::{point_grid, write_points};
+pub use grid::{fixed_fields, point_grid, write_points};
 use largest::Largest;
 pub use modes::write_modes;
 use outputs::remove_others;
+pub use point_fields::{FieldValues, PointFields, displacements};
 pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
-pub use softening_table::OPEN;
 use softening_table::SofteningTable;
-pub use tables::criterion_labels;
-use tables::{Tables, deformation_names};
+pub use softening_table::{OPEN, SoftenedBond, SoftenedBonds};
+use tables::Tables;
+pub use tables::{
+    break_columns, break_row, criterion_labels, deformation_names, history_columns, history_row,
+    labels_of,
+};
 
 /// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {
@@ -258,11 +262,7 @@ impl Observer for ResultWriter<'_> {
     }
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        let due = match self.rule.fields_every {
-            0 => record.step == 0 || view.is_last,
-            every => record.step.is_multiple_of(every) || view.is_last,
-        };
-        if due {
+        if self.rule.writes_fields(record, view) {
             failed(self.write_fields(record, view))?;
             if self.rule.bonds {
                 failed(self.write_bonds(record, view))?;

@@ -16,6 +16,9 @@ use crate::vtu::Field;
 /// Field of the strain (eps_xx, eps_yy, gamma_xy) that the temperature would make without stress.
 pub(super) const THERMAL_STRAIN: &str = "thermal_strain";
 
+/// Field of the energy that bonds took for good.
+const DISSIPATED: &str = "dissipated_energy_density";
+
 /// Writes the fields of a state.
 pub(super) fn write(
     path: &Path,
@@ -24,19 +27,75 @@ pub(super) fn write(
     rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {
-    let motion = Motion::read(view);
-    let damage = Damage::read(view);
-    let heat = Heat::read(view);
-    let stresses = stresses(rule, view);
-    let mut fields = motion.fields(&damage.share);
+    let read = PointFields::read(rule, view);
+    let mut fields = read.motion.fields(&read.damage.share);
     fields.push(Field::integer(grid.tagged, &grid.tags));
-    fields.extend(damage.fields());
-    fields.extend(heat.fields());
-    let of_stress = stresses.iter();
+    fields.extend(read.damage.fields());
+    fields.extend(read.heat.fields());
+    let of_stress = read.stresses.iter();
     fields.extend(of_stress.map(|(name, it)| Field::components(name, it.names, &it.values)));
     let system = view.system;
     fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
     write_grid(path, grid, Some(&displacements(view)), &fields)
+}
+
+/// Fields on the points in a state of a run, as the files of fields have them.
+pub struct PointFields {
+    motion: Motion,
+    damage: Damage,
+    heat: Heat,
+    stresses: Vec<(&'static str, Stresses)>,
+}
+
+/// Values of a field, one point after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FieldValues {
+    /// Numbers, so many a point.
+    Numbers(usize, Vec<f64>),
+    /// An integer a point.
+    Integers(Vec<i64>),
+}
+
+impl PointFields {
+    /// Reads them from a state, with the stresses that the rule asks for.
+    pub fn read(rule: WriteRule, view: &View<'_>) -> Self {
+        Self {
+            motion: Motion::read(view),
+            damage: Damage::read(view),
+            heat: Heat::read(view),
+            stresses: stresses(rule, view),
+        }
+    }
+
+    /// Names and values of all fields but the displacement and those that never change.
+    pub fn into_named(self) -> Vec<(&'static str, FieldValues)> {
+        use FieldValues::{Integers, Numbers};
+        let (motion, damage, heat) = (self.motion, self.damage, self.heat);
+        let n_points = damage.share.len().max(1);
+        let mut named = vec![
+            ("rotation", Numbers(1, motion.rotation)),
+            ("damage", Numbers(1, damage.share)),
+            ("strain_energy_density", Numbers(1, motion.density)),
+            ("reaction", Numbers(3, motion.reaction.into_flattened())),
+            ("fragment", Integers(motion.fragment)),
+            ("held", Integers(motion.held)),
+        ];
+        let by_way = damage.by_way.into_iter();
+        named.extend(by_way.map(|(name, values)| (name, Numbers(1, values))));
+        let dissipated = damage.dissipated.into_iter();
+        named.extend(dissipated.map(|it| (DISSIPATED, Numbers(1, it))));
+        let stresses = self.stresses.into_iter();
+        let of_heat = [
+            ("temperature_change", heat.change),
+            (THERMAL_STRAIN, heat.strain),
+        ];
+        let others = of_heat
+            .into_iter()
+            .chain(stresses.map(|(name, it)| (name, it.values)));
+        let others = others.filter(|(_, values)| !values.is_empty());
+        named.extend(others.map(|(name, values)| (name, Numbers(values.len() / n_points, values))));
+        named
+    }
 }
 
 /// Motion of the points, what the bonds store and exert, and which parts are connected.
@@ -104,7 +163,7 @@ impl Damage {
         let by_way = self.by_way.iter();
         let by_way = by_way.map(|(name, values)| Field::scalar(name, values));
         let dissipated = self.dissipated.iter();
-        by_way.chain(dissipated.map(|values| Field::scalar("dissipated_energy_density", values)))
+        by_way.chain(dissipated.map(|values| Field::scalar(DISSIPATED, values)))
     }
 }
 
@@ -157,8 +216,8 @@ fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
         .collect()
 }
 
-/// Displacements of the points.
-pub(super) fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
+/// Displacements of the points with a third component of zero, shape (n_points), m.
+pub fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
     in_plane(view.system.layout(), &view.state.displacement)
 }
 

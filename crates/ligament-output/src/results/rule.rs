@@ -29,6 +29,17 @@ pub enum Time {
     Step,
 }
 
+impl WriteRule {
+    /// Whether fields are written in the state of a record.
+    pub fn writes_fields(&self, record: &StepRecord, view: &View<'_>) -> bool {
+        view.is_last
+            || match self.fields_every {
+                0 => record.step == 0,
+                every => record.step.is_multiple_of(every),
+            }
+    }
+}
+
 impl Time {
     pub(super) fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
         match (self, view.loads.control().kind) {

@@ -25,8 +25,27 @@ const COLUMNS: [&str; 5] = ["step", "load_factor", "displacement", "reaction", "
 pub(super) struct SofteningTable {
     table: Table,
     criteria: Vec<String>,
-    /// Number of the rows that each bond has, shape (n_bonds).
+    softened: SoftenedBonds,
+}
+
+/// What was told of the bonds that soften: nothing, that they began to, or that a crack is open there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoftenedBonds {
+    /// Number of the things told of each bond, shape (n_bonds).
     told: Vec<u8>,
+}
+
+/// A bond with more to tell: its number, the criterion, and how many things were told of it before and are to be told now.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SoftenedBond {
+    /// Number of the bond.
+    pub bond: usize,
+    /// Number of the criterion.
+    pub criterion: usize,
+    /// Things told before, 0 or 1.
+    pub before: u8,
+    /// Things to tell: 1 that it began to soften, 2 that a crack is open there, too.
+    pub now: u8,
 }
 
 /// How far the table is.
@@ -56,7 +75,7 @@ impl SofteningTable {
         Ok(Some(Self {
             table: Table::create(folder.file(FILE), &columns)?,
             criteria: labels_of(problem),
-            told: vec![0; problem.system.ends().len()],
+            softened: SoftenedBonds::new(problem.system.ends().len()),
         }))
     }
 
@@ -70,7 +89,9 @@ impl SofteningTable {
         Ok(Self {
             table: Table::cut_back(folder.file(FILE), n_columns, told.length)?,
             criteria: labels_of(problem),
-            told: told.of_bonds,
+            softened: SoftenedBonds {
+                told: told.of_bonds,
+            },
         })
     }
 
@@ -78,7 +99,7 @@ impl SofteningTable {
     pub(super) fn told(&self) -> Result<Told, Error> {
         Ok(Told {
             length: self.table.synced_length()?,
-            of_bonds: self.told.clone(),
+            of_bonds: self.softened.told.clone(),
         })
     }
 
@@ -89,10 +110,9 @@ impl SofteningTable {
         view: &View<'_>,
         tags: &[i64],
     ) -> Result<(), Error> {
-        for (bond, criterion, now) in self.changed(view) {
-            let told = std::mem::replace(&mut self.told[bond], now);
-            let ends = view.system.ends()[bond].map(|end| tags[end as usize]);
-            for event in &EVENTS[usize::from(told)..usize::from(now)] {
+        for it in self.softened.step(view) {
+            let ends = view.system.ends()[it.bond].map(|end| tags[end as usize]);
+            for event in &EVENTS[usize::from(it.before)..usize::from(it.now)] {
                 self.table.append(&[
                     record.step.into(),
                     record.load_factor.into(),
@@ -101,11 +121,32 @@ impl SofteningTable {
                     Value::Text(event),
                     ends[0].into(),
                     ends[1].into(),
-                    Value::Text(&self.criteria[criterion]),
+                    Value::Text(&self.criteria[it.criterion]),
                 ])?;
             }
         }
         Ok(())
+    }
+}
+
+impl SoftenedBonds {
+    /// Nothing told of so many bonds.
+    pub fn new(n_bonds: usize) -> Self {
+        Self {
+            told: vec![0; n_bonds],
+        }
+    }
+
+    /// Bonds with news in a state, those farthest beyond their limits first; the news counts as given from then on.
+    pub fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
+        let changed = self.changed(view);
+        let told = |(bond, criterion, now)| SoftenedBond {
+            bond,
+            criterion,
+            before: std::mem::replace(&mut self.told[bond], now),
+            now,
+        };
+        changed.into_iter().map(told).collect()
     }
 
     /// Bonds with more to tell than was told, with the criterion and what there is to tell now.

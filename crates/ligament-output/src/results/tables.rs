@@ -86,7 +86,7 @@ pub fn criterion_labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String>
 }
 
 /// Names of the failure criteria of a problem in results.
-pub(super) fn labels_of(problem: &Problem) -> Vec<String> {
+pub fn labels_of(problem: &Problem) -> Vec<String> {
     criterion_labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
@@ -149,7 +149,7 @@ pub(super) struct Tables {
 
 /// Names of the components of a bond's deformation in results. The relative rotation of the two ends is left out, because no
 /// criterion looks at it.
-pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
+pub fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
     told(system.strain_names())
 }
 
@@ -159,6 +159,69 @@ pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
         [told @ .., "rotation"] => told,
         all => all,
     }
+}
+
+/// Names of the columns of the history of a problem.
+pub fn history_columns(problem: &Problem) -> Vec<String> {
+    let groups = problem.loads.groups().iter();
+    let of_groups = groups.flat_map(|group| {
+        ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
+    });
+    let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
+    (HISTORY.iter().map(|column| column.0.to_owned()))
+        .chain(stage_columns(problem))
+        .chain(of_faces)
+        .chain(of_groups)
+        .chain(problem.probes.iter().map(|probe| probe.name.clone()))
+        .collect()
+}
+
+/// Values of a record in the [columns of the history](history_columns).
+pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
+    let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
+    if let Some(loads) = view.loads.course() {
+        let stage = loads.programme.stage_name(record.part);
+        row.push(stage.into());
+        row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
+    }
+    if view.system.faces_close() {
+        row.push(CLOSED.1(record));
+    }
+    let layout = view.system.layout();
+    let of_groups = record.group_forces.iter().flat_map(|force| {
+        // The forces of a group stand as those of one point.
+        Component::ALL.map(|component| layout.value(0, component, force))
+    });
+    row.extend(of_groups.map(Value::from));
+    row.extend(record.probes.iter().map(|&value| Value::from(value)));
+    row
+}
+
+/// Names of the columns of the table of breakages of a problem; `tagged` is what the tags of bonds' ends are of: nodes or cells.
+pub fn break_columns(problem: &Problem, tagged: &str) -> Vec<String> {
+    let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
+    let more = (["utilisation", "criterion"].iter()).chain(deformation_names(&*problem.system));
+    (BREAKS.iter().map(|column| column.0.to_owned()))
+        .chain(ends)
+        .chain(more.map(|&name| name.to_owned()))
+        .collect()
+}
+
+/// Values of a record in the [columns of the breakages](break_columns): tags of the ends, names of the criteria, and so many
+/// components of the deformation.
+pub fn break_row<'a>(
+    record: &BreakRecord,
+    ends: [i64; 2],
+    criteria: &'a [String],
+    n_components: usize,
+) -> Vec<Value<'a>> {
+    let mut row: Vec<Value<'_>> = BREAKS.iter().map(|column| column.1(record)).collect();
+    row.extend(ends.map(Value::from));
+    row.push(record.ratio.into());
+    row.push(criteria[record.criterion].as_str().into());
+    let components = record.deformation.strains().into_iter();
+    row.extend(components.take(n_components).map(Value::from));
+    row
 }
 
 impl Tables {
@@ -206,32 +269,16 @@ impl Tables {
         costs_before: Costs,
         table: Opening<'_>,
     ) -> Result<Self, Error> {
-        let groups = problem.loads.groups().iter();
-        let group_columns = groups.flat_map(|group| {
-            ["force_x", "force_y", "moment"].map(|c| format!("{}.{c}", group.name))
-        });
-        let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
-        let extra: Vec<String> = (stage_columns(problem).into_iter())
-            .chain(of_faces)
-            .chain(group_columns)
-            .chain(problem.probes.iter().map(|probe| probe.name.clone()))
-            .collect();
-        let history_columns: Vec<&str> = (HISTORY.iter().map(|column| column.0))
-            .chain(extra.iter().map(String::as_str))
-            .collect();
-        let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
-        let breaks_columns: Vec<&str> = (BREAKS.iter().map(|column| column.0))
-            .chain(ends.iter().map(String::as_str))
-            .chain(["utilisation", "criterion"])
-            .chain(deformation_names(&*problem.system).iter().copied())
-            .collect();
+        let [history, breaks] = [history_columns(problem), break_columns(problem, tagged)];
+        let [history, breaks] =
+            [&history, &breaks].map(|names| names.iter().map(String::as_str).collect::<Vec<_>>());
         let timings: Vec<&str> = (["step"].into_iter())
             .chain(TIMINGS.iter().map(|column| column.0))
             .collect();
         Ok(Self {
-            history: table(0, &history_columns)?,
+            history: table(0, &history)?,
             iterations: table(1, &ITERATIONS)?,
-            breaks: table(2, &breaks_columns)?,
+            breaks: table(2, &breaks)?,
             timings: table(3, &timings)?,
             criteria: labels_of(problem),
             n_components: deformation_names(&*problem.system).len(),
@@ -277,36 +324,15 @@ impl Tables {
         ends: &[[u32; 2]],
     ) -> Result<(), Error> {
         for record in records {
-            let [a, b] = ends[record.bond as usize].map(|end| tags[end as usize]);
-            let mut row: Vec<Value<'_>> = BREAKS.iter().map(|column| column.1(record)).collect();
-            row.extend([a, b].map(Value::from));
-            row.push(record.ratio.into());
-            row.push(self.criteria[record.criterion].as_str().into());
-            let components = record.deformation.strains().into_iter();
-            row.extend(components.take(self.n_components).map(Value::from));
+            let ends = ends[record.bond as usize].map(|end| tags[end as usize]);
+            let row = break_row(record, ends, &self.criteria, self.n_components);
             self.breaks.append(&row)?;
         }
         Ok(())
     }
 
     pub(super) fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
-        let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
-        if let Some(loads) = view.loads.course() {
-            let stage = loads.programme.stage_name(record.part);
-            row.push(stage.into());
-            row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
-        }
-        if view.system.faces_close() {
-            row.push(CLOSED.1(record));
-        }
-        let layout = view.system.layout();
-        let of_groups = record.group_forces.iter().flat_map(|force| {
-            // The forces of a group stand as those of one point.
-            Component::ALL.map(|component| layout.value(0, component, force))
-        });
-        row.extend(of_groups.map(Value::from));
-        row.extend(record.probes.iter().map(|&value| Value::from(value)));
-        self.history.append(&row)?;
+        self.history.append(&history_row(record, view))?;
         self.time(record.step, view.costs)
     }
 

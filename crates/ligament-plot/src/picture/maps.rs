@@ -71,13 +71,29 @@ impl MappedBody {
             let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
             signs.map(|[sx, sy]| [x + sx * half, y + sy * half])
         };
-        let corners = points.iter().flat_map(around).collect();
+        let squares: Vec<[[f64; 2]; 4]> = points.iter().map(around).collect();
+        Self::of_squares(title, &squares, displacements, values)
+    }
+
+    /// A body whose points have a square each, by its corners (m), that moves with it, a displacement (m) and a value; all of shape
+    /// (n_points).
+    pub fn of_squares(
+        title: impl Into<String>,
+        squares: &[[[f64; 2]; 4]],
+        displacements: &[[f64; 2]],
+        values: Vec<f64>,
+    ) -> Self {
         let moved = displacements.iter().flat_map(|it| [*it; 4]).collect();
         let square = |point: u32| Cell::Quad([0, 1, 2, 3].map(|corner| 4 * point + corner));
-        let cells = (0..points.len() as u32).map(square).collect();
+        let cells = (0..squares.len() as u32).map(square).collect();
         Self {
             title: title.into(),
-            body: Body::new(corners, moved, cells, FieldLocation::Cell),
+            body: Body::new(
+                squares.as_flattened().to_vec(),
+                moved,
+                cells,
+                FieldLocation::Cell,
+            ),
             location: FieldLocation::Cell,
             values,
         }

@@ -7,7 +7,7 @@
 pub mod line;
 mod record;
 mod request;
-mod search;
+pub mod search;
 
 use std::io::Write;
 
@@ -24,7 +24,7 @@ pub use request::{CalibrationError, Request};
 use search::{Next, Search, Trial, Verdict};
 
 /// Relative width of a bracket in which the result jumps.
-const RESOLUTION: f64 = 1e-3;
+pub const RESOLUTION: f64 = 1e-3;
 
 /// Runs a case with one value of the key after the other until the result meets the target, or cannot; tells of each run on
 /// `progress` and of the end on `out`.

@@ -10,33 +10,33 @@ use serde::{Deserialize, Serialize};
 
 /// What is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Search {
+pub struct Search {
     /// Value of the key to begin with.
-    pub(super) start: f64,
+    pub start: f64,
     /// Smallest and largest value of the key that may be tried.
-    pub(super) limits: [f64; 2],
+    pub limits: [f64; 2],
     /// What the result is to be.
-    pub(super) target: f64,
+    pub target: f64,
     /// Largest difference from the target that counts as met, in units of the result.
-    pub(super) tolerance: f64,
+    pub tolerance: f64,
     /// Width of a bracket, relative to its larger end, that is not divided any more.
-    pub(super) resolution: f64,
+    pub resolution: f64,
     /// Largest number of trials.
-    pub(super) most_trials: usize,
+    pub most_trials: usize,
 }
 
 /// A value of the key and the result that it led to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Trial {
+pub struct Trial {
     /// Value of the key.
-    pub(super) key: f64,
+    pub key: f64,
     /// The result.
-    pub(super) result: f64,
+    pub result: f64,
 }
 
 /// What to do after some trials.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Next {
+pub enum Next {
     /// Try this value of the key.
     Try(f64),
     /// Stop.
@@ -45,7 +45,7 @@ pub(super) enum Next {
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Verdict {
+pub enum Verdict {
     /// The target is met by this trial.
     Met(Trial),
     /// The result jumps over the target between two values of the key that are as good as the same.
@@ -70,7 +70,7 @@ const DIGITS: usize = 7;
 
 impl Search {
     /// The next thing to do after these trials, given in their order.
-    pub(super) fn next(&self, trials: &[Trial]) -> Next {
+    pub fn next(&self, trials: &[Trial]) -> Next {
         let Some(best) = self.best(trials) else {
             return Next::Try(self.allowed(self.start));
         };
@@ -93,7 +93,7 @@ impl Search {
     }
 
     /// The trial nearest to the target.
-    pub(super) fn best(&self, trials: &[Trial]) -> Option<Trial> {
+    pub fn best(&self, trials: &[Trial]) -> Option<Trial> {
         let nearest = |a: &&Trial, b: &&Trial| self.miss(a).abs().total_cmp(&self.miss(b).abs());
         trials.iter().min_by(nearest).copied()
     }

@@ -81,11 +81,10 @@ struct Running {
 pub(super) fn all(
     runs: &[&Run],
     folder: &StudyFolder,
-    lock: &Path,
+    (lock, program): (&Path, &[OsString]),
     room: Room,
     progress: &mut StudyProgress<'_>,
 ) -> anyhow::Result<Duration> {
-    let program = std::env::current_exe()?;
     let (sender, receiver) = channel();
     let mut launcher = Launcher {
         runs,
@@ -129,7 +128,7 @@ struct Launcher<'a> {
     folder: &'a StudyFolder,
     lock: &'a Path,
     room: Room,
-    program: PathBuf,
+    program: &'a [OsString],
     sender: Sender<Ended>,
     receiver: Receiver<Ended>,
     estimates: Estimates,
@@ -209,7 +208,10 @@ impl Launcher<'_> {
         // A new file, never one that a link in its place leads to.
         remove_if_there(&log)?;
         let log = File::create_new(log)?;
-        let mut command = Command::new(&self.program);
+        let (program, leading) = (self.program.split_first())
+            .ok_or_else(|| io::Error::other("the command that calls this program is empty"))?;
+        let mut command = Command::new(program);
+        command.args(leading);
         command.args(["run", "--force", "--quiet"]);
         command.arg(format!("--threads={threads}"));
         if let (true, Some(bytes)) = (self.room.bytes_are_given, self.room.bytes) {

@@ -18,9 +18,10 @@ mod record;
 mod report;
 pub mod study;
 mod table;
-mod written;
+pub mod written;
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -78,6 +79,8 @@ pub struct Settings {
     pub gmsh: PathBuf,
     /// How progress is shown.
     pub progress: ProgressMode,
+    /// The command that calls this program, by which each run is started.
+    pub program: Vec<OsString>,
 }
 
 /// Does what is asked, with the results on `out`.
@@ -125,7 +128,8 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
     let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
     todo.retain(|run| !unmeshed.contains_key(&run.name));
     let room = Room::new(settings.jobs, settings.memory);
-    let sum = launch::all(&todo, &folder, &claim.runs, room, &mut progress)?;
+    let start = (&*claim.runs, &*settings.program);
+    let sum = launch::all(&todo, &folder, start, room, &mut progress)?;
     let (wall, failed) = progress.finish();
 
     if settings.shard.is_none() {

@@ -11,7 +11,7 @@ use ligament_case::case::key_path::KeyPath;
 /// # Errors
 ///
 /// If it is a date or no finite number, which no key takes.
-pub(crate) fn toml(node: &Node, place: &KeyPath) -> Result<String, KeyFault> {
+pub fn toml(node: &Node, place: &KeyPath) -> Result<String, KeyFault> {
     let joined = |parts: Result<Vec<String>, KeyFault>| Ok::<_, KeyFault>(parts?.join(", "));
     Ok(match &node.value {
         Value::String(text) => quoted(text),

@@ -1,0 +1,53 @@
+//! The program as a whole: from its arguments to its exit code.
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::{Cli, terminal};
+
+/// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
+/// this program, for runs that it starts as processes of their own.
+pub fn execute(arguments: &[OsString], program: &[OsString]) -> ExitCode {
+    let code = answer(arguments, program);
+    // Where the program is a part of another one nobody else writes what is left of a line.
+    let _ = io::stdout().flush();
+    code
+}
+
+fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(told) => {
+            // Help and versions are told as errors, too.
+            let _ = told.print();
+            return u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
+        }
+    };
+    match cli.execute(program) {
+        Ok(code) => code,
+        Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            print_error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The error and its causes; a reader that has gone away does not want to hear of them.
+fn print_error(error: &anyhow::Error) {
+    let mut stderr = terminal::stderr();
+    let _ = writeln!(stderr, "error: {error}");
+    for cause in error.chain().skip(1) {
+        let _ = writeln!(stderr, "  because: {cause}");
+    }
+}
+
+/// Whether standard output was closed by its reader, as by `ligament inspect ... | head`.
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    error
+        .downcast_ref::<io::Error>()
+        .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}

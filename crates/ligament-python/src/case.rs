@@ -1,0 +1,117 @@
+//! Cases.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ligament::Setup;
+use ligament::body;
+use ligament_case::case::CaseFile;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::body::Body;
+use crate::errors::{Failure, of_case, of_request};
+use crate::{document, errors};
+
+/// A checked case, with the body that it stands on where that is in memory.
+#[pyclass(frozen, module = "ligament._native")]
+pub(crate) struct Case {
+    pub(crate) file: CaseFile,
+    pub(crate) body: Option<Arc<dyn body::Body>>,
+}
+
+#[pymethods]
+impl Case {
+    /// The case in a file, with changes to it.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let overrides = document::overrides(changes)?;
+        let file = CaseFile::load(&path, &overrides).map_err(|it| of_case(py, &it))?;
+        Ok(Self { file, body: None })
+    }
+
+    /// The case in a text, with changes to it; `path` says where a file of it would be.
+    #[staticmethod]
+    fn parse(
+        py: Python<'_>,
+        text: String,
+        path: PathBuf,
+        changes: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let overrides = document::overrides(changes)?;
+        let file = CaseFile::parse(&path, text, &overrides).map_err(|it| of_case(py, &it))?;
+        Ok(Self { file, body: None })
+    }
+
+    /// The case of sections in memory, with changes to it, on a body in memory or the one that it names; `path` says where a file
+    /// of it would be.
+    #[staticmethod]
+    fn of_sections(
+        py: Python<'_>,
+        sections: &Bound<'_, PyDict>,
+        path: PathBuf,
+        changes: &Bound<'_, PyDict>,
+        body: Option<&Bound<'_, Body>>,
+    ) -> PyResult<Self> {
+        let document = document::document(sections)?;
+        let overrides = document::overrides(changes)?;
+        let file = CaseFile::of_document(&path, document, &overrides);
+        Ok(Self {
+            file: file.map_err(|it| of_case(py, &it))?,
+            body: body.map(|it| it.get().body.clone()),
+        })
+    }
+
+    /// The case with further changes.
+    fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let more = document::overrides(changes)?;
+        let file = self
+            .file
+            .with_overrides(&more)
+            .map_err(|it| of_case(py, &it))?;
+        Ok(Self {
+            file,
+            body: self.body.clone(),
+        })
+    }
+
+    /// Title of the case.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.file.case.title
+    }
+
+    /// Name of the case, by its file.
+    #[getter]
+    fn name(&self) -> String {
+        self.file.name()
+    }
+
+    /// Whether the case asks for natural modes.
+    #[getter]
+    fn is_modal(&self) -> bool {
+        self.file.case.modal.is_some()
+    }
+
+    /// The number at a key, as given or by default; `None` where there is none.
+    fn number(&self, py: Python<'_>, key: &str) -> PyResult<Option<f64>> {
+        let number = self.file.number(key);
+        number.map_err(|error| of_request(py, &error.to_string()))
+    }
+
+    /// The case as TOML with every default filled in.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        let text = self.file.resolved_toml();
+        text.map_err(|error| errors::of_request(py, &error.to_string()))
+    }
+}
+
+impl Case {
+    /// The setup of the case on its body.
+    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
+        Ok(match &self.body {
+            Some(body) => self.file.setup_on(body.clone())?,
+            None => self.file.setup(&mut ())?,
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Exceptions of the package: words, and what a program can take from them.
+
+use ligament::SetupError;
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::{CaseError, CaseFile, Location};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Parts of an error that a program can take from it.
+#[derive(Debug, Default)]
+struct Parts {
+    key: Option<String>,
+    path: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    hint: Option<String>,
+}
+
+/// Why a run could not begin.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// A key of the case, or a field of its setup.
+    Case(CaseError),
+    /// Anything else.
+    Other(anyhow::Error),
+    /// The user wanted it to stop before there was a result.
+    Stopped,
+}
+
+impl Failure {
+    /// The failure of a computation of a case, at the key that it comes from.
+    pub(crate) fn computing(case: &CaseFile, error: ligament::Error) -> Self {
+        match error {
+            ligament::Error::Setup(error) => Self::setup(case, error),
+            other => Self::Other(other.into()),
+        }
+    }
+
+    /// The failure of a setup of a case, at the key that it comes from.
+    pub(crate) fn setup(case: &CaseFile, error: SetupError) -> Self {
+        Self::Case(case.located(error))
+    }
+
+    /// The exception for it.
+    pub(crate) fn exception(self, py: Python<'_>) -> PyErr {
+        match self {
+            Self::Case(error) => of_case(py, &error),
+            Self::Other(error) => match error.downcast_ref::<CaseError>() {
+                Some(error) => of_case(py, error),
+                None => {
+                    let message = format!("{error:#}");
+                    raised(py, "SolutionError", &message, Parts::of_message(&message))
+                }
+            },
+            Self::Stopped => pyo3::exceptions::PyKeyboardInterrupt::new_err(()),
+        }
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        Self::Case(error)
+    }
+}
+
+impl From<anyhow::Error> for Failure {
+    fn from(error: anyhow::Error) -> Self {
+        Self::Other(error)
+    }
+}
+
+impl Parts {
+    /// What is to be done stands behind the first semicolon of a message.
+    fn of_message(message: &str) -> Self {
+        let hint = message.split_once("; ").map(|(_, hint)| hint.to_owned());
+        Self {
+            hint,
+            ..Self::default()
+        }
+    }
+}
+
+/// The exception for an error of a case.
+pub(crate) fn of_case(py: Python<'_>, error: &CaseError) -> PyErr {
+    let mut message = error.to_string();
+    let mut parts = Parts::of_message(&message);
+    match error {
+        CaseError::Key { location, key, .. } => {
+            parts.key = Some(key.clone());
+            parts.place(location);
+        }
+        CaseError::Syntax { location, .. } => parts.place(location),
+        CaseError::Override { given, .. } => {
+            let key = given.split('=').next().unwrap_or_default();
+            parts.key = Some(key.trim_start_matches('-').to_owned());
+        }
+        CaseError::Read { path, source } => {
+            parts.path = Some(path.display().to_string());
+            message = format!("{message}: {source}");
+        }
+    }
+    raised(py, "CaseError", &message, parts)
+}
+
+impl Parts {
+    fn place(&mut self, location: &Location) {
+        match location {
+            Location::Position { path, line, column } => {
+                self.path = Some(path.display().to_string());
+                (self.line, self.column) = (Some(*line), Some(*column));
+            }
+            Location::Document { path } => self.path = Some(path.display().to_string()),
+            Location::Override { .. } => {}
+        }
+    }
+}
+
+/// The exception for a fault at a key of sections in memory.
+pub(crate) fn at_key(py: Python<'_>, key: &KeyPath, fault: &str) -> PyErr {
+    let parts = Parts {
+        key: Some(key.to_string()),
+        ..Parts::of_message(fault)
+    };
+    raised(py, "CaseError", &format!("{key}: {fault}"), parts)
+}
+
+/// The exception for a body that arrays do not make.
+pub(crate) fn of_body(py: Python<'_>, fault: &str) -> PyErr {
+    raised(py, "BodyError", fault, Parts::of_message(fault))
+}
+
+/// The exception for what cannot be drawn or sought.
+pub(crate) fn of_request(py: Python<'_>, fault: &str) -> PyErr {
+    raised(py, "LigamentError", fault, Parts::of_message(fault))
+}
+
+fn raised(py: Python<'_>, kind: &str, message: &str, parts: Parts) -> PyErr {
+    let made = || {
+        let keywords = PyDict::new(py);
+        keywords.set_item("key", parts.key)?;
+        keywords.set_item("path", parts.path)?;
+        keywords.set_item("line", parts.line)?;
+        keywords.set_item("column", parts.column)?;
+        keywords.set_item("hint", parts.hint)?;
+        let kind = py.import("ligament._errors")?.getattr(kind)?;
+        kind.call((message,), Some(&keywords))
+    };
+    made().map_or_else(|error| error, PyErr::from_value)
+}

@@ -1,0 +1,56 @@
+//! The Python package `ligament`: what Python gives becomes a setup, and what a run gives becomes arrays.
+//!
+//! The front door is that of the library, [`Setup`](ligament::Setup) to [`Model`](ligament::Model) to its outcome, in memory; sections are
+//! those of a case ([`ligament_case`]). What Python users call is in `python/ligament`, which calls this module.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `document` | objects of Python as sections of a case |
+//! | `body` | bodies from arrays |
+//! | `case` | cases |
+//! | `solution` | a run on a thread of its own, which progress and Ctrl-C reach |
+//! | `collector` | the observer that keeps history, breakages and fields |
+//! | `run` | what a run gave, as arrays |
+//! | `modes` | natural modes, as arrays |
+//! | `table`, `arrays` | tables that grow by rows, arrays that are moved and not copied |
+//! | `drawing` | pictures of results in memory |
+//! | `calibration` | the next value of a key to try |
+//! | `errors` | exceptions with key, line and hint |
+//! | `program` | the command line |
+
+mod arrays;
+mod body;
+mod calibration;
+mod case;
+mod collector;
+mod document;
+mod drawing;
+mod errors;
+mod modes;
+mod program;
+mod run;
+mod solution;
+mod table;
+
+/// The module `ligament._native`.
+#[pyo3::pymodule(name = "_native")]
+mod native {
+    #[pymodule_export]
+    use crate::body::Body;
+    #[pymodule_export]
+    use crate::calibration::{next_trial, numbers};
+    #[pymodule_export]
+    use crate::case::Case;
+    #[pymodule_export]
+    use crate::drawing::draw_curves;
+    #[pymodule_export]
+    use crate::modes::modes;
+    #[pymodule_export]
+    use crate::program::execute;
+    #[pymodule_export]
+    use crate::run::{Run, run};
+
+    /// Version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

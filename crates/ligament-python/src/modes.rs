@@ -1,0 +1,93 @@
+//! Natural modes, as arrays.
+
+use ligament::run::on_threads;
+use ligament::setup::Analysis;
+use ligament::{Fault, Field, Model, SetupError, Vibration};
+use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, Mode};
+use ligament_analysis::{Component, Layout};
+use ligament_model::{BodyGrid, Bonds};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{array, rows};
+use crate::case::Case;
+use crate::errors::Failure;
+use crate::solution::watched;
+
+/// Finds the natural modes of a case: arrays over the modes, and a shape over the points for each.
+#[pyfunction]
+pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<Bound<'py, PyDict>> {
+    let case = case.get();
+    let (found, stopped) = watched(py, None, |_, _| find(case))?;
+    if stopped {
+        return Err(Failure::Stopped.exception(py));
+    }
+    let (outcome, layout, grid) = found.map_err(|failure| failure.exception(py))?;
+    let named = PyDict::new(py);
+    let of = |value: fn(&Mode) -> f64| -> Vec<f64> { outcome.modes.iter().map(value).collect() };
+    named.set_item("frequency", array(py, of(Mode::frequency)))?;
+    named.set_item("eigenvalue", array(py, of(|it| it.eigenvalue)))?;
+    named.set_item("residual", array(py, of(|it| it.residual)))?;
+    let kinds: Vec<&str> = outcome.modes.iter().map(|it| it.kind.name()).collect();
+    named.set_item("kind", kinds)?;
+    let participation = outcome.modes.iter().flat_map(|it| it.participation.clone());
+    let n = outcome.modes.first().map_or(3, |it| it.participation.len());
+    named.set_item("participation", rows(py, participation.collect(), n)?)?;
+    named.set_item("mass", outcome.moving.total)?;
+    named.set_item("complete", outcome.complete)?;
+    let notices: Vec<String> = outcome.notices.iter().map(ToString::to_string).collect();
+    named.set_item("warnings", notices)?;
+    named.set_item("position", rows(py, grid.positions.into_flattened(), 2)?)?;
+    let mut shapes = Vec::new();
+    for mode in outcome.modes {
+        let of_mode = PyDict::new(py);
+        let displacement = in_plane(layout, &mode.shape);
+        of_mode.set_item("displacement", rows(py, displacement, 3)?)?;
+        of_mode.set_item(
+            "strain_energy_density",
+            array(py, mode.strain_energy_density),
+        )?;
+        shapes.push(of_mode);
+    }
+    named.set_item("shapes", shapes)?;
+    Ok(named)
+}
+
+/// The x and y components with a third of zero, shape (n_points, 3).
+fn in_plane(layout: Layout, shape: &[f64]) -> Vec<f64> {
+    let of_point = |point| {
+        let [x, y] = [Component::X, Component::Y].map(|it| layout.value(point, it, shape));
+        [x, y, 0.0]
+    };
+    (0..layout.n_points as u32).flat_map(of_point).collect()
+}
+
+fn find(case: &Case) -> Result<(ModalOutcome, Layout, BodyGrid), Failure> {
+    let setup = case.setup()?;
+    let Analysis::Modal(settings) = setup.analysis else {
+        let fault = Fault::OtherAnalysis {
+            found: setup.analysis.name(),
+            wanted: "natural modes",
+        };
+        let error = SetupError {
+            field: Field {
+                name: "analysis",
+                index: None,
+                part: None,
+            },
+            fault: Box::new(fault),
+        };
+        return Err(Failure::setup(&case.file, error));
+    };
+    let located = |error| Failure::setup(&case.file, error);
+    let other = |error: ligament::Error| Failure::computing(&case.file, error);
+    let found = on_threads(setup.threads, || {
+        let model = Model::build(setup, &mut ()).map_err(located)?;
+        let vibration = Vibration::new(&model.setup, &model.system).map_err(located)?;
+        let problem = vibration.problem(&model.system);
+        let analysis = ModalAnalysis::new(&problem, settings).map_err(|it| other(it.into()))?;
+        let outcome = analysis.find().map_err(|it| other(it.into()))?;
+        Ok((outcome, model.system.layout(), model.body().grid()))
+    });
+    found.map_err(|error| Failure::Other(error.into()))?
+}

@@ -1,0 +1,266 @@
+//! What a run gave, as arrays.
+
+use std::sync::Arc;
+
+use ligament_analysis::driver::Outcome;
+use ligament_mesh::Cell;
+use ligament_model::{Absence, BodyGrid, Canvas, FixedFields};
+use ligament_output::results::FieldValues;
+use ligament_output::results::cracks::StoredCracks;
+use ligament_run::provenance::Provenance;
+use ligament_run::summary::Summary;
+use numpy::PyReadonlyArray1;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{array, rows};
+use crate::case::Case;
+use crate::collector::{Fields, Kept};
+use crate::drawing::{self, Picture};
+use crate::errors;
+use crate::solution::{Solved, solve, watched};
+
+/// What a run gave.
+#[pyclass(frozen, module = "ligament._native")]
+pub(crate) struct Run {
+    /// The history, a column each.
+    #[pyo3(get)]
+    history: Py<PyDict>,
+    /// The breakages in their order, a column each.
+    #[pyo3(get)]
+    breaks: Py<PyDict>,
+    /// Arrays over the points.
+    #[pyo3(get)]
+    points: Py<PyDict>,
+    /// Arrays over the bonds.
+    #[pyo3(get)]
+    bonds: Py<PyDict>,
+    /// Arrays over the points by step and name.
+    #[pyo3(get)]
+    fields: Py<PyDict>,
+    /// Cells that fields are drawn on, by their kind.
+    #[pyo3(get)]
+    cells: Py<PyDict>,
+    /// The run in numbers, as JSON.
+    #[pyo3(get)]
+    summary: String,
+    /// Noun that the tags of points belong to.
+    #[pyo3(get)]
+    tagged: &'static str,
+    grid: BodyGrid,
+    cracks: StoredCracks,
+}
+
+/// A line of a crack: its places (n, 2), what each end is, and its length, m.
+type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
+
+/// Runs a case; calls `report` with step, load factor, displacement, force and number of broken bonds for each record. Gives the run,
+/// and whether Ctrl-C stopped it.
+#[pyfunction]
+pub(crate) fn run(
+    py: Python<'_>,
+    case: &Bound<'_, Case>,
+    report: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(Run, bool)> {
+    let case = case.get();
+    let (solved, stopped) = watched(py, report, |sender, stop| solve(case, sender, stop))?;
+    let solved = solved.map_err(|failure| failure.exception(py))?;
+    Ok((Run::new(py, case, solved)?, stopped))
+}
+
+#[pymethods]
+impl Run {
+    /// The cracks in the state of a step, as lines.
+    fn cracks<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Vec<Line<'py>>> {
+        let lines = self.cracks.lines(step).into_iter();
+        lines
+            .map(|line| {
+                let (length, ends) = (line.length(), line.ends.map(|end| end.word()));
+                Ok((rows(py, line.places.into_flattened(), 2)?, ends, length))
+            })
+            .collect()
+    }
+
+    /// A picture of a field (n_points), by the words for its quantity, its name and a title, on the body moved by a displacement (n_points, 3), as SVG.
+    fn draw(
+        &self,
+        py: Python<'_>,
+        named: (String, String, String),
+        values: PyReadonlyArray1<'_, f64>,
+        displacement: PyReadonlyArray2<'_, f64>,
+        width: f64,
+    ) -> PyResult<String> {
+        let moved = displacement.as_array();
+        let (quantity, field, title) = named;
+        let picture = Picture {
+            grid: &self.grid,
+            quantity,
+            field: &field,
+            values: values.as_array().to_vec(),
+            displacements: moved.rows().into_iter().map(|it| [it[0], it[1]]).collect(),
+            title,
+        };
+        let svg = drawing::svg(picture, width);
+        svg.map_err(|error| errors::of_request(py, &error.to_string()))
+    }
+}
+
+impl Run {
+    fn new(py: Python<'_>, case: &Case, solved: Solved) -> PyResult<Self> {
+        let summary = summary(py, case, &solved)?;
+        let cracks = cracks(&solved);
+        let Solved {
+            model,
+            loading,
+            grid,
+            outcome,
+            kept,
+            ..
+        } = solved;
+        drop(loading);
+        let Kept {
+            history,
+            breaks,
+            fields,
+            step_of_breaking,
+            ..
+        } = kept;
+        let by_step = PyDict::new(py);
+        for (step, of_step) in fields {
+            by_step.set_item(step, named(py, of_step)?)?;
+        }
+        let points = PyDict::new(py);
+        points.set_item(grid.tagged, array(py, grid.tags.clone()))?;
+        points.set_item(
+            "position",
+            rows(py, grid.positions.clone().into_flattened(), 2)?,
+        )?;
+        fixed(&points, model.fixed)?;
+        let bonds = PyDict::new(py);
+        bonds.set_item("step_of_breaking", array(py, step_of_breaking))?;
+        of_outcome(&bonds, outcome)?;
+        // The model is nobody else's any more, so that its arrays can be taken.
+        if let Some(system) = Arc::into_inner(model.system) {
+            points.set_item("volume", array(py, system.cloud.volumes))?;
+            points.set_item("nearest_distance", array(py, system.cloud.spacing))?;
+            bonds.set_item("ends", rows(py, system.bonds.ends.into_flattened(), 2)?)?;
+            bonds.set_item("length", array(py, system.bonds.length))?;
+            bonds.set_item("horizon", array(py, system.bonds.horizon))?;
+            bonds.set_item("weight", array(py, system.weight))?;
+        }
+        Ok(Self {
+            history: history.into_columns(py)?.unbind(),
+            breaks: breaks.into_columns(py)?.unbind(),
+            points: points.unbind(),
+            bonds: bonds.unbind(),
+            fields: by_step.unbind(),
+            cells: cells(py, &grid)?.unbind(),
+            summary,
+            tagged: grid.tagged,
+            grid,
+            cracks,
+        })
+    }
+}
+
+/// The numbers of a run, as `summary.json` has them.
+fn summary(py: Python<'_>, case: &Case, solved: &Solved) -> PyResult<String> {
+    let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
+    let kept = &solved.kept;
+    let told = (provenance, kept.notices.clone(), kept.first);
+    let (model, boundary) = (&solved.model, &solved.loading.boundary);
+    let stages = solved.stages.done();
+    let summary = Summary::new(&case.file, model, boundary, &solved.outcome, told, stages);
+    let text = serde_json::to_string(&summary);
+    text.map_err(|error| errors::of_request(py, &error.to_string()))
+}
+
+fn cracks(solved: &Solved) -> StoredCracks {
+    let Solved {
+        model,
+        grid,
+        outcome,
+        kept,
+        ..
+    } = solved;
+    let absent = model.fixed.absent.iter();
+    let cut = absent.filter(|it| it.absence == Absence::PreCrack);
+    let cut: Vec<[u32; 2]> = cut.map(|it| it.ends).collect();
+    StoredCracks::in_memory(
+        (grid, model.fixed.horizon.clone()),
+        &cut,
+        &kept.broken,
+        &kept.opened,
+        (&outcome.history, model.system.cloud.thickness),
+    )
+}
+
+/// Fields of the points by their names.
+fn named(py: Python<'_>, fields: Fields) -> PyResult<Bound<'_, PyDict>> {
+    let named = PyDict::new(py);
+    for (name, values) in fields {
+        let values = match values {
+            FieldValues::Numbers(1, values) => array(py, values),
+            FieldValues::Numbers(columns, values) => rows(py, values, columns)?,
+            FieldValues::Integers(values) => array(py, values),
+        };
+        named.set_item(name, values)?;
+    }
+    Ok(named)
+}
+
+/// Fields of the points that never change.
+fn fixed(points: &Bound<'_, PyDict>, fixed: FixedFields) -> PyResult<()> {
+    let py = points.py();
+    let [x, y, biaxial, shear] = fixed.energy_ratios;
+    let fields = [
+        ("horizon", fixed.horizon),
+        ("precrack_share", fixed.precrack_share),
+        ("energy_ratio_x", x),
+        ("energy_ratio_y", y),
+        ("energy_ratio_biaxial", biaxial),
+        ("energy_ratio_shear", shear),
+        ("patch_residual", fixed.patch_residual),
+    ];
+    for (name, values) in fields {
+        if !values.is_empty() {
+            points.set_item(name, array(py, values))?;
+        }
+    }
+    if let Some(scatter) = fixed.scatter {
+        points.set_item(scatter.of.field(), array(py, scatter.at_points))?;
+    }
+    Ok(())
+}
+
+/// What the last state says of the bonds.
+fn of_outcome(bonds: &Bound<'_, PyDict>, outcome: Outcome) -> PyResult<()> {
+    let py = bonds.py();
+    bonds.set_item("intact", array(py, outcome.state.intact))?;
+    bonds.set_item("dissipated_energy", array(py, outcome.state.dissipated))
+}
+
+/// Cells that fields are drawn on: `triangles` (n, 3) and `quadrangles` (n, 4) between the points, or `corners` (n_points, 4, 2) of
+/// the cell around each.
+fn cells<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyDict>> {
+    let cells = PyDict::new(py);
+    match &grid.canvas {
+        Canvas::Between(all) => {
+            let (mut triangles, mut quadrangles) = (Vec::new(), Vec::new());
+            for cell in all {
+                match cell {
+                    Cell::Triangle(corners) => triangles.extend(corners.map(i64::from)),
+                    Cell::Quadrangle(corners) => quadrangles.extend(corners.map(i64::from)),
+                }
+            }
+            cells.set_item("triangles", rows(py, triangles, 3)?)?;
+            cells.set_item("quadrangles", rows(py, quadrangles, 4)?)?;
+        }
+        Canvas::Around(squares) => {
+            let corners: Vec<f64> = squares.as_flattened().as_flattened().to_vec();
+            cells.set_item("corners", rows(py, corners, 2)?)?;
+        }
+    }
+    Ok(cells)
+}

@@ -1,0 +1,148 @@
+//! A run on a thread of its own, so that progress and Ctrl-C reach it.
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+use ligament::run::{follow, on_threads};
+use ligament::{Loading, Model, Setup};
+use ligament_analysis::driver::Outcome;
+use ligament_case::case::CaseFile;
+use ligament_model::BodyGrid;
+use ligament_run::loading::write_rule;
+use ligament_run::memory;
+use ligament_run::stages::Stages;
+use pyo3::prelude::*;
+
+use crate::case::Case;
+use crate::collector::{Collector, Kept, Progress, Stop};
+use crate::errors::Failure;
+
+/// Time between two looks for a signal.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// What a run in memory came to.
+pub(crate) struct Solved {
+    pub(crate) model: Model,
+    pub(crate) loading: Loading,
+    pub(crate) grid: BodyGrid,
+    pub(crate) outcome: Outcome,
+    pub(crate) kept: Kept,
+    pub(crate) stages: Stages,
+}
+
+/// Does some work on a thread of its own while this one lets others have Python, calls `report` for what the work tells, and
+/// looks for signals; gives what the work came to and whether it was to stop.
+///
+/// # Errors
+///
+/// If `report` fails; the work is stopped then.
+pub(crate) fn watched<T: Send>(
+    py: Python<'_>,
+    report: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(Sender<Progress>, &Stop) -> T + Send,
+) -> PyResult<(T, bool)> {
+    let (sender, receiver) = channel();
+    let stop = Stop::default();
+    let stop = &stop;
+    let report = report.map(|it| it.clone().unbind());
+    let (done, watched) = py.detach(move || {
+        thread::scope(|scope| {
+            let worker = scope.spawn(move || work(sender, stop));
+            let watched = watch(&receiver, report.as_ref(), stop);
+            let done = worker.join();
+            (done, watched)
+        })
+    });
+    let done = done.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    match watched {
+        Err(error) if error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) => {
+            Ok((done, true))
+        }
+        Err(error) => Err(error),
+        Ok(()) => Ok((done, false)),
+    }
+}
+
+/// Reports until the work has ended; gives the first signal or failure, which asks the work to stop.
+fn watch(receiver: &Receiver<Progress>, report: Option<&Py<PyAny>>, stop: &Stop) -> PyResult<()> {
+    let mut ended = Ok(());
+    loop {
+        let told = receiver.recv_timeout(LOOK);
+        if matches!(told, Err(RecvTimeoutError::Disconnected)) {
+            return ended;
+        }
+        let looked = Python::attach(|py| {
+            py.check_signals()?;
+            if let (Ok(progress), Some(report), false) = (told, report, stop.asked(1)) {
+                let Progress {
+                    step,
+                    load_factor,
+                    displacement,
+                    reaction,
+                    broken_bonds,
+                } = progress;
+                report.call1(
+                    py,
+                    (step, load_factor, displacement, reaction, broken_bonds),
+                )?;
+            }
+            Ok(())
+        });
+        if looked.is_err() {
+            stop.ask();
+            ended = ended.and(looked);
+        }
+    }
+}
+
+/// Builds the model of a case and follows its loads.
+pub(crate) fn solve(
+    case: &Case,
+    progress: Sender<Progress>,
+    stop: &Stop,
+) -> Result<Solved, Failure> {
+    let setup = case.setup()?;
+    let threads = setup.threads;
+    let solved = on_threads(threads, || solve_here(&case.file, setup, progress, stop));
+    solved.map_err(|error| Failure::Other(error.into()))?
+}
+
+fn solve_here(
+    case: &CaseFile,
+    setup: Setup,
+    progress: Sender<Progress>,
+    stop: &Stop,
+) -> Result<Solved, Failure> {
+    let mut stages = Stages::default();
+    memory::foresee_model(case, &setup).map_err(|it| Failure::Other(it.into()))?;
+    let rule = write_rule(case, &setup.analysis);
+    let model = stages.time("model", || Model::build(setup, &mut ()));
+    let model = model.map_err(|it| Failure::setup(case, it))?;
+    let loading = Loading::new(&model.setup, &model.system);
+    let loading = loading.map_err(|it| Failure::setup(case, it))?;
+    let problem = loading.problem(&model.system, &model.criteria);
+    memory::foresee_equations(case, &model.system, &problem)?;
+    if stop.asked(1) {
+        return Err(Failure::Stopped);
+    }
+    let grid = model.body().grid();
+    let body = (&grid, model.system.bonds.ends.as_slice());
+    let mut collector = Collector::new(&problem, body, rule, progress, stop);
+    let outcome = stages.time("solution", || {
+        follow(&problem, &model.setup.analysis, &mut collector)
+    });
+    let kept = collector.kept;
+    let outcome = match outcome {
+        Err(_) if stop.asked(2) => return Err(Failure::Stopped),
+        other => other.map_err(|it| Failure::computing(case, it))?,
+    };
+    Ok(Solved {
+        model,
+        loading,
+        grid,
+        outcome,
+        kept,
+        stages,
+    })
+}

@@ -1,0 +1,120 @@
+"""Results: the same numbers as the files of the program, arrays that are not copied, pictures."""
+
+import csv
+import importlib.util
+import json
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+from typing import Any
+
+import ligament
+import numpy as np
+import pytest
+
+
+def test_history_is_that_of_the_program_to_the_last_bit(plate: dict[str, Any], result: Any, tmp_path: Path) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(ligament.Case(plate).to_toml())
+    command = [sys.executable, "-m", "ligament", "run", str(case), "--out", str(tmp_path / "out"), "--quiet"]
+    subprocess.run(command, check=True, capture_output=True)
+    with open(tmp_path / "out" / "history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == list(result.columns)
+    for name, column in result.columns.items():
+        written = np.array([float(row[name]) for row in rows])
+        np.testing.assert_array_equal(written, np.asarray(column, dtype=float), err_msg=name)
+    # Times, memory and the record of files are of a run, not of what it found.
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    for of_run in ("provenance", "stages", "solver"):
+        summary.pop(of_run)
+    assert summary == {name: value for name, value in result.summary.items() if name in summary}
+
+
+def test_bonds_break_and_agree_with_each_other(result: Any) -> None:
+    broken = result.summary["broken_bonds"]
+    assert broken > 50
+    assert np.count_nonzero(~result.bonds["intact"]) == broken == len(result.breaks)
+    assert np.count_nonzero(result.bonds["step_of_breaking"] >= 0) == broken
+    ends, at = result.bonds["ends"], result.points["position"]
+    length = np.linalg.norm(at[ends[:, 1]] - at[ends[:, 0]], axis=1)
+    # Positions of bonds are relative to the middle of the body: the last digits differ.
+    np.testing.assert_allclose(length, result.bonds["length"], rtol=1e-12)
+    assert result.points["volume"].sum() == pytest.approx(24 * 36 * 0.0025**2 * 0.01)
+
+
+def address(array: np.ndarray) -> int:
+    return int(array.__array_interface__["data"][0])
+
+
+def test_arrays_are_those_that_the_run_filled(result: Any) -> None:
+    for name in ("damage", "displacement", "fragment"):
+        array = result.field(name)
+        assert address(array) == address(result.field(name)), "one array, whenever it is asked for"
+        # NumPy did not allocate the memory: it holds what holds the memory of the run.
+        base = getattr(array.base, "base", array.base)
+        assert not array.flags.owndata and type(base).__name__ == "PySliceContainer"
+    assert not result.points["horizon"].flags.owndata and not result.bonds["ends"].flags.owndata
+
+
+def test_history_as_a_table_shares_the_arrays(result: Any) -> None:
+    pandas = pytest.importorskip("pandas")
+    table = result.history
+    assert isinstance(table, pandas.DataFrame) and len(table) == len(result.columns["step"])
+    assert np.shares_memory(table["reaction"].to_numpy(), result.columns["reaction"])
+
+
+@pytest.mark.parametrize("there", ["polars", None])
+def test_history_without_pandas(result: Any, there: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    if there:
+        pytest.importorskip(there)
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: find(name) if name == there else None)
+    table = result.history
+    assert isinstance(table, dict) if there is None else type(table).__module__.startswith(there)
+    assert list(table["reaction"]) == list(result.columns["reaction"])
+
+
+def test_fields_are_there_for_the_steps_that_are_kept(result: Any) -> None:
+    # Every fifth, and the last, in which the plate is split.
+    assert result.steps == [0, 5, 10, 11]
+    assert result.field("displacement", 0).max() == 0.0
+    with pytest.raises(ligament.LigamentError, match="no fields of step 3.*fields_every=1"):
+        result.field("damage", 3)
+    with pytest.raises(ligament.LigamentError, match="no field `damages`"):
+        result.field("damages")
+
+
+def test_the_crack_goes_straight_on_from_the_notch(result: Any) -> None:
+    lines = result.crack_path()
+    assert lines and result.crack_path(0) == []
+    longest = max(lines, key=lambda line: line.length)
+    # Mode I: along the row of the notch, within a horizon.
+    assert np.abs(longest.points[:, 1]).max() < 3 * 0.0025
+    assert longest.points[:, 0].min() < 0.0201 + 3 * 0.0025
+    assert "pre-crack" in longest.ends
+
+
+def test_pictures_are_svg(result: Any, tmp_path: Path) -> None:
+    for picture in (result.plot(), result.plot("displacement_y", 10), result.curve()):
+        root = ElementTree.fromstring(picture.svg)
+        assert root.tag.endswith("svg") and len(list(root.iter())) > 20
+    assert result.plot().save(tmp_path / "damage").read_text().startswith("<svg")
+    shown = result._repr_html_()
+    assert shown.count("<img") == 2 and "broken bonds" in shown
+
+
+def test_pyvista_shares_the_memory(result: Any) -> None:
+    pytest.importorskip("pyvista")
+    grid = result.to_pyvista(10)
+    assert grid.n_cells == 24 * 36
+    assert grid.cell_data["damage"].max() == result.field("damage", 10).max()
+    assert address(np.asarray(grid.cell_data["damage"])) == address(result.field("damage", 10))
+
+
+def test_static_cases_have_a_result(plate: dict[str, Any]) -> None:
+    plate.pop("fracture"), plate.pop("no_fail"), plate.pop("output")
+    result = ligament.run(plate, progress=False)
+    assert result.summary["broken_bonds"] == 0
+    assert result.plot().words.startswith("displacement") and result._repr_html_().count("<img") == 1
