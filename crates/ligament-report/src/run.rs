@@ -31,7 +31,7 @@ pub(crate) struct Choice {
     pub(crate) digits: u32,
     /// Steps at most.
     pub(crate) steps: usize,
-    /// Letters that its fields and bonds may take.
+    /// Letters that its body, fields and bonds may take.
     pub(crate) letters: usize,
 }
 
@@ -40,6 +40,10 @@ pub(crate) struct Choice {
 pub(crate) struct Texts(pub(crate) Vec<String>);
 
 impl Texts {
+    fn letters(&self) -> usize {
+        self.0.iter().map(String::len).sum()
+    }
+
     fn add(&mut self, column: Column) -> Value {
         let first = self.0.len();
         self.0.extend(column.groups);
@@ -80,19 +84,15 @@ impl PageRun {
         let files = chosen(&outputs, choice.steps)?;
         let summary = summary_of(folder)?;
         let case = read_text(&folder.join(RESOLVED_CASE))?;
-        let Some(first) = files.values().next() else {
-            return Err(Error::NoResults {
-                path: folder.to_path_buf(),
-                reason: "no step of it was chosen".to_owned(),
-            });
-        };
-        let body = Body::read(&VtuFile::open(first)?)?;
+        let body = Body::read(&VtuFile::open(first(&files, folder)?)?)?;
         let steps: Vec<usize> = files.keys().copied().collect();
         let bonds = stored(folder)?.map(|run| Bonds::new(&run, &body));
-        let mut budget = Budget::new(choice.letters);
         let fields = fields::read(&files, &body, choice.digits)?;
         let moved = fields.iter().find(|it| it.name == "displacement");
+        let before = texts.letters();
         let drawn = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
+        let of_body = texts.letters() - before;
+        let mut budget = Budget::new(choice.letters.saturating_sub(of_body));
         let fields: Vec<Value> = (fields.into_iter())
             .filter(|it| budget.takes(&it.name, it.letters()))
             .map(|it| describe_field(it, outputs.kind, texts))
@@ -184,6 +184,15 @@ fn chosen(outputs: &Outputs, most: usize) -> Result<BTreeMap<usize, PathBuf>, Er
     Ok(of_choice
         .map(|(_, (step, path))| (*step, path.clone()))
         .collect())
+}
+
+/// The first of the files.
+fn first<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a Path, Error> {
+    let first = files.values().next().map(PathBuf::as_path);
+    first.ok_or_else(|| Error::NoResults {
+        path: folder.to_path_buf(),
+        reason: "no step of it was chosen".to_owned(),
+    })
 }
 
 /// The summary; empty where the run has not come to its end.
