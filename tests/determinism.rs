@@ -130,7 +130,7 @@ fn imaginary_elements() {
     assert_same_path("mbb-central-crack/case.toml", 40, &[]);
 }
 
-/// Secants that are made anew in each iteration, with Anderson's acceleration.
+/// Secants that are made anew in each iteration, with what earlier steps have shown.
 #[test]
 fn bonds_that_soften() {
     let settings = ["lattice.cells=[120, 40]", "fracture.steps=[0.05, 0.075]"];

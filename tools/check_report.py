@@ -136,7 +136,7 @@ def check_bonds(page, folder, run):
         broke = breaks.get(frozenset((tag, int(other))))
         assert (broke is not None) == fate.startswith("broke"), (tag, other, fate)
         if broke:
-            assert fate.startswith(f"broke, number {broke['order']} of"), fate
+            assert fate == f"broke, number {broke['order']}", fate
         if not np.isnan(largest[own[int(other)]]):
             check_value(utilisation, largest[own[int(other)]], 1.0, "utilisation")
     page.value("document.querySelector('#bond-values tbody tr[data-bond]').focus(); 0")

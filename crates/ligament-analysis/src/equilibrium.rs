@@ -1,7 +1,6 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
 mod active_set;
-mod anderson;
 mod controlled;
 mod curvature;
 mod dissipating;
@@ -9,8 +8,10 @@ mod equations;
 mod external;
 mod line_search;
 mod newton;
+mod precedents;
 mod residual;
 mod secant;
+mod target;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -32,9 +33,9 @@ use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use equations::Equations;
 
-pub(crate) use controlled::Target;
 pub(crate) use dissipating::Dissipation;
 pub(crate) use residual::ROUNDING;
+pub(crate) use target::Target;
 
 /// A way to equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -240,6 +241,9 @@ impl Equilibrium {
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
         let attempt = match (&self.held, self.iteration) {
+            (Some(Held::Motion(target)), Iteration::Secants) => {
+                secant::balance_at(equations, state, breakage, target, observer)
+            }
             (Some(Held::Motion(target)), _) => {
                 controlled::balance(equations, state, breakage, target, observer)
             }

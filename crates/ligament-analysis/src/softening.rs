@@ -158,6 +158,9 @@ fn remaining_of(
         let Some(&largest) = largest.get(bond) else {
             continue;
         };
+        if largest <= 1.0 {
+            continue;
+        }
         let secant = criterion.after.at(bond, largest).secant;
         let weakest = match criterion.measure.weakens() {
             Weakened::Opening => &mut opening,

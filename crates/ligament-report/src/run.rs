@@ -10,6 +10,7 @@ use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::stored::StoredRun;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, read_text};
+use ligament_plot::picture::stored_precracks;
 use ligament_plot::stored_loading::stored_loading;
 use serde_json::{Value, json};
 
@@ -105,6 +106,8 @@ impl PageRun {
             false => (history::read(folder)?, cracks(folder, &steps)?),
         };
         let title = summary["title"].as_str().unwrap_or(label).to_owned();
+        let precracks = stored_precracks(folder)?;
+        let precracks: Vec<&[f64]> = precracks.iter().map(|it| it.as_flattened()).collect();
         let follows_path = stored_loading(folder)?.follows_path;
         Ok(Self {
             html: summary::html(&summary, outputs.kind, &case),
@@ -122,6 +125,7 @@ impl PageRun {
                 "fields": fields,
                 "bonds": bonds,
                 "cracks": cracks,
+                "precracks": precracks,
             }),
             title,
         })

@@ -1,7 +1,7 @@
 //! Limited-memory BFGS: what the last steps of an iteration tell about the stiffness (Nocedal 1980; Nocedal and Wright 2006,
 //! algorithm 7.4).
 
-use std::collections::VecDeque;
+use crate::serial;
 
 /// Steps that are kept.
 const DEPTH: usize = 20;
@@ -17,8 +17,11 @@ struct Pair {
 /// The last steps of an iteration, the newest first.
 #[derive(Default)]
 pub(super) struct Curvature {
-    pairs: VecDeque<Pair>,
+    pairs: Vec<Pair>,
 }
+
+serial!(Pair { step, change, work });
+serial!(Curvature { pairs });
 
 impl Curvature {
     /// The correction H r of a force r out of balance (n_unknowns), shape (n_unknowns).
@@ -51,8 +54,14 @@ impl Curvature {
         let work = dot(&step, &change);
         if work > 0.0 {
             self.pairs.truncate(DEPTH - 1);
-            self.pairs.push_front(Pair { step, change, work });
+            self.pairs.insert(0, Pair { step, change, work });
         }
+    }
+
+    /// Whether all steps are those of a body with so many unknowns.
+    pub(super) fn fits(&self, n_unknowns: usize) -> bool {
+        let mut pairs = self.pairs.iter();
+        pairs.all(|it| [it.step.len(), it.change.len()] == [n_unknowns; 2])
     }
 
     /// Forgets all steps.
@@ -61,9 +70,18 @@ impl Curvature {
     }
 }
 
-/// The scalar product of two arrays of the same shape.
+/// The scalar product of two arrays of the same shape, by sums of every eighth product: one after the other, additions would wait for each
+/// other.
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| a * b).sum()
+    let ((ones, rest), (others, of_rest)) = (one.as_chunks::<8>(), other.as_chunks::<8>());
+    let mut sums = [0.0; 8];
+    for (one, other) in ones.iter().zip(others) {
+        for ((sum, a), b) in sums.iter_mut().zip(one).zip(other) {
+            *sum += a * b;
+        }
+    }
+    let rest = rest.iter().zip(of_rest).map(|(a, b)| a * b);
+    sums.into_iter().chain(rest).sum()
 }
 
 fn add(to: &mut [f64], factor: f64, values: &[f64]) {

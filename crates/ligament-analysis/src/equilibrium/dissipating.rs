@@ -3,7 +3,7 @@
 //!
 //! The dissipated energy D of bonds that soften is a function of their largest deformations, and grows as long as cracks do. It is no
 //! linear function of the displacements, and where nothing softens it is none at all, so that it is not held itself. What is held is a
-//! motion ([`controlled`](super::controlled)) that grows with it, and D follows from how far the motion goes:
+//! motion ([`Target`]) that grows with it, and D follows from how far the motion goes:
 //!
 //! 1. Along the line u + w u_B of the present bonds there is a w > 0 at which D would be as it should; the bonds that soften farther there
 //!    are where the crack opens.
@@ -21,9 +21,9 @@ use ligament_model::BondsLeft;
 use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::thermal::ThermalStrain;
 
-use super::controlled::{self, Target};
 use super::equations::Equations;
 use super::secant;
+use super::target::Target;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
@@ -73,7 +73,7 @@ pub(super) fn balance(
         let Some(target) = opening(&equations.problem, state, &here, goal) else {
             return secant::balance(equations, state, breakage, observer);
         };
-        return controlled::balance(equations, state, breakage, &target, observer);
+        return secant::balance_at(equations, state, breakage, &target, observer);
     }
     let ahead = match ahead(equations, state, &here, goal) {
         Ok(ahead) => ahead,
@@ -94,7 +94,7 @@ pub(super) fn balance(
             way: way.next,
             ..there.clone()
         };
-        let attempt = controlled::balance(equations, state, breakage, &target, observer)?;
+        let attempt = secant::balance_at(equations, state, breakage, &target, observer)?;
         let Attempt::Balanced(balanced) = &attempt else {
             return Ok(attempt);
         };

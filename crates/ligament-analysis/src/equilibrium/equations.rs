@@ -7,6 +7,7 @@ use ligament_linalg::FactorKind;
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::BondDeformation;
 
+use super::precedents::Precedents;
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
@@ -77,6 +78,8 @@ pub(super) struct Equations {
     stiffest: f64,
     /// Pairs across cracks, where faces close.
     pub(super) contact: Contact,
+    /// Earlier equilibria of softening bonds.
+    pub(super) precedents: Precedents,
     pub(super) costs: Costs,
 }
 
@@ -105,6 +108,7 @@ impl Equations {
             loaded: loaded(&**loads),
             largest_extents: Extents::default(),
             contact: Contact::default(),
+            precedents: Precedents::default(),
             costs: Costs {
                 analysis: stiffness.analysis_time(),
                 ..Costs::default()
@@ -127,17 +131,21 @@ impl Equations {
             largest_extents,
             costs,
             solver,
-            problem: _,
+            problem,
             stiffness: _,
             energy_tolerance: _,
             local_stiffness: _,
             loaded: _,
             stiffest: _,
             contact: _,
+            precedents,
         } = self;
         largest_extents.write(out);
         costs.write(out);
         solver.write(out);
+        if problem.criteria.soften() {
+            precedents.write(out);
+        }
     }
 
     /// Makes fresh equations as they were when the bytes were written, and measures the state, which was in equilibrium.
@@ -149,6 +157,9 @@ impl Equations {
         self.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
         self.solver.restore(from)?;
+        if self.problem.criteria.soften() {
+            self.precedents = Precedents::restored(from, self.stiffness.unknowns())?;
+        }
         self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
@@ -346,20 +357,35 @@ impl Equations {
         loads: &dyn LoadProgram,
     ) -> Result<Vec<f64>, Unbalanced> {
         self.prepare_solver(state)?;
-        let mut growth = vec![0.0; state.displacement.len()];
-        loads.prescribe(1.0, &mut growth);
-        let system = &self.problem.system;
-        let expansion = loads.thermal_strain(1.0);
-        let deformations = system.deformations(&state.intact, &growth, expansion);
-        let internal = system
-            .forces(state.bonds(), deformations, expansion)
-            .internal;
-        let force = loads.external_less(1.0, &growth, &internal, self.degrees_of_freedom());
+        let (mut growth, force) = self.rate(state, loads);
         let solution = self.solver.solve(state, force, &mut self.costs);
         for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
             growth[dof as usize] = value;
         }
         Ok(growth)
+    }
+
+    /// The motions that loads at their load factor 1 prescribe (n_degrees_of_freedom), and what they put out of balance with the bonds of
+    /// a state (n_unknowns).
+    pub(super) fn rate(&self, state: &State, loads: &dyn LoadProgram) -> (Vec<f64>, Vec<f64>) {
+        let mut prescribed = vec![0.0; state.displacement.len()];
+        loads.prescribe(1.0, &mut prescribed);
+        let system = &self.problem.system;
+        let expansion = loads.thermal_strain(1.0);
+        let deformations = system.deformations(&state.intact, &prescribed, expansion);
+        let swept = system.forces(state.bonds(), deformations, expansion);
+        let dofs = self.degrees_of_freedom();
+        let force = loads.external_less(1.0, &prescribed, &swept.internal, dofs);
+        (prescribed, force)
+    }
+
+    /// Displacements at the unknowns (n_unknowns) among all others, which are zero, shape (n_degrees_of_freedom).
+    pub(super) fn at_degrees_of_freedom(&self, values: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.layout().n_degrees_of_freedom()];
+        for (&dof, value) in self.degrees_of_freedom().iter().zip(values) {
+            all[dof as usize] = *value;
+        }
+        all
     }
 
     /// Slope of the energy of an iterate of a state along a correction (n_unknowns), J.

@@ -15,15 +15,14 @@ const INSIDE: f64 = 0.1;
 /// The part of a correction du at which r . du, the work of the force out of balance along the correction, is near zero: there the
 /// potential energy is least, for the first time on the way (Nocedal and Wright 2006, section 3.5).
 ///
-/// `work` is that at part zero, and `at` gives it for a part, of which the last one tried is the one that is taken. The whole
-/// correction is tried first; parts follow by the secant method. Without work at the beginning (of equations that are not
-/// definite) the whole correction is taken.
-pub(super) fn part(work: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
+/// `work` is that at part zero, `now` that of the whole correction, and `at` gives it for other parts, of which the last one tried is the
+/// one that is taken; they follow by the secant method. Without work at the beginning (of equations that are not definite) the
+/// whole correction is taken.
+pub(super) fn part(work: f64, mut now: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     let mut part = 1.0;
     let mut before = (0.0, work);
     let mut beyond = None;
     for _ in 1..TRIES {
-        let now = at(part);
         let is_near = now.abs() <= NEAR * work;
         // A work that is no number leads nowhere.
         if is_near || work <= 0.0 || !now.is_finite() {
@@ -38,8 +37,8 @@ pub(super) fn part(work: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
             None => further(part, now / work),
             Some(beyond) => between(before, beyond),
         };
+        now = at(part);
     }
-    at(part);
     part
 }
 
@@ -61,8 +60,8 @@ mod tests {
     use super::*;
 
     fn found(work: impl Fn(f64) -> f64) -> (f64, Vec<f64>) {
-        let mut tried = Vec::new();
-        let part = part(work(0.0), |part| {
+        let mut tried = vec![1.0];
+        let part = part(work(0.0), work(1.0), |part| {
             tried.push(part);
             work(part)
         });

@@ -3,15 +3,26 @@
 use super::curvature::{Curvature, dot};
 use super::equations::{Equations, Iterate};
 use super::line_search;
+use super::precedents::Precedents;
 use super::residual::RESIDUAL_TOLERANCE;
+use super::target::Target;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// A residual above this is no equilibrium whatever the energies say: what is left at thousands of points adds up in the balance of
 /// the external forces, and the falling stiffness of softening bonds magnifies it.
 const LARGEST_RESIDUAL: f64 = 1e-8;
+
+/// The largest residual where a load follows from a motion, or faces close: there the energies of a run balance to 2e-8 with 1e-8, and to
+/// 1e-8 with this.
+const LARGEST_FOLLOWING: f64 = 2e-9;
+
+/// Residual up to which a state that goes on as before begins the iteration at the value of a motion, where no residual without it tells
+/// what it is worth.
+const LARGEST_AHEAD: f64 = 0.2;
 
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
@@ -28,11 +39,13 @@ const ONE_WAY_AFTER: usize = 150;
 /// Every iterate decides what is left of the bonds. Their secants are positive, so that the stiffness K_s of what is left is definite
 /// where the elastic one is; and since the energy of a bond bends down over the square of its deformation, the energy with the secants
 /// lies above the true one. A correction by K_s therefore lowers the potential energy, if too timidly. Two things make it go as far as it
-/// should: the stiffness that the last steps have shown ([`Curvature`]), and a search along it ([`line_search`]). Both
-/// go down in energy, and end in an equilibrium that is stable. The factor may be off the secants by a little, because neither
-/// asks for more than a stiffness that is near.
+/// should: the stiffness that the last steps have shown ([`Curvature`]), those of earlier equilibria among them, and a search along it
+/// ([`line_search`]). Both go down in energy, and end in an equilibrium that is stable. The factor may be off the secants, because
+/// neither asks for more than a stiffness that is near.
 ///
-/// The first correction takes the bonds as they were in the last equilibrium: what prescribed motions do to bonds before their
+/// A load step begins where the body would be if it went on as in the last one, if that leaves less out of balance. Where faces close,
+/// and of the stiffness after a breakage, nothing is taken from earlier equilibria. Otherwise the
+/// first correction takes the bonds as they were in the last equilibrium: what prescribed motions do to bonds before their
 /// surroundings follow says nothing about them. The iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-8, or with one below 1e-10.
 /// Extremes of iterates do not count unless equilibrium holds ([`Softening::follow`](crate::softening::Softening::follow)).
 pub(super) fn balance(
@@ -41,78 +54,209 @@ pub(super) fn balance(
     breakage: &Breakage,
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
-    equations.prescribe(state);
+    sought(equations, state, breakage, None, observer)
+}
+
+/// Brings a state with softening bonds into equilibrium at the value of a motion, and finds its load factor: the same iteration in the
+/// plane of the displacements with that motion, where the body is stable if it is under such a control.
+pub(super) fn balance_at(
+    equations: &mut Equations,
+    state: &mut State,
+    breakage: &Breakage,
+    target: &Target,
+    observer: &mut dyn Observer,
+) -> Result<Attempt, ObserverError> {
+    sought(equations, state, breakage, Some(target), observer)
+}
+
+fn sought(
+    equations: &mut Equations,
+    state: &mut State,
+    breakage: &Breakage,
+    target: Option<&Target>,
+    observer: &mut dyn Observer,
+) -> Result<Attempt, ObserverError> {
+    let mut precedents = recalled(equations, breakage);
+    let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &precedents);
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
-    let mut curvature = Curvature::default();
-    let has_followed = equations.follow(state, breakage);
-    let mut iterations = usize::from(has_followed);
-    let mut iterate = equations.measure(state);
-    if has_followed || equations.is_small(&iterate.residual, RESIDUAL_TOLERANCE) {
-        iterate = softened(equations, state, false);
-    }
+    let faces_close = equations.problem.system.faces_close();
+    let largest_residual = if target.is_some() || faces_close {
+        LARGEST_FOLLOWING
+    } else {
+        LARGEST_RESIDUAL
+    };
     loop {
         let residual = iterate.residual;
         if iterations > 0 {
             observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
-        let energy_settled = equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
+        let energy_settled = equations.energy_settled(previous_energy, &iterate, largest_residual);
         let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE);
+        let is_met = target.is_none_or(|it| it.is_met(&state.displacement));
         // What a hold carries, faces that close may carry in the end.
-        let may_close = equations.problem.system.faces_close() && iterations < CARRIED_AFTER;
+        let may_close = faces_close && iterations < CARRIED_AFTER;
         let is_carried = may_close && residual.carried.is_some();
-        if (is_small || energy_settled) && !is_carried {
+        if (is_small || energy_settled) && is_met && !is_carried {
             state.softening.settle();
             equations.remember(iterate.extents);
+            precedents.learn(state, !breakage.bonds.is_empty());
+            equations.precedents = precedents;
             return Ok(equations.settled(iterate, iterations, mechanisms));
         }
         if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
-        equations.solver.weaken(state, &mut equations.costs);
-        match equations.make_ready(state, &iterate) {
-            Ok(held) => mechanisms.extend(held),
-            Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
-        }
         previous_energy = iterate.stored_energy;
         let is_one_way = iterations > ONE_WAY_AFTER;
-        iterate = next(equations, state, &iterate, &mut curvature, is_one_way);
+        let curvature = &mut precedents.curvature;
+        equations.solver.weaken(state, &mut equations.costs);
+        let next = equations.make_ready(state, &iterate).and_then(|held| {
+            if !held.is_empty() {
+                curvature.forget();
+            }
+            mechanisms.extend(held);
+            next(equations, state, &iterate, curvature, target, is_one_way)
+        });
+        iterate = match next {
+            Ok(next) => next,
+            Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
+        };
         iterations += 1;
     }
 }
 
-/// The next iterate: the state goes along a correction as far as that lowers the energy.
+/// The earlier equilibria that tell something about the one that is sought.
+///
+/// Pairs that close and open change the stiffness at once; and where one breakage brings on another, what was shown before it would decide
+/// on where the fall ends.
+fn recalled(equations: &mut Equations, breakage: &Breakage) -> Precedents {
+    let mut precedents = std::mem::take(&mut equations.precedents);
+    if equations.problem.system.faces_close() {
+        return Precedents::default();
+    }
+    if !breakage.bonds.is_empty() {
+        precedents.curvature.forget();
+    }
+    precedents
+}
+
+/// The iterate from which equilibrium is sought, and the number of corrections that it took.
+fn begun(
+    equations: &mut Equations,
+    state: &mut State,
+    breakage: &Breakage,
+    target: Option<&Target>,
+    precedents: &Precedents,
+) -> (Iterate, usize) {
+    equations.prescribe(state);
+    let has_followed = equations.follow(state, breakage);
+    let iterate = equations.measure(state);
+    let is_small = equations.is_small(&iterate.residual, RESIDUAL_TOLERANCE);
+    if has_followed || (is_small && target.is_none()) {
+        return (softened(equations, state, false), usize::from(has_followed));
+    }
+    let is_new = breakage.bonds.is_empty();
+    let ahead = is_new.then(|| precedents.ahead(state, target)).flatten();
+    let Some(mut ahead) = ahead else {
+        return (iterate, 0);
+    };
+    equations.prescribe(&mut ahead);
+    let there = softened(equations, &mut ahead, false);
+    let most = target.map_or(iterate.residual.relative, |_| LARGEST_AHEAD);
+    if there.residual.relative < most {
+        *state = ahead;
+        return (there, 0);
+    }
+    (iterate, 0)
+}
+
+/// A correction of a state, with the force that it takes out of balance.
+struct Correction {
+    /// Force out of balance at the load factor that the correction leads to, shape (n_unknowns).
+    force: Vec<f64>,
+    /// Shape (n_unknowns).
+    step: Vec<f64>,
+    load_change: f64,
+}
+
+/// The correction by the stiffness that the last steps have shown.
+fn correction(
+    equations: &mut Equations,
+    state: &State,
+    force: &[f64],
+    curvature: &Curvature,
+    target: Option<&Target>,
+) -> Result<Correction, Unbalanced> {
+    let mut step = curvature.correction(force, |it| equations.solve(state, it));
+    let mut force = force.to_vec();
+    let mut load_change = 0.0;
+    if let Some(target) = target {
+        let (mut growth, rate) = equations.rate(state, &*target.rate);
+        let grown = curvature.correction(&rate, |it| equations.solve(state, it));
+        for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
+            growth[dof as usize] = *value;
+        }
+        let moved = equations.at_degrees_of_freedom(&step);
+        load_change = target.load_change(&state.displacement, &moved, &growth)?;
+        add(&mut step, load_change, &grown);
+        add(&mut force, load_change, &rate);
+    }
+    Ok(Correction {
+        force,
+        step,
+        load_change,
+    })
+}
+
+/// The next iterate: the load goes where a correction says, and the state goes along it as far as that lowers the energy.
 fn next(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
     curvature: &mut Curvature,
+    target: Option<&Target>,
     is_one_way: bool,
-) -> Iterate {
+) -> Result<Iterate, Unbalanced> {
     let force = equations.out_of_balance(state, iterate);
-    let mut correction = curvature.correction(&force, |it| equations.solve(state, it));
-    if dot(&force, &correction) <= 0.0 {
+    // A motion comes to its value by the whole of a correction, which what was shown elsewhere may lead astray.
+    let is_searched = target.is_none_or(|it| it.is_met(&state.displacement));
+    if !is_searched {
         curvature.forget();
-        correction = equations.solve(state, force.clone());
     }
+    let mut found = correction(equations, state, &force, curvature, target)?;
+    if dot(&found.force, &found.step) <= 0.0 {
+        curvature.forget();
+        found = correction(equations, state, &force, curvature, target)?;
+    }
+    let Correction { force, step, .. } = &found;
+    state.load_factor += found.load_change;
     let start = state.displacement.clone();
-    let mut last = None;
-    let part = line_search::part(dot(&force, &correction), |part| {
+    let mut go = |part: f64| {
         state.displacement.clone_from(&start);
-        equations.add_correction(state, part, &correction);
+        equations.add_correction(state, part, step);
+        equations.prescribe(state);
         let iterate = softened(equations, state, is_one_way);
         let force = equations.out_of_balance(state, &iterate);
-        let work = dot(&force, &correction);
-        last = Some((iterate, force));
-        work
-    });
-    let Some((iterate, left)) = last else {
-        return softened(equations, state, is_one_way);
+        (iterate, force)
     };
-    let step = correction.iter().map(|it| part * it).collect();
+    let (mut iterate, mut left) = go(1.0);
+    let mut part = 1.0;
+    if is_searched {
+        part = line_search::part(dot(force, step), dot(&left, step), |part| {
+            (iterate, left) = go(part);
+            dot(&left, step)
+        });
+    }
     let change = force.iter().zip(&left).map(|(was, is)| was - is).collect();
-    curvature.learn(step, change);
-    iterate
+    curvature.learn(step.iter().map(|it| part * it).collect(), change);
+    Ok(iterate)
+}
+
+fn add(to: &mut [f64], factor: f64, values: &[f64]) {
+    for (to, value) in to.iter_mut().zip(values) {
+        *to += factor * value;
+    }
 }
 
 /// Softens the bonds of an iterate and measures it.

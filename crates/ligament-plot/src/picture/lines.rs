@@ -54,14 +54,12 @@ impl Lines {
 
     /// The pre-cracks of the case of a run.
     pub(super) fn of_precracks(folder: &Path) -> Result<Self, PictureError> {
-        let case = resolved_case(folder)?;
-        let all = case.get("precrack").and_then(toml::Value::as_array);
         Ok(Self {
             name: "pre-crack".to_owned(),
             detail: String::new(),
             colour: CUT.to_owned(),
             width: CRACK_WIDTH,
-            polylines: all.into_iter().flatten().filter_map(corners).collect(),
+            polylines: stored_precracks(folder)?,
             tips: Vec::new(),
         })
     }
@@ -93,6 +91,17 @@ impl Lines {
             document.circle(to_pixels(tip), TIP, &self.colour);
         }
     }
+}
+
+/// The pre-cracks of the case beside the results of a run: corners of each in the undeformed body, m.
+///
+/// # Errors
+///
+/// If the case cannot be read.
+pub fn stored_precracks(folder: &Path) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    let case = resolved_case(folder)?;
+    let all = case.get("precrack").and_then(toml::Value::as_array);
+    Ok(all.into_iter().flatten().filter_map(corners).collect())
 }
 
 /// The corners of a pre-crack of a resolved case.

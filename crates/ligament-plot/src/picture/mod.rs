@@ -38,6 +38,7 @@ use thiserror::Error;
 
 pub use field::unit_of;
 pub use fields::draw_fields;
+pub use lines::stored_precracks;
 pub use of_run::{asks_for_pictures, draw_run};
 pub use request::{CrackDrawing, FieldRequest, Magnification};
 pub use series::{animate, draw_each};

@@ -2,6 +2,7 @@
 
 const CRACK = [0.9, 0.15, 0.16, 1];
 const CRACK_OVER_RED = [0.05, 0.05, 0.05, 1];
+const PRECRACK = [0.7, 0.7, 0.7, 1];
 const INTACT = [0.1, 0.45, 0.85, 0.9];
 const BROKEN = [0.9, 0.15, 0.16, 0.9];
 const CHOSEN = [1, 0.75, 0, 1];
@@ -202,6 +203,25 @@ class Page {
     return segments;
   }
 
+  // Pre-cracks, in pieces that follow the deformed body; what lies outside of it is not drawn.
+  precrackSegments() {
+    if (element("cracks").value === "none") return [];
+    const segments = [];
+    const isInside = (x, y) => this.reference.nearest(x, y, 1, 2 * this.reference.size).length > 0;
+    for (const line of this.run.description.precracks) {
+      for (let place = 0; place + 3 < line.length; place += 2) {
+        const [ax, ay, bx, by] = line.slice(place, place + 4);
+        const count = Math.ceil(Math.hypot(bx - ax, by - ay) / this.reference.size);
+        const at = (piece) => [ax + (piece / count) * (bx - ax), ay + (piece / count) * (by - ay)];
+        for (let piece = 0; piece < count; piece++) {
+          const ends = [at(piece), at(piece + 1)];
+          if (ends.every((it) => isInside(...it))) segments.push(...ends.flatMap((it) => this.moved(...it)));
+        }
+      }
+    }
+    return segments;
+  }
+
   // A place that moves with the points about it.
   moved(x, y) {
     const near = this.reference.nearest(x, y, 4, 3 * this.reference.size);
@@ -223,6 +243,7 @@ class Page {
     const crack = this.range.map === "diverging" ? CRACK_OVER_RED : CRACK;
     const layers = [
       lineLayer((this.layers ?? []).flatMap((ends) => this.segmentOf(ends)), [...crack.slice(0, 3), 0.6], 1),
+      lineLayer(this.precrackSegments(), PRECRACK, 3),
       lineLayer(this.crackSegments(), crack, 3),
     ];
     for (const [colour, kind] of [[INTACT, false], [BROKEN, true]]) {

@@ -74,7 +74,7 @@ class Panel {
     const rows = list.createTBody();
     for (const { bond, other, length } of sorted) {
       const row = rows.insertRow();
-      const fate = fateOf(run, breaks, bond, value("absent", bond));
+      const fate = fateOf(breaks, bond, value("absent", bond));
       const cells = [body.tags[other], shortText(1e3 * length), text("utilisation", bond), text("step_of_largest", bond), fate];
       cells.forEach((it) => row.append(cell("td", it)));
       row.tabIndex = 0;
@@ -111,18 +111,23 @@ class Panel {
     const by = criteria[properties.get("criterion_of_largest")?.multiple];
     const largest = properties.get("utilisation");
     if (largest?.multiple > 0) rows.push(["largest utilisation", `${exactText(largest.multiple, largest.exponent, 0)} in step ${seen?.multiple}, by ${by}`]);
-    rows.push(["fate", fateOf(run, breaks, bond, properties.get("absent")?.multiple ?? 0)]);
+    rows.push(["fate", fateOf(breaks, bond, properties.get("absent")?.multiple ?? 0)]);
     const order = breaks.order[bond];
-    if (order >= 0) rows.push(["broke", `in step ${breaks.step[order]}, round ${breaks.round[order]}, by ${criteria[breaks.criterion[order]]}, at ${shortText(breaks.utilisation[order], 5)} of its limit`]);
+    if (order >= 0) {
+      const [step, round] = [breaks.step[order], breaks.round[order]];
+      const limit = `${shortText(breaks.utilisation[order], 5)} of the limit at which it breaks`;
+      rows.push(["broke", `in step ${step}, round ${round}, by ${criteria[breaks.criterion[order]]}, at ${limit}; ${breaks.step.length} broke in all`]);
+    }
     this.bond.replaceChildren(table(rows));
     for (const row of this.bondValues.querySelectorAll("tbody tr[data-bond]")) row.classList.toggle("chosen", Number(row.dataset.bond) === bond);
   }
 }
 
-function fateOf(run, breaks, bond, absent) {
+// What became of a bond, in a few words.
+function fateOf(breaks, bond, absent) {
   if (absent > 0) return ABSENT[absent] ?? "none";
   const order = breaks.order[bond];
-  return order < 0 ? "intact" : `broke, number ${order + 1} of ${breaks.step.length}`;
+  return order < 0 ? "intact" : `broke, number ${order + 1}`;
 }
 
 // The components of a field at a point; dots where they are not read yet.

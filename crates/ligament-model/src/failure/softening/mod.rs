@@ -87,6 +87,9 @@ impl AfterLimit {
     /// force drops rather than falls: such a bond keeps what it has, and the order of breaking decides as for brittle ones.
     #[inline]
     pub fn extreme(&self, bond: usize, kappa: f64) -> Option<f64> {
+        if kappa < 1.0 {
+            return Some(kappa);
+        }
         let end = self.end(bond);
         let drops = end - 1.0 < DROP && kappa >= end;
         let last = 1.0 + (end - 1.0) * (1.0 - exponential::LAST_FORCE);

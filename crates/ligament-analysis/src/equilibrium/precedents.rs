@@ -1,0 +1,97 @@
+//! Earlier equilibria of softening bonds, and what they tell about the next one.
+
+use super::curvature::Curvature;
+use super::target::Target;
+use crate::checkpoint::CheckpointError;
+use crate::serial;
+use crate::serial::Serial;
+use crate::state::State;
+use crate::unknowns::Unknowns;
+
+/// Largest growth of a load step over the one before with which the body is taken to go on as it did.
+const GROWTH: f64 = 2.0;
+
+/// What iterations have shown so far.
+#[derive(Default)]
+pub(super) struct Precedents {
+    /// The stiffness along the last corrections.
+    pub(super) curvature: Curvature,
+    /// The equilibria of the last two load steps, the older one first.
+    equilibria: Vec<Precedent>,
+}
+
+/// An equilibrium that was found.
+struct Precedent {
+    load_factor: f64,
+    /// Shape (n_degrees_of_freedom).
+    displacement: Vec<f64>,
+}
+
+serial!(Precedents {
+    curvature,
+    equilibria
+});
+serial!(Precedent {
+    load_factor,
+    displacement
+});
+
+impl Precedents {
+    /// The precedents as they were when the bytes were written.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or of another model.
+    pub(super) fn restored(from: &mut &[u8], unknowns: &Unknowns) -> Result<Self, CheckpointError> {
+        let precedents: Self = Serial::read(from)?;
+        let n = unknowns.layout().n_degrees_of_freedom();
+        let mut equilibria = precedents.equilibria.iter();
+        let is_whole = equilibria.all(|it| it.displacement.len() == n);
+        match is_whole && precedents.curvature.fits(unknowns.len()) {
+            true => Ok(precedents),
+            false => Err(CheckpointError::OtherModel),
+        }
+    }
+
+    /// Takes in an equilibrium; one after a breakage takes the place of that before it.
+    pub(super) fn learn(&mut self, state: &State, is_after_breakage: bool) {
+        if is_after_breakage {
+            self.equilibria.pop();
+        } else if self.equilibria.len() == 2 {
+            self.equilibria.remove(0);
+        }
+        self.equilibria.push(Precedent {
+            load_factor: state.load_factor,
+            displacement: state.displacement.clone(),
+        });
+    }
+
+    /// A state that goes on as the body did in the last load step, to its load factor or to the value of a motion; None where it does
+    /// something else now.
+    pub(super) fn ahead(&self, state: &State, target: Option<&Target>) -> Option<State> {
+        let [before, last] = self.equilibria.as_slice() else {
+            return None;
+        };
+        let part = match target {
+            None => {
+                (state.load_factor - last.load_factor) / (last.load_factor - before.load_factor)
+            }
+            Some(target) => {
+                let [first, second] = [before, last].map(|it| target.motion(&it.displacement));
+                (target.value - second) / (second - first)
+            }
+        };
+        if !(part > 0.0 && part <= GROWTH) {
+            return None;
+        }
+        let mut ahead = state.clone();
+        if target.is_some() {
+            ahead.load_factor += part * (last.load_factor - before.load_factor);
+        }
+        let changes = last.displacement.iter().zip(&before.displacement);
+        for (value, (last, before)) in ahead.displacement.iter_mut().zip(changes) {
+            *value += part * (last - before);
+        }
+        Some(ahead)
+    }
+}

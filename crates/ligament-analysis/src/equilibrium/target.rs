@@ -1,0 +1,70 @@
+//! A motion that is held at a value, with the load factor as an unknown: what a test does that is controlled by the opening of a crack.
+//!
+//! With a correction du_r of the forces that are not in balance and the growth u_B of the displacements with the load factor, the motion
+//! c . u that is to be c* changes the load factor by
+//!
+//! d_lambda = (c* - c . u - c . du_r)/(c . u_B),
+//!
+//! and du = du_r + d_lambda u_B brings the motion to c* (Batoz and Dhatt 1979).
+
+use std::sync::Arc;
+
+use crate::load_program::LoadProgram;
+use crate::unbalanced::Unbalanced;
+
+/// What a motion may miss its value by, relative to the way that it goes in its stage.
+const MISSED: f64 = 1e-9;
+
+/// Growth of the controlled motion with the load factor, relative to the largest growth of a displacement, below which the load does not
+/// move it.
+const UNMOVED: f64 = 1e-12;
+
+/// A motion with its value, which a load is to bring about.
+#[derive(Debug, Clone)]
+pub(crate) struct Target {
+    /// What grows with the load factor, for a load factor of one.
+    pub(crate) rate: Arc<dyn LoadProgram>,
+    /// Degrees of freedom with their weights in the motion.
+    pub(crate) weights: Vec<(u32, f64)>,
+    /// The value of the motion, m or rad.
+    pub(crate) value: f64,
+    /// The way that the motion goes in its stage, m or rad.
+    pub(crate) way: f64,
+}
+
+impl Target {
+    /// The motion in displacements (n_degrees_of_freedom).
+    pub(super) fn motion(&self, displacement: &[f64]) -> f64 {
+        let terms = self.weights.iter();
+        let terms = terms.map(|&(dof, weight)| weight * displacement[dof as usize]);
+        terms.sum()
+    }
+
+    /// Whether the motion has its value in displacements (n_degrees_of_freedom).
+    pub(super) fn is_met(&self, displacement: &[f64]) -> bool {
+        let missing = self.value - self.motion(displacement);
+        missing.abs() <= MISSED * self.way.abs()
+    }
+
+    /// The change of the load factor that brings the motion of displacements to its value, with what a correction adds to them and what
+    /// they grow by with the load factor, all of shape (n_degrees_of_freedom).
+    ///
+    /// # Errors
+    ///
+    /// If the load does not move what is to move.
+    pub(super) fn load_change(
+        &self,
+        displacement: &[f64],
+        moved: &[f64],
+        growth: &[f64],
+    ) -> Result<f64, Unbalanced> {
+        let largest = growth.iter().fold(0.0_f64, |size, it| size.max(it.abs()));
+        let gained = self.motion(growth);
+        let missing = self.value - self.motion(displacement) - self.motion(moved);
+        let change = missing / gained;
+        if gained.abs() <= UNMOVED * largest || !change.is_finite() {
+            return Err(Unbalanced::Unmoved);
+        }
+        Ok(change)
+    }
+}
