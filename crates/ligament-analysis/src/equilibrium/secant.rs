@@ -76,14 +76,7 @@ fn sought(
     target: Option<&Target>,
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
-    let mut precedents = std::mem::take(&mut equations.precedents);
-    // Pairs that close and open change the stiffness at once; and where one breakage brings on another, what was shown before it would
-    // decide on where the fall ends.
-    if equations.problem.system.faces_close() {
-        precedents = Precedents::default();
-    } else if !breakage.bonds.is_empty() {
-        precedents.curvature.forget();
-    }
+    let mut precedents = recalled(equations, breakage);
     let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &precedents);
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
@@ -131,6 +124,21 @@ fn sought(
         };
         iterations += 1;
     }
+}
+
+/// The earlier equilibria that tell something about the one that is sought.
+///
+/// Pairs that close and open change the stiffness at once; and where one breakage brings on another, what was shown before it would decide
+/// on where the fall ends.
+fn recalled(equations: &mut Equations, breakage: &Breakage) -> Precedents {
+    let mut precedents = std::mem::take(&mut equations.precedents);
+    if equations.problem.system.faces_close() {
+        return Precedents::default();
+    }
+    if !breakage.bonds.is_empty() {
+        precedents.curvature.forget();
+    }
+    precedents
 }
 
 /// The iterate from which equilibrium is sought, and the number of corrections that it took.
