@@ -1,17 +1,9 @@
 //! Dissipated energy that controls the load: through peaks and snap-backs, of bonds that soften and of brittle ones.
-#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
-use ligament::Loading;
-use ligament::prelude::*;
-use ligament::run::{follow, restore, resume};
-use ligament::setup::{Control, Quantity};
-use ligament_analysis::driver::Outcome;
-use ligament_analysis::history::{
-    BreakRecord, Moment, ObserverError, Onward, StepRecord, Termination, View,
-};
-use ligament_model::failure::After;
 use ligament_model::failure::fracture_energy::BOND_ENERGY;
-use ligament_model::failure::softening::{brittle, linear};
+use ligament_model::failure::softening::{self, brittle};
+
+use super::*;
 
 /// Stiffness of the machine, N/m.
 const MACHINE: f64 = 8e7;
@@ -20,7 +12,7 @@ const MACHINE: f64 = 8e7;
 const FRACTURE_ENERGY: f64 = 100.0;
 
 /// A bar of 30 by 8 cells of 1 mm, 1 m thick, that two notches leave 4 mm of, pulled by 0.2 mm at its right end.
-fn bar(law: ligament_model::failure::softening::Law, analysis: Analysis, stage: Stage) -> Setup {
+fn bar(law: softening::Law, analysis: Analysis, stage: Stage) -> Setup {
     let sets = [("left", CellSet::Left(2)), ("right", CellSet::Right(2))];
     let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
     let body = LatticeBody::new([30, 8], [0.001; 2], [0.0; 2], &[], &sets).unwrap();
@@ -75,42 +67,6 @@ fn steps() -> Analysis {
     let mut settings = stepped(Vec::new());
     settings.energy_tolerance = 1e-6;
     Analysis::Stepped(settings)
-}
-
-/// Bonds that broke; and what a run told, with every digit, and its moments, where these are wanted.
-#[derive(Default)]
-struct Recorder {
-    keeps_all: bool,
-    lines: Vec<String>,
-    breaks: Vec<BreakRecord>,
-    moments: Vec<(usize, Vec<u8>)>,
-}
-
-impl Observer for Recorder {
-    fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
-        self.breaks.extend(records);
-        Ok(())
-    }
-
-    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        if self.keeps_all {
-            self.moments.push((self.lines.len(), (moment.checkpoint)()));
-        }
-        Ok(Onward::Go)
-    }
-
-    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        if self.keeps_all {
-            self.lines.push(format!("{record:?} {:?}", view.state));
-        }
-        Ok(())
-    }
-}
-
-fn run(setup: Setup) -> (Outcome, Recorder) {
-    let mut recorder = Recorder::default();
-    let outcome = setup.solve(&mut recorder).unwrap().outcome;
-    (outcome, recorder)
 }
 
 /// Force of a curve of displacements that grow, at one of them.
@@ -223,25 +179,7 @@ fn runs_go_on_to_the_same_bits() {
             control: None,
         };
         setup.stages.push(back);
-        let model = Model::build(setup, &mut ()).unwrap();
-        let loading = Loading::new(&model.setup, &model.system).unwrap();
-        let problem = loading.problem(&model.system, &model.criteria);
-        let mut whole = Recorder {
-            keeps_all: true,
-            ..Recorder::default()
-        };
-        let outcome = follow(&problem, &analysis, &mut whole).unwrap();
-        assert!(whole.moments.len() > 12, "{}", outcome.termination);
-        for (from, checkpoint) in &whole.moments {
-            let restored = restore(&problem, &analysis, checkpoint).unwrap();
-            let mut rest = Recorder {
-                keeps_all: true,
-                ..Recorder::default()
-            };
-            let again = resume(&analysis, restored, &mut rest).unwrap();
-            assert!(rest.lines == whole.lines[*from..], "moment {from}");
-            assert_eq!(again.state, outcome.state);
-        }
+        assert!(goes_on_from_every_moment(setup, &analysis) > 12);
     }
 }
 
