@@ -107,6 +107,8 @@ class Page {
     const [values, displacement, inner] = await Promise.all([
       run.values(choice, step), run.displacement(step), this.readLayers(),
     ]);
+    // One picture a frame: a slow machine would pile them up.
+    await new Promise(requestAnimationFrame);
     if (asked !== this.asked) return;
     this.values = values;
     this.displacement = displacement;
