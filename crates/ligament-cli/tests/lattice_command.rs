@@ -39,14 +39,14 @@ fn check_shows_the_lattice() {
     assert_eq!(code, Some(0), "{said}");
     for line in [
         "lattice\n  cells                 220 of 20 x 12 (20 removed)\n",
-        "  area                  2.200000e-2 m^2\n",
+        "  area                  0.02200 m^2\n",
         "  thickness             ",
-        "  set left              33 points, 3.3333e-3 m of a side each\n",
+        "  set left              33 points, 3.333 mm of a side each\n",
         "  set rock              220 points\n",
         "  set disk              8 points\n",
         "  set tip               6 points\n",
         "  pairs across voids    134\n",
-        "  horizon               3.0000e-2 to 3.0000e-2 m",
+        "  horizon               30.00 mm\n",
         "warning: the body consists of 2 parts that no bond connects\n",
     ] {
         assert!(said.contains(line), "{line}\n{said}");
