@@ -194,7 +194,7 @@ fn the_check_tells_how_stiff_the_body_is() {
     let case = "cases/verification/patch-test.toml";
     let report = checked(case, &[], Extent::Matrix);
     for line in [
-        "Young's modulus       1.",
+        "Young's modulus       15.00 GPa (",
         " %) along x, ",
         " for 0.2100",
         "strains of the bonds  off the mean strain by 0.",
