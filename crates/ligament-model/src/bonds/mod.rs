@@ -8,15 +8,15 @@ pub mod star;
 
 /// All bonds of a body, as arrays over the bonds.
 ///
-/// Bonds are in the order of their ends: by the first end, then by the second.
+/// Bonds are in the order of their ends: by the first end, then by the second. They lie in the plane, or for D = 3 in space.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BondSet {
+pub struct BondSet<const D: usize = 2> {
     /// Points A < B of each bond, shape (n_bonds).
     pub ends: Vec<[u32; 2]>,
     /// Lengths l, shape (n_bonds), m.
     pub length: Vec<f64>,
-    /// Direction cosines (a, b) from A to B, shape (n_bonds).
-    pub direction: Vec<[f64; 2]>,
+    /// Direction cosines from A to B, shape (n_bonds).
+    pub direction: Vec<[f64; D]>,
     /// Bond horizons H, shape (n_bonds), m.
     pub horizon: Vec<f64>,
     /// The bonds of each point.
@@ -30,7 +30,7 @@ pub struct Incidence {
     bonds: Vec<u32>,
 }
 
-impl BondSet {
+impl<const D: usize> BondSet<D> {
     /// Number of bonds.
     pub fn len(&self) -> usize {
         self.ends.len()

@@ -9,12 +9,12 @@ use crate::horizon::{Horizons, INCLUSION_TOLERANCE};
 /// Points whose pairs are found by one thread in one go.
 const BLOCK: usize = 1024;
 
-impl BondSet {
+impl<const D: usize> BondSet<D> {
     /// Bonds every pair with l <= max(h_A, h_B), found with an R*-tree: one query a point, O(N log N) in all.
     ///
     /// The bond horizon (NHPD eq. 1) is the mean of the two where each point holds the other, and the larger one where
     /// only that one holds the other point.
-    pub fn search(cloud: &PointCloud, horizons: &Horizons) -> Self {
+    pub fn search(cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
         let tree = search_tree(&cloud.positions);
         let found: Vec<Vec<[u32; 2]>> = cloud
             .curve
@@ -40,9 +40,9 @@ impl BondSet {
     }
 
     /// Bonds between the given pairs of points (A < B, ascending, each once), whatever their distance.
-    fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud, horizons: &Horizons) -> Self {
+    fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
         let mut length = vec![0.0; ends.len()];
-        let mut direction = vec![[0.0; 2]; ends.len()];
+        let mut direction = vec![[0.0; D]; ends.len()];
         let mut horizon = vec![0.0; ends.len()];
         (&ends, &mut length, &mut direction, &mut horizon)
             .into_par_iter()
@@ -50,7 +50,7 @@ impl BondSet {
                 let [a, b] = pair.map(|point| cloud.positions[point as usize]);
                 let l = distance(a, b);
                 *length = l;
-                *direction = [(b[0] - a[0]) / l, (b[1] - a[1]) / l];
+                *direction = std::array::from_fn(|axis| (b[axis] - a[axis]) / l);
                 *horizon = bond_horizon(pair, l, horizons);
             });
         let incidence = Incidence::new(&ends, cloud.len());
@@ -86,7 +86,12 @@ fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
 
 /// Whether the query around `point` is the one that records the pair: the lower point does where its horizon holds the
 /// other, else the upper one.
-fn is_recorded_by(point: u32, neighbour: u32, cloud: &PointCloud, horizons: &Horizons) -> bool {
+fn is_recorded_by<const D: usize>(
+    point: u32,
+    neighbour: u32,
+    cloud: &PointCloud<D>,
+    horizons: &Horizons,
+) -> bool {
     let l = distance(
         cloud.positions[point as usize],
         cloud.positions[neighbour as usize],

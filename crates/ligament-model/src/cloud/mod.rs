@@ -13,21 +13,22 @@ use crate::horizon::INCLUSION_TOLERANCE;
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
 /// Positions are kept relative to the middle of the bounding box: differences of coordinates of a body that lies far
-/// from the origin would lose digits. [`PointCloud::local`] takes a position of the case to these coordinates.
+/// from the origin would lose digits. [`PointCloud::local`] takes a position of the case to these coordinates. Points lie in the
+/// plane, or for D = 3 in space.
 #[derive(Debug, Clone)]
-pub struct PointCloud {
+pub struct PointCloud<const D: usize = 2> {
     /// Positions X_i relative to [`PointCloud::origin`], shape (n_points), m.
-    pub positions: Vec<[f64; 2]>,
+    pub positions: Vec<[f64; D]>,
     /// Middle of the bounding box, which is subtracted from the positions of the mesh file or the lattice, m.
-    pub origin: [f64; 2],
-    /// Thickness t, m.
+    pub origin: [f64; D],
+    /// Thickness t, m; 1 in space.
     pub thickness: f64,
     /// Volumes V_i, shape (n_points), m^3.
     pub volumes: Vec<f64>,
     /// Distance to the nearest point dmin_i, shape (n_points), m.
     pub spacing: Vec<f64>,
-    /// Sides dx, dy of the points' cells on a lattice, where all have the same; none on a mesh, m.
-    pub lattice_cell: Option<[f64; 2]>,
+    /// Sides of the points' cells on a lattice, where all have the same; none on a mesh, m.
+    pub lattice_cell: Option<[f64; D]>,
     /// Number of materials.
     pub n_materials: usize,
     /// Share of each material in the volume of each point, shape (n_points, n_materials) row-major; rows sum to one.
@@ -37,9 +38,24 @@ pub struct PointCloud {
 }
 
 /// A point of the search tree, with its number.
-pub(crate) type NumberedPoint = GeomWithData<[f64; 2], u32>;
+pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
 impl PointCloud {
+    /// Sides of the cell that a point stands for, m: dx, dy on a lattice; on a mesh those of the square with the point's area,
+    /// sqrt(V/t) twice.
+    pub fn cell_size(&self, point: u32) -> [f64; 2] {
+        self.lattice_cell
+            .unwrap_or_else(|| [(self.volumes[point as usize] / self.thickness).sqrt(); 2])
+    }
+
+    /// Squared radius of gyration of a point's cell about its centre, (dx^2 + dy^2)/12, m^2.
+    pub fn squared_gyration(&self, point: u32) -> f64 {
+        let [dx, dy] = self.cell_size(point);
+        (dx * dx + dy * dy) / 12.0
+    }
+}
+
+impl<const D: usize> PointCloud<D> {
     /// Number of points.
     pub fn len(&self) -> usize {
         self.positions.len()
@@ -63,22 +79,9 @@ impl PointCloud {
         values
     }
 
-    /// Sides of the cell that a point stands for, m: dx, dy on a lattice; on a mesh those of the square with the point's area,
-    /// sqrt(V/t) twice.
-    pub fn cell_size(&self, point: u32) -> [f64; 2] {
-        self.lattice_cell
-            .unwrap_or_else(|| [(self.volumes[point as usize] / self.thickness).sqrt(); 2])
-    }
-
-    /// Squared radius of gyration of a point's cell about its centre, (dx^2 + dy^2)/12, m^2.
-    pub fn squared_gyration(&self, point: u32) -> f64 {
-        let [dx, dy] = self.cell_size(point);
-        (dx * dx + dy * dy) / 12.0
-    }
-
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
-    pub fn local(&self, position: [f64; 2]) -> [f64; 2] {
-        [position[0] - self.origin[0], position[1] - self.origin[1]]
+    pub fn local(&self, position: [f64; D]) -> [f64; D] {
+        std::array::from_fn(|axis| position[axis] - self.origin[axis])
     }
 
     /// Shares of the materials in the volume of a point, shape (n_materials).
@@ -100,7 +103,7 @@ impl PointCloud {
     /// # Panics
     ///
     /// Panics if there is no point at all, which no mesh or lattice with a cell gives.
-    pub fn nearest_point(&self, position: [f64; 2]) -> u32 {
+    pub fn nearest_point(&self, position: [f64; D]) -> u32 {
         let target = self.local(position);
         let nearest = (self.positions.iter())
             .map(|&p| distance(p, target))
@@ -115,9 +118,9 @@ impl PointCloud {
     /// # Panics
     ///
     /// Panics if there is no point at all, which no mesh or lattice with a cell gives.
-    pub fn nearest_points(&self, positions: &[[f64; 2]]) -> Vec<u32> {
+    pub fn nearest_points(&self, positions: &[[f64; D]]) -> Vec<u32> {
         let tree = search_tree(&self.positions);
-        let nearest = |&position: &[f64; 2]| {
+        let nearest = |&position: &[f64; D]| {
             let found = tree.nearest_neighbor(self.local(position));
             found.expect("a cloud has points").data
         };
@@ -125,12 +128,12 @@ impl PointCloud {
     }
 
     /// Points inside the box (coordinates of the case, rim included), ascending.
-    pub fn points_in_box(&self, lower: [f64; 2], upper: [f64; 2]) -> Vec<u32> {
+    pub fn points_in_box(&self, lower: [f64; D], upper: [f64; D]) -> Vec<u32> {
         let (lower, upper) = (self.local(lower), self.local(upper));
         (0..self.len())
             .filter(|&point| {
                 let (p, slack) = (self.positions[point], self.slack(point));
-                (0..2).all(|axis| lower[axis] - slack <= p[axis] && p[axis] <= upper[axis] + slack)
+                (0..D).all(|axis| lower[axis] - slack <= p[axis] && p[axis] <= upper[axis] + slack)
             })
             .map(|point| point as u32)
             .collect()
@@ -144,7 +147,7 @@ impl PointCloud {
 }
 
 /// A search tree over the points.
-pub(crate) fn search_tree(positions: &[[f64; 2]]) -> RTree<NumberedPoint> {
+pub(crate) fn search_tree<const D: usize>(positions: &[[f64; D]]) -> RTree<NumberedPoint<D>> {
     RTree::bulk_load(
         positions
             .iter()
@@ -155,8 +158,8 @@ pub(crate) fn search_tree(positions: &[[f64; 2]]) -> RTree<NumberedPoint> {
 }
 
 /// The middle of the smallest box around some positions, m.
-fn middle_of_bounding_box(positions: &[[f64; 2]]) -> [f64; 2] {
-    [0, 1].map(|axis| {
+pub(crate) fn middle_of_bounding_box<const D: usize>(positions: &[[f64; D]]) -> [f64; D] {
+    std::array::from_fn(|axis| {
         let (lower, upper) = positions
             .iter()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| {
@@ -171,6 +174,8 @@ fn middle_of_bounding_box(positions: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// Distance of two points, m; the same bits whichever comes first.
-pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+#[inline]
+pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    let squares = a.iter().zip(&b).map(|(a, b)| (b - a).powi(2));
+    squares.sum::<f64>().sqrt()
 }

@@ -3,19 +3,19 @@
 use super::{PointCloud, search_tree};
 use crate::curve::along_hilbert_curve;
 
-impl PointCloud {
+impl<const D: usize> PointCloud<D> {
     /// The cloud of points at `positions` (n_points, m) with their volumes (n_points, m^3) and the index of the material of each
     /// (n_points).
     pub fn from_points(
-        positions: &[[f64; 2]],
+        positions: &[[f64; D]],
         volumes: &[f64],
         thickness: f64,
         material_of_point: &[u32],
         n_materials: usize,
     ) -> Self {
         let origin = super::middle_of_bounding_box(positions);
-        let positions: Vec<[f64; 2]> = (positions.iter())
-            .map(|p| [p[0] - origin[0], p[1] - origin[1]])
+        let positions: Vec<[f64; D]> = (positions.iter())
+            .map(|p| std::array::from_fn(|axis| p[axis] - origin[axis]))
             .collect();
         let mut material_shares = vec![0.0; positions.len() * n_materials];
         for (point, &material) in material_of_point.iter().enumerate() {
