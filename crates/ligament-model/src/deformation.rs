@@ -107,7 +107,10 @@ impl Deformations {
             return Self::in_plane(ahead.collect());
         }
         let both = self.in_space.par_iter().zip(&slopes.in_space);
-        Self::in_space(both.map(|(here, slope)| here.less(&slope.scaled(-by))).collect())
+        Self::in_space(
+            both.map(|(here, slope)| here.less(&slope.scaled(-by)))
+                .collect(),
+        )
     }
 }
 
@@ -135,7 +138,10 @@ mod tests {
         let slopes = Deformations::in_space(vec![deformation(-1.0, 0.0, 2.0)]);
         let ahead = here.ahead(&slopes, 2.0);
         assert_eq!(ahead[0], BondDeformation::new([-1.0, 5.0, 5.0]));
-        assert_eq!(ahead.scaled(-2.0)[0], BondDeformation::new([2.0, 10.0, 10.0]));
+        assert_eq!(
+            ahead.scaled(-2.0)[0],
+            BondDeformation::new([2.0, 10.0, 10.0])
+        );
         assert_eq!(ahead.vectors()[0], deformation(-1.0, 3.0, 4.0));
     }
 }

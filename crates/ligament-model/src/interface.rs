@@ -6,7 +6,7 @@ use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
-use crate::element::{Remaining, Term};
+use crate::element::{BondDeformation, Remaining, Term};
 use crate::failure::{Criteria, Criterion};
 use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
@@ -147,21 +147,20 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         deformations: [&Deformations; 2],
     ) -> f64;
 
-    /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
-    fn energy_density(
+    /// Energy 1/2 u^T K u, J, of an unbroken bond with what remains of its stiffness, from what criteria measure of its deformation.
+    fn stored_energy(
         &self,
-        bonds: BondsLeft<'_>,
-        deformations: &Deformations,
-        point: u32,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64;
 
+    /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64;
+
     /// Components of the virial stress of a point, Pa.
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &Deformations,
-        point: u32,
-    ) -> Vec<f64>;
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
 
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(

@@ -54,7 +54,8 @@ pub fn run(
     }
     if let Some(criterion) = (problem.system)
         .unknown_along_lines(&problem.criteria)
-        .filter(|_| is_staged) {
+        .filter(|_| is_staged)
+    {
         return Err(SetupError::UnknownAlongLines {
             criterion: criterion.name,
         });

@@ -250,21 +250,21 @@ impl Bonds for BondSystem {
         typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(&one[bond], &other[bond]))
     }
 
-    fn energy_density(
+    fn stored_energy(
         &self,
-        bonds: BondsLeft<'_>,
-        deformations: &Deformations,
-        point: u32,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64 {
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(measured, measured))
+    }
+
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64 {
         typed!(self, it => it.energy_density(bonds, deformations, point))
     }
 
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &Deformations,
-        point: u32,
-    ) -> Vec<f64> {
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
         typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
     }
 
