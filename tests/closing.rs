@@ -111,7 +111,7 @@ fn pairs_are_in_balance() {
             moment += match layout.component(dof as usize) {
                 Component::X => -y * force,
                 Component::Y => x * force,
-                Component::Rotation => force,
+                _ => force,
             };
         }
         assert!(moment.abs() < 1e-15, "{moment:e}");
