@@ -111,7 +111,8 @@ fn pairs_are_in_balance() {
             moment += match layout.component(dof as usize) {
                 Component::X => -y * force,
                 Component::Y => x * force,
-                _ => force,
+                Component::Rotation => force,
+                other => unreachable!("{other:?} in the plane"),
             };
         }
         assert!(moment.abs() < 1e-15, "{moment:e}");
