@@ -51,7 +51,7 @@ pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use element::ElementKind;
 pub use fixed::{Absence, AbsentBond, FixedFields};
-pub use grid::{BodyGrid, Canvas};
+pub use grid::{BodyGrid, Canvas, box_corners, raised};
 pub use horizon::Horizons;
 pub use interface::Bonds;
 pub use law::BondStiffness;
