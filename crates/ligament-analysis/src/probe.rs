@@ -61,7 +61,8 @@ pub enum PointField {
     Stress(StressComponent),
 }
 
-/// A component of a symmetric stress.
+/// A component of a symmetric stress, in the order in which bonds give them: the three of the plane, and those that a solid has
+/// beside them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressComponent {
     /// sigma_xx.
@@ -70,6 +71,12 @@ pub enum StressComponent {
     Yy,
     /// sigma_xy.
     Xy,
+    /// sigma_zz.
+    Zz,
+    /// sigma_xz.
+    Xz,
+    /// sigma_yz.
+    Yz,
 }
 
 impl Reading {
@@ -119,7 +126,7 @@ impl Reading {
                     let deformations = &balanced.deformations;
                     let mut stress = system.stress(state.bonds(), deformations, *point);
                     contact::add_virial(system, &balanced.closed, *point, &mut stress);
-                    stress[*component as usize]
+                    stress.get(*component as usize).copied().unwrap_or(0.0)
                 }
                 PointField::StrainEnergyDensity => fields::point_energy_density(
                     system,

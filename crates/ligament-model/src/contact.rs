@@ -105,7 +105,7 @@ impl ClosedPair {
         match component {
             Component::X => self.force() * self.pair.normal[0],
             Component::Y => self.force() * self.pair.normal[1],
-            Component::Rotation => 0.0,
+            _ => 0.0,
         }
     }
 

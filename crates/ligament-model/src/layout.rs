@@ -9,18 +9,36 @@ pub enum Component {
     X,
     /// Displacement along y, m.
     Y,
-    /// Rotation, counter-clockwise, rad.
+    /// Rotation in the plane, counter-clockwise, rad.
     Rotation,
+    /// Displacement along z, m.
+    Z,
+    /// Rotation about x, right-handed, rad.
+    RotationX,
+    /// Rotation about y, right-handed, rad.
+    RotationY,
+    /// Rotation about z, right-handed, rad.
+    RotationZ,
 }
 
 impl Component {
     /// All components in the plane, in their order at a point.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
+    /// All components in space, in their order at a point.
+    pub const IN_SPACE: [Self; 6] = [
+        Self::X,
+        Self::Y,
+        Self::Z,
+        Self::RotationX,
+        Self::RotationY,
+        Self::RotationZ,
+    ];
+
     /// Whether the component is an angle.
     #[inline]
     pub fn is_rotation(self) -> bool {
-        self == Self::Rotation
+        !matches!(self, Self::X | Self::Y | Self::Z)
     }
 
     /// Name in case files and results.
@@ -29,6 +47,10 @@ impl Component {
             Self::X => "x",
             Self::Y => "y",
             Self::Rotation => "rotation",
+            Self::Z => "z",
+            Self::RotationX => "rotation_x",
+            Self::RotationY => "rotation_y",
+            Self::RotationZ => "rotation_z",
         }
     }
 }
@@ -82,6 +104,7 @@ impl Layout {
         match self.components.len() as u32 {
             2 => (dof / 2, dof % 2),
             3 => (dof / 3, dof % 3),
+            6 => (dof / 6, dof % 6),
             count => (dof / count, dof % count),
         }
     }

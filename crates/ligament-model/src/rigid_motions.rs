@@ -82,16 +82,17 @@ impl<'a> RigidMotions<'a> {
         match self.layout.component(degree_of_freedom) {
             Component::X => [1.0, 0.0, turn_x],
             Component::Y => [0.0, 1.0, turn_y],
-            Component::Rotation => [0.0, 0.0, turn],
+            _ => [0.0, 0.0, turn],
         }
     }
 
     /// What a motion does to a degree of freedom, m or rad.
     fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
         let value = dot(self.row(degree_of_freedom), motion);
-        match self.layout.component(degree_of_freedom) {
-            Component::Rotation => value / self.radius,
-            Component::X | Component::Y => value,
+        if self.layout.component(degree_of_freedom).is_rotation() {
+            value / self.radius
+        } else {
+            value
         }
     }
 
@@ -113,9 +114,11 @@ impl<'a> RigidMotions<'a> {
     /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
     fn work(&self, motion: Motion, forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
         forces.fold([0.0; 2], |[work, size], (dof, force)| {
-            let force = match self.layout.component(dof) {
-                Component::Rotation => force / self.radius,
-                Component::X | Component::Y => force,
+            let is_couple = self.layout.component(dof).is_rotation();
+            let force = if is_couple {
+                force / self.radius
+            } else {
+                force
             };
             [
                 work + force * dot(self.row(dof), motion),

@@ -46,14 +46,22 @@ fn motion(component: Component) -> &'static str {
     match component {
         Component::X => "translation along x",
         Component::Y => "translation along y",
+        Component::Z => "translation along z",
         Component::Rotation => "rotation",
+        Component::RotationX => "rotation about x",
+        Component::RotationY => "rotation about y",
+        Component::RotationZ => "rotation about z",
     }
 }
 
 fn load(motion: &FreeMotion) -> String {
     match motion.component {
-        Component::X => format!("along x {:.3e} N", motion.load),
-        Component::Y => format!("along y {:.3e} N", motion.load),
+        Component::X | Component::Y | Component::Z => {
+            format!("along {} {:.3e} N", motion.component.name(), motion.load)
+        }
         Component::Rotation => format!("moment {:.3e} N m", motion.load),
+        Component::RotationX => format!("moment about x {:.3e} N m", motion.load),
+        Component::RotationY => format!("moment about y {:.3e} N m", motion.load),
+        Component::RotationZ => format!("moment about z {:.3e} N m", motion.load),
     }
 }

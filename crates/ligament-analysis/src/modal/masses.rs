@@ -3,7 +3,7 @@
 use ligament_model::LumpedMass;
 
 use super::mode::Rotations;
-use crate::unknowns::{Component, Layout, Unknowns};
+use crate::unknowns::{Layout, Unknowns};
 
 /// Displacements closer than this (relative) to the largest one count as largest.
 const TIE: f64 = 1e-6;
@@ -23,10 +23,10 @@ impl Masses {
         let layout = unknowns.layout();
         let of_component = |dof: usize| {
             let point = layout.point(dof) as usize;
-            match (layout.component(dof), rotations) {
-                (Component::X | Component::Y, _) => mass.mass[point],
-                (Component::Rotation, Rotations::Inertia) => mass.inertia[point],
-                (Component::Rotation, Rotations::Massless) => 0.0,
+            match (layout.component(dof).is_rotation(), rotations) {
+                (false, _) => mass.mass[point],
+                (true, Rotations::Inertia) => mass.inertia[point],
+                (true, Rotations::Massless) => 0.0,
             }
         };
         let n_dofs = layout.n_degrees_of_freedom();

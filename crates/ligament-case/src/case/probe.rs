@@ -74,7 +74,7 @@ impl Probe {
         match self.component(key)? {
             Component::X => Ok(Axis::X),
             Component::Y => Ok(Axis::Y),
-            Component::Rotation => {
+            _ => {
                 let reason = "the force through a section has the components \"x\" and \"y\" only";
                 Err(KeyFault::new(key.child("component"), reason))
             }

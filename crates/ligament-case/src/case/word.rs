@@ -193,7 +193,11 @@ worded! { Axis:
 worded! { Component:
     [Self::X] "x" "Displacement along x, m.";
     [Self::Y] "y" "Displacement along y, m.";
-    [Self::Rotation] "rotation" "Rotation, rad, counter-clockwise.";
+    [Self::Rotation] "rotation" "Rotation in the plane, rad, counter-clockwise.";
+    [Self::Z] "z" "Displacement along z of a solid, m.";
+    [Self::RotationX] "rotation_x" "Rotation about x in a solid, rad, right-handed.";
+    [Self::RotationY] "rotation_y" "Rotation about y in a solid, rad, right-handed.";
+    [Self::RotationZ] "rotation_z" "Rotation about z in a solid, rad, right-handed.";
 }
 
 worded! { PointField:
@@ -203,11 +207,18 @@ worded! { PointField:
     [Self::DamageBy(Weakened::Sliding)] "damage_sliding" "Damage by sliding of bonds, d_gamma.";
     [Self::Motion(Component::X)] "displacement_x" "Displacement along x, m.";
     [Self::Motion(Component::Y)] "displacement_y" "Displacement along y, m.";
-    [Self::Motion(Component::Rotation)] "rotation" "Rotation, rad, counter-clockwise.";
+    [Self::Motion(Component::Rotation)] "rotation" "Rotation in the plane, rad, counter-clockwise.";
+    [Self::Motion(Component::Z)] "displacement_z" "Displacement along z of a solid, m.";
+    [Self::Motion(Component::RotationX)] "rotation_x" "Rotation about x in a solid, rad, right-handed.";
+    [Self::Motion(Component::RotationY)] "rotation_y" "Rotation about y in a solid, rad, right-handed.";
+    [Self::Motion(Component::RotationZ)] "rotation_z" "Rotation about z in a solid, rad, right-handed.";
     [Self::StrainEnergyDensity] "strain_energy_density" "Strain energy density, J/m^3.";
     [Self::Stress(StressComponent::Xx)] "stress_xx" "Virial stress xx, Pa.";
     [Self::Stress(StressComponent::Yy)] "stress_yy" "Virial stress yy, Pa.";
     [Self::Stress(StressComponent::Xy)] "stress_xy" "Virial stress xy, Pa.";
+    [Self::Stress(StressComponent::Zz)] "stress_zz" "Virial stress zz of a solid, Pa.";
+    [Self::Stress(StressComponent::Xz)] "stress_xz" "Virial stress xz of a solid, Pa.";
+    [Self::Stress(StressComponent::Yz)] "stress_yz" "Virial stress yz of a solid, Pa.";
 }
 
 /// A value that is read and written as its word.

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 
 use ligament::setup::{Load, Setup, Support};
-use ligament_analysis::Component;
 
 use ligament_output::quantity::quantity;
 
@@ -30,9 +29,10 @@ fn of_support(support: &Support) -> Vec<String> {
         .map(|it| it.name().to_owned())
         .collect();
     for (component, total) in support.stiffness.components() {
-        let unit = match component {
-            Component::Rotation => "N m/rad",
-            Component::X | Component::Y => "N/m",
+        let unit = if component.is_rotation() {
+            "N m/rad"
+        } else {
+            "N/m"
         };
         words.push(format!(
             "{} by springs of {}",

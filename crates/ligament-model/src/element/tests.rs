@@ -182,7 +182,7 @@ impl<E: Elements<M>, const M: usize> Body<E, M> {
             E::COMPONENTS.map(|component| match component {
                 Component::X => x - rotation * p[1],
                 Component::Y => y + rotation * p[0],
-                Component::Rotation => rotation,
+                _ => rotation,
             })
         };
         self.positions.iter().flat_map(at).collect()
