@@ -30,7 +30,8 @@ pub enum Cell {
     Triangle([u32; 3]),
     /// Four corners in order around the cell.
     Quad([u32; 4]),
-    /// A tetrahedron, hexahedron, prism or pyramid.
+    /// A tetrahedron, hexahedron, prism or pyramid, its corners as Gmsh has them: VTK then finds a positive volume. For prisms its
+    /// documentation says otherwise, and meshio turns both triangles round.
     Solid(SolidCell),
 }
 

@@ -44,6 +44,9 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
             let cells = cells.iter().map(drawn).collect();
             MappedBody::of_mesh("", grid.positions_in_plane(), cells, displacements, values)
         }
+        Canvas::Solid(_) | Canvas::Boxes(_) => {
+            return Err(PictureError::Solid("a map from memory"));
+        }
     };
     let maps = Maps {
         name: picture.field.to_owned(),

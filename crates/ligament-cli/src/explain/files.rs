@@ -131,10 +131,9 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         });
         with_components(moment, lives, deformation)
     });
-    json!({
+    let mut document = json!({
         "ends": life.ends.map(|end| run.model.tags[end as usize]),
         "length": life.length,
-        "angle": angle(life),
         "horizon": bonds.horizon[life.pair],
         "alpha": bonds.length_factor[life.pair],
         "omega": bonds.domain_factor[life.pair],
@@ -142,7 +141,12 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         "breakage": breakage,
         "largest": nearest,
         "path": path.collect::<Vec<_>>(),
-    })
+    });
+    match run.model.in_space {
+        true => document["direction"] = json!(life.direction),
+        false => document["angle"] = json!(angle(life)),
+    }
+    document
 }
 
 /// An object with the components of a deformation under their names.

@@ -45,7 +45,9 @@ impl Faces {
         match canvas {
             Canvas::Between(cells) => Self::between_nodes(positions, cells),
             Canvas::Around(squares) => Self::around_points(squares),
-            Canvas::Solid(_) | Canvas::Boxes(_) => Unsorted::default().sorted(Vec::new(), Vec::new()),
+            Canvas::Solid(_) | Canvas::Boxes(_) => {
+                Unsorted::default().sorted(Vec::new(), Vec::new())
+            }
         }
     }
 

@@ -220,7 +220,8 @@ impl VtuFile {
         };
         let cells: Option<Vec<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
         let cells = cells.filter(|cells| cells.len() == self.contents.n_cells);
-        cells.ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
+        cells
+            .ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
     }
 
     /// The cells of a file whose cells are lines between its points, as their ends.
