@@ -42,6 +42,7 @@ fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
             Component::X => xx * x + 0.5 * xy * y,
             Component::Y => yy * y + 0.5 * xy * x,
             Component::Rotation => 0.0,
+            other => unreachable!("{other:?} in the plane"),
         })
     };
     model

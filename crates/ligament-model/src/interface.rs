@@ -5,8 +5,9 @@
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Term};
-use crate::failure::Criterion;
+use crate::failure::{Criteria, Criterion};
 use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
 use crate::sweep::BondSweep;
@@ -115,6 +116,11 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         force: &dyn Fn(usize) -> f64,
     ) -> Vec<FreeMotion>;
 
+    /// Displacements and rotations of some points in each rigid motion of them as a whole, whether it costs energy or not, shape
+    /// (motions, degrees of freedom of the points): translations of size one along the axes, then rotations about the middle of
+    /// the points by one over their radius, along which they turn as well.
+    fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>>;
+
     /// The rigid motions of the whole body about the centre of its masses (n_points).
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions;
 
@@ -124,7 +130,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
-    ) -> Vec<BondDeformation>;
+    ) -> Deformations;
 
     /// Forces and energy of bonds with given deformations (n_bonds).
     ///
@@ -133,41 +139,40 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     fn forces(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep;
 
-    /// 1/2 u^T K u', J, for two deformations of an unbroken bond with what remains of its stiffness.
+    /// 1/2 u^T K u', J, of an unbroken bond with what remains of its stiffness, for two deformations of all bonds.
     fn mutual_energy(
         &self,
         intact: &[bool],
         bond: usize,
         remaining: &Remaining,
-        deformations: [&BondDeformation; 2],
+        deformations: [&Deformations; 2],
+    ) -> f64;
+
+    /// Energy 1/2 u^T K u, J, of an unbroken bond with what remains of its stiffness, from what criteria measure of its deformation.
+    fn stored_energy(
+        &self,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64;
 
     /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
-    fn energy_density(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> f64;
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64;
 
     /// Components of the virial stress of a point, Pa.
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> Vec<f64>;
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
 
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(
         &self,
         reading: StressReading,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
     ) -> Stresses;
 
     /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
@@ -175,7 +180,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     fn force_through(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64;
@@ -205,6 +210,10 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         stresses: &mut Stresses,
     );
 
+    /// The first criterion of which the place where a bond reaches its limit is not known in closed form on a line of
+    /// deformations.
+    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion>;
+
     /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
     /// the bond never gets there.
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64;
@@ -215,6 +224,12 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Adds up the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and
     /// of itself, shape (n_lower + 1, components, components).
     fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
+
+    /// The product K u of the stiffness of the bonds that are left with motions u, shape (n_degrees_of_freedom) both; of bonds whose
+    /// forces are linear in the displacements. What `forces` held is lost.
+    ///
+    /// Nothing depends on the number of threads, as in [`Bonds::forces`].
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]);
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));

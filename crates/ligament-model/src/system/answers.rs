@@ -4,8 +4,9 @@ use super::{BondSystem, BondsLeft, Kinematics, Typed};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
-use crate::failure::{Criterion, Weakened};
+use crate::failure::{Criteria, Criterion, Weakened};
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
@@ -194,6 +195,11 @@ impl Bonds for BondSystem {
         motions.free_motions(points, is_fixed, force)
     }
 
+    fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
+        let (layout, positions) = (self.layout(), &self.cloud.positions);
+        RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
+    }
+
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {
         let total: f64 = masses.iter().sum();
         let middle = [0, 1].map(|axis| {
@@ -226,14 +232,14 @@ impl Bonds for BondSystem {
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
-    ) -> Vec<BondDeformation> {
+    ) -> Deformations {
         typed!(self, it => it.deformations(intact, displacement, expansion))
     }
 
     fn forces(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         typed!(self, it => it.forces(bonds, deformations, expansion))
@@ -244,26 +250,26 @@ impl Bonds for BondSystem {
         intact: &[bool],
         bond: usize,
         remaining: &Remaining,
-        [one, other]: [&BondDeformation; 2],
+        [one, other]: [&Deformations; 2],
     ) -> f64 {
-        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(one, other))
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(&one[bond], &other[bond]))
     }
 
-    fn energy_density(
+    fn stored_energy(
         &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64 {
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(measured, measured))
+    }
+
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64 {
         typed!(self, it => it.energy_density(bonds, deformations, point))
     }
 
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> Vec<f64> {
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
         typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
     }
 
@@ -271,7 +277,7 @@ impl Bonds for BondSystem {
         &self,
         reading: StressReading,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
     ) -> Stresses {
         match reading {
             StressReading::Virial => Stresses {
@@ -288,7 +294,7 @@ impl Bonds for BondSystem {
     fn force_through(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64 {
@@ -326,6 +332,10 @@ impl Bonds for BondSystem {
         self.add_stresses_of_contact(reading, closed, &mut stresses.values);
     }
 
+    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion> {
+        criteria.unknown_along_lines()
+    }
+
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
         let rigidity = match criterion.measure.weakens() {
             Weakened::Opening | Weakened::Crushing => self.rigidities.axial[bond],
@@ -345,6 +355,10 @@ impl Bonds for BondSystem {
 
     fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
         typed!(self, it => it.add_blocks(bonds, point, lower, blocks));
+    }
+
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+        typed!(self, it => it.multiply(bonds, motions, forces));
     }
 
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
