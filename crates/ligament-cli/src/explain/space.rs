@@ -1,35 +1,39 @@
 //! Deformations of bonds in space from the stored motions of points.
 
+use ligament_model::deformation::SpaceDeformation;
 use ligament_model::element::BondDeformation;
 use ligament_output::results::stored::Motions;
 
 use super::life::Life;
 
-/// The deformation of a bond in space: stretch s = n.du/l, size of the shear vector P du/l - phibar x n with P = I - n n^T, and size
-/// of the relative rotation phi_B - phi_A; s and the shear without what the temperature gives them. The points of springs do not
-/// turn, so that this holds for them as well.
+/// What criteria measure of a bond in space: stretch s = n.du/l, size of the shear vector P du/l - phibar x n with P = I - n n^T, and
+/// size of the relative rotation phi_B - phi_A; without what the temperature gives them. The points of springs do not turn, so that
+/// this holds for them as well.
 pub(super) fn deformed(life: &Life, motions: &Motions) -> BondDeformation {
     let n = life.direction;
     let [a, b] = life.ends.map(|end| end as usize);
     let [u_a, u_b] = [a, b].map(|end| motions.displacement[end]);
     let [phi_a, phi_b] = [a, b].map(|end| motions.rotation[end]);
     let mut gradient = [0, 1, 2].map(|axis| (u_b[axis] - u_a[axis]) / life.length);
-    if let (Some(at_a), Some(at_b)) = (motions.thermal_strain.get(a), motions.thermal_strain.get(b))
-    {
-        for axis in 0..3 {
-            gradient[axis] -= 0.5 * (at_a[axis] + at_b[axis]) * n[axis];
-        }
+    let free = motions.thermal_strain.of_space();
+    if let (Some(at_a), Some(at_b)) = (free.get(a), free.get(b)) {
+        let [xx, yy, zz, xy, xz, yz] = std::array::from_fn(|k| 0.5 * (at_a[k] + at_b[k]));
+        let rows = [
+            [xx, 0.5 * xy, 0.5 * xz],
+            [0.5 * xy, yy, 0.5 * yz],
+            [0.5 * xz, 0.5 * yz, zz],
+        ];
+        gradient = [0, 1, 2].map(|axis| gradient[axis] - dot(rows[axis], n));
     }
     let stretch = dot(n, gradient);
     let mean = [0, 1, 2].map(|axis| 0.5 * (phi_a[axis] + phi_b[axis]));
     let turned = cross(mean, n);
-    let shear = [0, 1, 2].map(|axis| gradient[axis] - stretch * n[axis] - turned[axis]);
-    let rotation = [0, 1, 2].map(|axis| phi_b[axis] - phi_a[axis]);
-    BondDeformation::new([
+    let deformation = SpaceDeformation {
         stretch,
-        dot(shear, shear).sqrt(),
-        dot(rotation, rotation).sqrt(),
-    ])
+        shear: [0, 1, 2].map(|axis| gradient[axis] - stretch * n[axis] - turned[axis]),
+        rotation: [0, 1, 2].map(|axis| phi_b[axis] - phi_a[axis]),
+    };
+    deformation.measured()
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -46,30 +50,30 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
+    use ligament_model::thermal::FreeStrains;
+
     use super::*;
     use crate::explain::life::life_of;
 
-    /// A uniform stretch along the bond, a rigid turn about an axis askew to it, and a shear across it, by hand.
+    /// A stretch along the bond, shears across it, a rigid turn about an axis askew to it, and free strains, by hand.
     #[test]
     fn deformations_of_uniform_motions() {
         let life = life_of(Vec::new(), Vec::new());
         let moved = |displacement: [f64; 3], rotation: [f64; 3]| Motions {
             displacement: vec![[0.0; 3], displacement],
             rotation: vec![rotation; 2],
-            thermal_strain: Vec::new(),
+            thermal_strain: FreeStrains::default(),
         };
         let strains = |motions: &Motions| deformed(&life, motions).strains();
         assert_eq!(strains(&moved([0.5, 0.0, 0.0], [0.0; 3])), [0.5, 0.0, 0.0]);
         assert_eq!(strains(&moved([0.0, 3.0, 4.0], [0.0; 3])), [0.0, 5.0, 0.0]);
         // The turn by (1, 2, 3) moves the far end of the bond along x by (1, 2, 3) x (1, 0, 0) = (0, 3, -2).
-        assert_eq!(
-            strains(&moved([0.0, 3.0, -2.0], [1.0, 2.0, 3.0])),
-            [0.0, 0.0, 0.0]
-        );
+        let turned = moved([0.0, 3.0, -2.0], [1.0, 2.0, 3.0]);
+        assert_eq!(strains(&turned), [0.0, 0.0, 0.0]);
         let warm = Motions {
-            thermal_strain: vec![[0.25, 0.0, 0.0]; 2],
+            thermal_strain: FreeStrains::in_space(vec![[0.25, 0.0, 0.0, 6.0, 8.0, 0.0]; 2]),
             ..moved([0.5, 0.0, 0.0], [0.0; 3])
         };
-        assert_eq!(strains(&warm), [0.25, 0.0, 0.0]);
+        assert_eq!(strains(&warm), [0.25, 5.0, 0.0]);
     }
 }

@@ -97,7 +97,7 @@ pub(super) fn without_heat<const M: usize>(
     if motions.thermal_strain.is_empty() {
         return whole;
     }
-    let [a, b] = ends.map(|end| motions.thermal_strain[end as usize]);
+    let [a, b] = ends.map(|end| motions.thermal_strain.of_plane()[end as usize]);
     whole.less(&element.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
 }
 

@@ -13,7 +13,7 @@ use super::rule::WriteRule;
 use crate::Error;
 use crate::vtu::Field;
 
-/// Field of the strain (eps_xx, eps_yy, gamma_xy) that the temperature would make without stress.
+/// Field of the strain (eps_xx, eps_yy, gamma_xy; in space eps_xx, eps_yy, eps_zz, gamma_xy, gamma_xz, gamma_yz) that the temperature would make without stress.
 pub(super) const THERMAL_STRAIN: &str = "thermal_strain";
 
 /// Field of the rotations of the points.
@@ -228,8 +228,11 @@ impl Heat {
             fields.push(Field::scalar("temperature_change", &self.change));
         }
         if !self.strain.is_empty() {
-            let components = &["xx", "yy", "xy"];
-            fields.push(Field::components(THERMAL_STRAIN, components, &self.strain));
+            let names: &[&str] = match self.strain.len() / self.change.len().max(1) {
+                6 => &["xx", "yy", "zz", "xy", "xz", "yz"],
+                _ => &["xx", "yy", "xy"],
+            };
+            fields.push(Field::components(THERMAL_STRAIN, names, &self.strain));
         }
         fields
     }

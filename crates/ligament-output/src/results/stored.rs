@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
+use ligament_model::thermal::FreeStrains;
 
 use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
@@ -140,9 +141,8 @@ pub struct Motions {
     pub displacement: Vec<[f64; 3]>,
     /// Rotations of the points about the axes, shape (n_points), rad; about z alone in the plane.
     pub rotation: Vec<[f64; 3]>,
-    /// Strain that the temperature would give each point without stress, shape (n_points, 3): (eps_xx, eps_yy, gamma_xy) in the
-    /// plane, (eps_xx, eps_yy, eps_zz) in space; empty where it does not change.
-    pub thermal_strain: Vec<[f64; 3]>,
+    /// Strains that the temperature would give the points without stress; empty where it does not change.
+    pub thermal_strain: FreeStrains,
 }
 
 impl StoredRun {
@@ -215,7 +215,10 @@ impl StoredRun {
         Ok(Some(Motions {
             displacement: displacement.as_chunks().0.to_vec(),
             rotation,
-            thermal_strain: thermal.as_chunks().0.to_vec(),
+            thermal_strain: match self.model.in_space {
+                true => FreeStrains::in_space(thermal.as_chunks().0.to_vec()),
+                false => FreeStrains::in_plane(thermal.as_chunks().0.to_vec()),
+            },
         }))
     }
 }
