@@ -118,7 +118,9 @@ impl Lives {
             for life in &mut lives.of_bonds {
                 life.deformation.push(match &strains {
                     Some(strains) => strains.deformation(life.pair, &motions),
-                    None if run.model.in_space => space::deformed(life, &motions),
+                    None if run.model.in_space => {
+                        space::deformed(life.ends, (life.length, life.direction), &motions)
+                    }
                     None => life.deformed(&motions),
                 });
             }

@@ -4,17 +4,18 @@ use ligament_model::deformation::SpaceDeformation;
 use ligament_model::element::BondDeformation;
 use ligament_output::results::stored::Motions;
 
-use super::life::Life;
-
-/// What criteria measure of a bond in space: stretch s = n.du/l, size of the shear vector P du/l - phibar x n with P = I - n n^T, and
+/// What criteria measure of a bond in space with its ends, length l and direction n: stretch s = n.du/l, size of the shear vector P du/l - phibar x n with P = I - n n^T, and
 /// size of the relative rotation phi_B - phi_A; without what the temperature gives them. The points of springs do not turn, so that
 /// this holds for them as well.
-pub(super) fn deformed(life: &Life, motions: &Motions) -> BondDeformation {
-    let n = life.direction;
-    let [a, b] = life.ends.map(|end| end as usize);
+pub(super) fn deformed(
+    ends: [u32; 2],
+    (length, n): (f64, [f64; 3]),
+    motions: &Motions,
+) -> BondDeformation {
+    let [a, b] = ends.map(|end| end as usize);
     let [u_a, u_b] = [a, b].map(|end| motions.displacement[end]);
     let [phi_a, phi_b] = [a, b].map(|end| motions.rotation[end]);
-    let mut gradient = [0, 1, 2].map(|axis| (u_b[axis] - u_a[axis]) / life.length);
+    let mut gradient = [0, 1, 2].map(|axis| (u_b[axis] - u_a[axis]) / length);
     let free = motions.thermal_strain.of_space();
     if let (Some(at_a), Some(at_b)) = (free.get(a), free.get(b)) {
         let [xx, yy, zz, xy, xz, yz] = std::array::from_fn(|k| 0.5 * (at_a[k] + at_b[k]));
@@ -53,18 +54,17 @@ mod tests {
     use ligament_model::thermal::FreeStrains;
 
     use super::*;
-    use crate::explain::life::life_of;
 
     /// A stretch along the bond, shears across it, a rigid turn about an axis askew to it, and free strains, by hand.
     #[test]
     fn deformations_of_uniform_motions() {
-        let life = life_of(Vec::new(), Vec::new());
         let moved = |displacement: [f64; 3], rotation: [f64; 3]| Motions {
             displacement: vec![[0.0; 3], displacement],
             rotation: vec![rotation; 2],
             thermal_strain: FreeStrains::default(),
         };
-        let strains = |motions: &Motions| deformed(&life, motions).strains();
+        let strains =
+            |motions: &Motions| deformed([0, 1], (1.0, [1.0, 0.0, 0.0]), motions).strains();
         assert_eq!(strains(&moved([0.5, 0.0, 0.0], [0.0; 3])), [0.5, 0.0, 0.0]);
         assert_eq!(strains(&moved([0.0, 3.0, 4.0], [0.0; 3])), [0.0, 5.0, 0.0]);
         // The turn by (1, 2, 3) moves the far end of the bond along x by (1, 2, 3) x (1, 0, 0) = (0, 3, -2).
