@@ -12,11 +12,13 @@
 //! | stage | module |
 //! |---|---|
 //! | micromoduli | [`law`] |
+//! | factors alpha and Omega | [`correction`] |
 //! | kinematics of a bond | [`element`] |
 //! | what the equations are made of | [`system`] |
 
 mod answers;
 mod change;
+pub mod correction;
 pub mod element;
 pub mod law;
 mod mass;
