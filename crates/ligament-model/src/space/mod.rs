@@ -13,12 +13,14 @@
 //! |---|---|
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
+//! | failure criteria with their limits | [`criteria`] |
 //! | kinematics of a bond | [`element`] |
 //! | what the equations are made of | [`system`] |
 
 mod answers;
 mod change;
 pub mod correction;
+pub mod criteria;
 pub mod element;
 pub mod law;
 mod mass;
