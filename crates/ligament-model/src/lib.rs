@@ -63,4 +63,5 @@ pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use scatter::Scatter;
 pub use shape::Shape;
+pub use space::SolidSystem;
 pub use system::{BondSystem, BondsLeft};
