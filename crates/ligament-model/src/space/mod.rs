@@ -12,7 +12,7 @@
 //! | stage | module |
 //! |---|---|
 //! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
-//! | bonds across holes | [`hole`] |
+//! | bonds across holes, and out of a mesh | [`hole`], [`outline`] |
 //! | micromoduli | [`law`] |
 //! | kinematics of a bond | [`element`] |
 //! | what the equations are made of | [`system`] |
@@ -25,6 +25,8 @@ pub mod hole;
 pub mod lattice;
 pub mod law;
 mod mass;
+pub mod outline;
+mod predicates;
 mod product;
 mod rigid_motions;
 pub mod shape;
