@@ -21,9 +21,9 @@
 
 mod answers;
 mod change;
+pub mod cloud;
 pub mod correction;
 pub mod criteria;
-pub mod cloud;
 pub mod element;
 pub mod hole;
 pub mod lattice;
