@@ -41,6 +41,7 @@ pub mod rigid_motions;
 pub mod scatter;
 pub mod shape;
 pub mod stress;
+pub mod surfaces;
 pub mod sweep;
 pub mod system;
 pub mod thermal;
