@@ -11,49 +11,72 @@ const SWEEPS: usize = 20;
 /// Share of the way to the mean of its neighbours that a place moves in a sweep.
 const SHARE: f64 = 0.5;
 
+/// The edges of a surface.
+struct Edges {
+    /// Places next to each place, along the rim of those on it, ascending.
+    neighbours: Vec<Vec<u32>>,
+    /// Places at edges of one triangle.
+    rim: BTreeSet<u32>,
+}
+
 impl CrackSurface {
-    /// The surface with each place moved along its normal, half way to the mean of its neighbours, twenty times.
+    /// The surface with each place moved half way to the mean of its neighbours, twenty times.
     ///
-    /// On the rim, where an edge has one triangle, the neighbours are those along the rim. Places move along the normal alone: the
-    /// rim does not shrink, and stays on a face of the body that stands upright on the crack.
+    /// On the rim, where an edge has one triangle, the neighbours are those along the rim, and places move along the normal alone: the
+    /// rim does not shrink, and stays on a face of the body that stands upright on the crack. Area and shape of what is smooth on
+    /// the scale of a few cells are those of the crack to 2 % (`tests/crack_surfaces.rs`); before, the area is up to 1.7 times as
+    /// large. A closed surface of radius R loses some two squared cells of R^2.
     pub fn smoothed(mut self) -> Self {
-        let neighbours = self.neighbours();
-        let mut triangles_of = vec![Vec::new(); self.places.len()];
-        for triangle in &self.triangles {
-            triangle
-                .iter()
-                .for_each(|place| triangles_of[*place as usize].push(*triangle));
-        }
+        let edges = self.edges();
+        let triangles_of = self.triangles_of();
         for _ in 0..SWEEPS {
             let moved = |(number, place): (usize, &[f64; 3])| {
-                let near = &neighbours[number];
-                let normal = normal(&self.places, &triangles_of[number]);
+                let near = &edges.neighbours[number];
                 if near.is_empty() {
                     return *place;
                 }
-                let ahead: f64 = (0..3)
-                    .map(|axis| {
-                        let sum: f64 = near.iter().map(|it| self.places[*it as usize][axis]).sum();
-                        normal[axis] * (sum / near.len() as f64 - place[axis])
-                    })
-                    .sum();
-                [0, 1, 2].map(|axis| place[axis] + SHARE * ahead * normal[axis])
+                let way = [0, 1, 2].map(|axis| {
+                    let sum: f64 = near.iter().map(|it| self.places[*it as usize][axis]).sum();
+                    SHARE * (sum / near.len() as f64 - place[axis])
+                });
+                if !edges.rim.contains(&(number as u32)) {
+                    return [0, 1, 2].map(|axis| place[axis] + way[axis]);
+                }
+                let normal = normal(&self.places, &triangles_of[number]);
+                let ahead: f64 = (0..3).map(|axis| normal[axis] * way[axis]).sum();
+                [0, 1, 2].map(|axis| place[axis] + ahead * normal[axis])
             };
             self.places = self.places.iter().enumerate().map(moved).collect();
         }
         self
     }
 
-    /// The neighbours of each place, along the rim of those on it, ascending.
-    fn neighbours(&self) -> Vec<Vec<u32>> {
+    /// Unit normal at each place, shape (n_places); zero at places of no triangle.
+    pub fn normals(&self) -> Vec<[f64; 3]> {
+        let triangles_of = self.triangles_of();
+        let of = triangles_of.iter();
+        of.map(|it| normal(&self.places, it)).collect()
+    }
+
+    fn triangles_of(&self) -> Vec<Vec<[u32; 3]>> {
+        let mut triangles_of = vec![Vec::new(); self.places.len()];
+        for triangle in &self.triangles {
+            for place in triangle {
+                triangles_of[*place as usize].push(*triangle);
+            }
+        }
+        triangles_of
+    }
+
+    fn edges(&self) -> Edges {
         let mut edges: BTreeMap<[u32; 2], usize> = BTreeMap::new();
         for &[a, b, c] in &self.triangles {
             for [p, q] in [[a, b], [b, c], [c, a]] {
                 *edges.entry([p.min(q), p.max(q)]).or_default() += 1;
             }
         }
-        let on_rim = edges.iter().filter(|(_, count)| **count == 1);
-        let rim: BTreeSet<u32> = on_rim.flat_map(|(ends, _)| *ends).collect();
+        let of_one = edges.iter().filter(|(_, count)| **count == 1);
+        let rim: BTreeSet<u32> = of_one.flat_map(|(ends, _)| *ends).collect();
         let mut neighbours = vec![Vec::new(); self.places.len()];
         for (&[a, b], &count) in &edges {
             for [one, other] in [[a, b], [b, a]] {
@@ -62,7 +85,7 @@ impl CrackSurface {
                 }
             }
         }
-        neighbours
+        Edges { neighbours, rim }
     }
 }
 
@@ -80,21 +103,5 @@ fn normal(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> [f64; 3] {
         sum.map(|it| it / length)
     } else {
         sum
-    }
-}
-
-impl CrackSurface {
-    /// Unit normal at each place, shape (n_places); zero at places of no triangle.
-    pub fn normals(&self) -> Vec<[f64; 3]> {
-        let mut triangles_of = vec![Vec::new(); self.places.len()];
-        for triangle in &self.triangles {
-            triangle
-                .iter()
-                .for_each(|place| triangles_of[*place as usize].push(*triangle));
-        }
-        triangles_of
-            .iter()
-            .map(|it| normal(&self.places, it))
-            .collect()
     }
 }
