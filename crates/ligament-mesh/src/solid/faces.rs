@@ -30,8 +30,10 @@ impl<'a> Faces<'a> {
     /// If a corner is no index below `n_nodes`, or there are more than 2^32 cells.
     pub fn new(cells: &'a [SolidCell], n_nodes: usize) -> Self {
         let mut offsets = vec![0; n_nodes + 1];
-        for face in cells.iter().flat_map(SolidCell::faces) {
-            offsets[lowest(&face) as usize + 1] += 1;
+        for cell in cells {
+            for face in cell.faces() {
+                offsets[lowest(&face) as usize + 1] += 1;
+            }
         }
         for node in 0..n_nodes {
             offsets[node + 1] += offsets[node];
