@@ -17,7 +17,9 @@ pub enum SetupError {
     #[error(transparent)]
     Analysis(#[from] FactorError),
     /// Conjugate gradients were asked for where they cannot solve the equations.
-    #[error("conjugate gradients cannot solve these equations: {0}; let solver.method be \"direct\" or \"auto\"")]
+    #[error(
+        "conjugate gradients cannot solve these equations: {0}; let solver.method be \"direct\" or \"auto\""
+    )]
     NotIterative(Unfit),
     /// The exact path was asked for with bonds that soften.
     #[error(

@@ -60,7 +60,10 @@ impl Display for Reason {
             Self::Named => f.write_str("as the case says"),
             Self::NamedForFactor(word) => write!(f, "the case says what solver.{word} is to be"),
             Self::Unfit(unfit) => unfit.fmt(f),
-            Self::Points(limit) => write!(f, "a factor costs less below {limit} points, and more from there on"),
+            Self::Points(limit) => write!(
+                f,
+                "a factor costs less below {limit} points, and more from there on"
+            ),
         }
     }
 }
@@ -69,10 +72,14 @@ impl Display for Reason {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Unfit {
     /// Some bond has a negative stiffness.
-    #[error("some bonds have a negative stiffness, so that the stiffness of the body may be indefinite")]
+    #[error(
+        "some bonds have a negative stiffness, so that the stiffness of the body may be indefinite"
+    )]
     Indefinite,
     /// The forces are not those of an energy.
-    #[error("the forces of the bonds are not those of an energy, so that the stiffness is not symmetric")]
+    #[error(
+        "the forces of the bonds are not those of an energy, so that the stiffness is not symmetric"
+    )]
     WithoutEnergy,
     /// The forces are not linear in the displacements.
     #[error("the forces of the bonds are not linear in the displacements")]

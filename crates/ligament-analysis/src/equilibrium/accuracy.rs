@@ -61,10 +61,11 @@ impl Equations {
         let displacement = self.largest_displacement(state);
         let given = self.given(state);
         let scales = self.scales(&given, iterate.extents, displacement);
-        let dofs = self.degrees_of_freedom().iter();
-        Left::AtMost(
-            dofs.map(|&dof| SURELY * sought * scales.at(dof as usize))
-                .collect(),
-        )
+        let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
+            // Nothing is known yet of what acts there: the next residual tells.
+            0.0 => f64::INFINITY,
+            size => size,
+        };
+        Left::AtMost(self.degrees_of_freedom().iter().map(of_unknown).collect())
     }
 }

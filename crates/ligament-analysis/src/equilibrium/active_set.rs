@@ -51,11 +51,7 @@ pub(super) fn balance(
         let is_over = iterations == ITERATION_LIMIT;
         // One more iteration takes off what the soft holds of loose parts leave.
         let falls = is_exact && residual.relative < FALLS * before;
-        let tolerance = if falls && !is_over {
-            REFINED
-        } else {
-            sought
-        };
+        let tolerance = if falls && !is_over { REFINED } else { sought };
         before = residual.relative;
         let is_small = equations.is_small(&residual, tolerance);
         // What a hold carries, faces that close may carry in the end.

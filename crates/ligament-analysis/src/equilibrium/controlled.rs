@@ -27,7 +27,10 @@ pub(super) fn balance(
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
     let sought = equations.sought(breakage);
-    let largest = equations.solver.tolerance().map_or(LARGEST_RESIDUAL, |_| sought);
+    let largest = equations
+        .solver
+        .tolerance()
+        .map_or(LARGEST_RESIDUAL, |_| sought);
     let mut previous_energy = f64::NAN;
     let mut iterations = usize::from(equations.follow(state, breakage));
     loop {

@@ -9,9 +9,9 @@ use ligament_linalg::{
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
 
-use super::{Indefinite, Left, SOFT_HOLD, TangentSolver};
 use super::making::Making;
 use super::terms::{Coupled, due_bonds};
+use super::{Indefinite, Left, SOFT_HOLD, TangentSolver};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;

@@ -345,7 +345,9 @@ impl TangentSolver for IterativeSolver {
         let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
         let n_points = self.system.n_points();
         let mut stale = self.stale.iter();
-        if !fits(&self.coarse_of) || !fits(&self.blocks_of) || stale.any(|it| *it as usize >= n_points)
+        if !fits(&self.coarse_of)
+            || !fits(&self.blocks_of)
+            || stale.any(|it| *it as usize >= n_points)
         {
             return Err(CheckpointError::OtherModel);
         }

@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
-use ligament_model::{Bonds, BondsLeft};
 use ligament_model::element::Remaining;
+use ligament_model::{Bonds, BondsLeft};
 
 use crate::serial;
 use crate::serial::{Damaged, Serial};

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
 
-use super::{Indefinite, Left, TangentSolver};
 use super::making::Making;
+use super::{Indefinite, Left, TangentSolver};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;

@@ -71,7 +71,9 @@ fn write_iteration(
     let method = format!("conjugate gradients without a matrix: {reason}");
     entry(out, "method", method)?;
     let tied = TIED * tolerance;
-    let left = format!("{tolerance:e} of the forces after a breakage; bonds within {tied:e} break together");
+    let left = format!(
+        "{tolerance:e} of the forces after a breakage; bonds within {tied:e} break together"
+    );
     entry(out, "left out of balance", left)?;
     Ok(entry(out, "threads", rayon::current_num_threads())?)
 }

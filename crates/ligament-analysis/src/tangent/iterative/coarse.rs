@@ -205,7 +205,10 @@ fn leave_out(matrix: &mut SymmetricMatrix, unknowns: &[usize]) {
     for column in 0..pattern.dimension() {
         let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
         let is_out = unknowns.contains(&column);
-        for (&row, value) in pattern.rows()[range.clone()].iter().zip(&mut matrix.values[range]) {
+        for (&row, value) in pattern.rows()[range.clone()]
+            .iter()
+            .zip(&mut matrix.values[range])
+        {
             if is_out || unknowns.contains(&row) {
                 *value = f64::from(u8::from(row == column));
             }

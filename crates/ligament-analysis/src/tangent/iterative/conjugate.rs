@@ -14,6 +14,9 @@ use crate::vectors::{CHUNK, dot_of_chunks};
 /// Iterations after which what there is has to do; those who asked find out by the residual.
 const ITERATION_LIMIT: usize = 2000;
 
+/// Share of the norm of the force at which nothing but rounding is left.
+const ROUNDING: f64 = 1e-14;
+
 /// A preconditioner of two levels.
 pub(super) struct TwoLevels {
     pub(super) blocks: PointBlocks,
@@ -67,7 +70,11 @@ pub(super) fn solve(
     let (mut iterations, mut is_definite) = (0, true);
     // The last step, and what the preconditioned force did along the force before it.
     let mut last: Option<[f64; 2]> = None;
-    while iterations < ITERATION_LIMIT && !iteration.is_within(limit) {
+    let rounding = Limit::Norm(ROUNDING * norm.sqrt());
+    while iterations < ITERATION_LIMIT
+        && !iteration.is_within(limit)
+        && !iteration.is_within(&rounding)
+    {
         let mut conditioned = iteration.conditioned();
         let mut work = dot_of_chunks(&conditioned, &iteration.force);
         // A coarse stiffness that is out of date need not be definite with what is left of the body.
