@@ -10,7 +10,7 @@ use ligament::run;
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::solver::{DirectChoice, FactorKind, Ordering, SolverChoice, Update};
+use ligament_analysis::solver::{DirectChoice, FactorKind, Method, Ordering, SolverChoice, Update};
 use ligament_analysis::{Balanced, Unbalanced};
 use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
@@ -504,6 +504,51 @@ fn dense_count(bench: &Bench, problem: &Problem, state: &State) -> usize {
         }
     }
     negative
+}
+
+/// The same by conjugate gradients, whose coarse space is split with the body: residuals of 1e-8 times what a body that hangs together by
+/// single bonds makes of them.
+#[test]
+fn broken_down_to_points_without_a_matrix() {
+    const CG: SolverSettings = SolverSettings {
+        method: Some(Method::Iterative),
+        update: None,
+        ..IN_PLACE
+    };
+    let lattice = meshes::lattice(6, 0.1, [0.0, 0.0]);
+    let by_place = "{ at = [0.0, 0.0], displacement = { x = 0.0 } }";
+    let by_group = "{ group = \"corner\", displacement = { x = 0.0 } }";
+    let on_lattice = SQUARE.replace(by_group, by_place);
+    for (name, settings) in [
+        ("square", &[][..]),
+        ("square, nu 1/3", &[NO_SHEAR]),
+        ("lattice", &["model.horizon_factor=1.5"]),
+        ("lattice, nu 1/3", &[NO_SHEAR, "model.horizon_factor=1.5"]),
+    ] {
+        let bench = if name.starts_with("lattice") {
+            Bench::on(&lattice, &on_lattice, settings)
+        } else {
+            Bench::new(SQUARE, settings)
+        };
+        let [mut run, mut anew] = [CG, ANEW].map(|it| Tearing::intact(&bench, it));
+        run.balance();
+        anew.balance();
+        let mut worst = 0.0_f64;
+        for bonds in blocks_first(&bench.model.system, 6, 0.035).chunks(2) {
+            let [one, other] = [&mut run, &mut anew].map(|it| it.tear(bonds));
+            assert_eq!(run.state.held, anew.state.held, "{name}");
+            assert_eq!(one.mechanisms, other.mechanisms, "{name}");
+            worst = worst.max(deviation(&run.state.displacement, &anew.state.displacement));
+        }
+        let costs = run.equilibrium.costs();
+        println!(
+            "{name}: {} iterations in {} solves, {} coarse spaces, displacement off by {worst:.1e}",
+            costs.iterations, costs.solves, costs.factorisations
+        );
+        assert!(worst < 1e-5, "{name}: {worst:.1e}");
+        let held = run.state.held.iter().filter(|held| **held).count();
+        assert_eq!(held, run.equilibrium.unknowns().len(), "{name}");
+    }
 }
 
 /// A stable body that nothing supports, at nu = 0.38: its rigid motions are held, one of them at a rotation, and it is

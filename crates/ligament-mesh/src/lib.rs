@@ -1,8 +1,9 @@
-//! Planar finite-element meshes and their groups, read from Gmsh files.
+//! Planar and solid finite-element meshes and their groups, read from Gmsh files.
 //!
 //! [`gmsh::parse`] reads the bytes of a `.msh` file (formats 2.2 and 4.1, ASCII and binary) into a
 //! [`Mesh`]: nodes, triangles and quadrangles with their corners counter-clockwise, and the physical
 //! groups as sets of nodes. What cannot be a planar mesh is refused with the place in the file.
+//! [`gmsh::parse_any`] reads solid meshes as well, of tetrahedra, hexahedra, prisms and pyramids.
 //!
 //! ```
 //! let file = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
@@ -15,15 +16,19 @@
 //! # Ok::<(), ligament_mesh::gmsh::GmshError>(())
 //! ```
 
+mod any_mesh;
 mod cell;
 mod field;
 pub mod gmsh;
 mod group;
 mod mesh;
 mod remark;
+mod solid;
 
+pub use any_mesh::AnyMesh;
 pub use cell::Cell;
 pub use field::NodeField;
 pub use group::Group;
 pub use mesh::Mesh;
 pub use remark::Remark;
+pub use solid::{Faces, Side, SolidCell, SolidMesh};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::FactorKind;
-use ligament_model::element::BondDeformation;
+use ligament_model::deformation::Deformations;
 
 use super::iterate::Iterate;
 use super::precedents::Precedents;
@@ -277,7 +277,7 @@ impl Equations {
     }
 
     /// Deformations of a state (n_bonds).
-    pub(super) fn deformations(&self, state: &State) -> Vec<BondDeformation> {
+    pub(super) fn deformations(&self, state: &State) -> Deformations {
         self.problem.system.deformations(
             &state.intact,
             &state.displacement,
@@ -289,7 +289,7 @@ impl Equations {
     pub(super) fn measure_deformed(
         &mut self,
         state: &State,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
     ) -> Iterate {
         let start = Instant::now();
         let expansion = self.problem.loads.thermal_strain(state.load_factor);

@@ -1,7 +1,7 @@
 //! A state on its way to equilibrium.
 
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::BondDeformation;
+use ligament_model::deformation::Deformations;
 
 use super::residual::{Extents, Residual};
 use crate::balanced::Balanced;
@@ -9,7 +9,7 @@ use crate::internal::InternalForces;
 
 /// A state on its way to equilibrium, as the bonds see it.
 pub(super) struct Iterate {
-    pub(super) deformations: Vec<BondDeformation>,
+    pub(super) deformations: Deformations,
     pub(super) internal: InternalForces,
     pub(super) stored_energy: f64,
     pub(super) energy_floor: f64,

@@ -4,8 +4,9 @@ use super::{BondSystem, BondsLeft, Kinematics, Typed};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
-use crate::failure::{Criterion, Weakened};
+use crate::failure::{Criteria, Criterion, Weakened};
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
@@ -196,7 +197,7 @@ impl Bonds for BondSystem {
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
         let (layout, positions) = (self.layout(), &self.cloud.positions);
-        RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
+        RigidMotions::in_plane(layout, positions, points, Turn::OfPointsAlong).shapes(points)
     }
 
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {
@@ -231,14 +232,14 @@ impl Bonds for BondSystem {
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
-    ) -> Vec<BondDeformation> {
+    ) -> Deformations {
         typed!(self, it => it.deformations(intact, displacement, expansion))
     }
 
     fn forces(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         typed!(self, it => it.forces(bonds, deformations, expansion))
@@ -249,26 +250,26 @@ impl Bonds for BondSystem {
         intact: &[bool],
         bond: usize,
         remaining: &Remaining,
-        [one, other]: [&BondDeformation; 2],
+        [one, other]: [&Deformations; 2],
     ) -> f64 {
-        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(one, other))
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(&one[bond], &other[bond]))
     }
 
-    fn energy_density(
+    fn stored_energy(
         &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64 {
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(measured, measured))
+    }
+
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64 {
         typed!(self, it => it.energy_density(bonds, deformations, point))
     }
 
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> Vec<f64> {
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
         typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
     }
 
@@ -276,7 +277,7 @@ impl Bonds for BondSystem {
         &self,
         reading: StressReading,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
     ) -> Stresses {
         match reading {
             StressReading::Virial => Stresses {
@@ -293,7 +294,7 @@ impl Bonds for BondSystem {
     fn force_through(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64 {
@@ -329,6 +330,10 @@ impl Bonds for BondSystem {
         stresses: &mut Stresses,
     ) {
         self.add_stresses_of_contact(reading, closed, &mut stresses.values);
+    }
+
+    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion> {
+        criteria.unknown_along_lines()
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
@@ -377,7 +382,7 @@ impl Bonds for BondSystem {
 
 impl BondSystem {
     /// The rigid motions of some points that their bonds let be free.
-    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_> {
+    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, 2, 3> {
         let mut bonds = points
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
@@ -388,7 +393,7 @@ impl BondSystem {
             (true, false) => Turn::Costly,
             (false, _) | (true, true) => Turn::OfPositions,
         };
-        RigidMotions::new(self.layout(), &self.cloud.positions, points, turn)
+        RigidMotions::in_plane(self.layout(), &self.cloud.positions, points, turn)
     }
 
     /// Whether a bond resists rotations of its ends, if these can turn.
