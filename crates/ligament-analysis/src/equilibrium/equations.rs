@@ -8,7 +8,7 @@ use ligament_model::deformation::Deformations;
 
 use super::iterate::Iterate;
 use super::precedents::Precedents;
-use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
+use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -395,10 +395,13 @@ impl Equations {
         displacements.fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
-    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom).
+    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
+    /// iterates, what its tolerance makes of it.
     pub(super) fn rounding(&self, state: &State) -> Vec<f64> {
         let displacement = self.largest_displacement(state);
-        self.local_stiffness.rounding(displacement)
+        let tolerance = self.solver.tolerance();
+        let times = tolerance.map_or(1.0, |it| (it / RESIDUAL_TOLERANCE).max(1.0));
+        self.local_stiffness.rounding(times * displacement)
     }
 
     /// The larger of the largest force at a point in a state, N, and what counts of the one before.
