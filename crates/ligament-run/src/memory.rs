@@ -9,7 +9,7 @@ use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::stiffness::Stiffness;
 use ligament_case::case::{CaseFile, LatticeSection};
-use ligament_model::BondSystem;
+use ligament_model::{BondSystem, Bonds};
 
 /// Bytes that a stored value of the factor takes.
 const FACTOR_VALUE: usize = size_of::<f64>();
@@ -33,6 +33,10 @@ const MOST_OVER_BONDS: usize = 40;
 /// parts of the fronts on their way. Elastic plates under the law `mbb-pd` in the form `pairwise`, of 1600, 6400 and 14,400 points with
 /// horizon factor 3, took 7.4, 8.2 and 9.0 times as many.
 const UNSYMMETRIC: usize = 10;
+
+/// Bytes of a degree of freedom where equations are solved without a matrix: some twenty vectors, the blocks of the points, and the
+/// coarse space with its factor.
+const WITHOUT_MATRIX: usize = 500;
 
 /// What the program itself takes, bytes.
 const PROGRAM: u64 = 10_000_000;
@@ -64,8 +68,12 @@ fn gigabytes(bytes: u64) -> f64 {
     bytes as f64 / 1e9
 }
 
-/// Estimated bytes of the equations of a system and of what stands around them.
-pub fn of_equations(system: &BondSystem, stiffness: &Stiffness) -> usize {
+/// Estimated bytes of the equations of a system and of what stands around them; without a stiffness they are solved without a matrix.
+pub fn of_equations(system: &BondSystem, stiffness: Option<&Stiffness>) -> usize {
+    let Some(stiffness) = stiffness else {
+        let unknowns = system.layout().n_degrees_of_freedom();
+        return WITHOUT_MATRIX * unknowns + BOND * system.bonds.len();
+    };
     let symbolic = stiffness.symbolic();
     let (matrix, factor) = (symbolic.pattern().n_entries(), symbolic.n_factor_values());
     let factor = times_of_factor(stiffness.choice().unsymmetric) * factor;
@@ -152,7 +160,7 @@ pub fn foresee_equations(
 pub fn foresee(
     case: &CaseFile,
     system: &BondSystem,
-    stiffness: &Stiffness,
+    stiffness: Option<&Stiffness>,
 ) -> Result<(), TooLarge> {
     compare(
         case,

@@ -27,7 +27,7 @@ pub(crate) fn find_modes(
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
-    memory::foresee(case, &model.system, analysis.stiffness())?;
+    memory::foresee(case, &model.system, Some(analysis.stiffness()))?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 

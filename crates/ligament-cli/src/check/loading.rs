@@ -49,7 +49,7 @@ pub(super) fn check(
     write_loading(out, &model.setup)?;
     write_room(out, case, model)?;
     if let Some(equilibrium) = &equilibrium {
-        equations::write(out, case, model, equilibrium.stiffness())?;
+        equations::write(out, case, model, equilibrium)?;
     }
     Ok(())
 }
