@@ -2,9 +2,13 @@
 
 use super::check::{Checked, contradiction, require};
 use super::{Analysis, Control, Course, Quantity, Setup, Stage};
+use super::dimension::{Dim, Dimension};
 use crate::error::{Fault, Field};
 
-impl Setup {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
     pub(super) fn check_control(&self, field: Field, stage: &Stage, control: &Control) -> Checked {
         let part = field.part("control");
         match &control.quantity {
