@@ -112,6 +112,7 @@ fn pairs_are_in_balance() {
                 Component::X => -y * force,
                 Component::Y => x * force,
                 Component::Rotation => force,
+                other => unreachable!("{other:?} in the plane"),
             };
         }
         assert!(moment.abs() < 1e-15, "{moment:e}");

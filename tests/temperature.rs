@@ -5,7 +5,7 @@
 use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
 use ligament_model::Bonds;
-use ligament_model::element::BondDeformation;
+use ligament_model::Deformations;
 use verification::bench::{Bench, Run};
 use verification::numbers::{by_point, largest, relative_error};
 
@@ -61,7 +61,7 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 }
 
 /// Deformations of the bonds beyond what the temperature gives them, in the last state.
-fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
+fn deformations(bench: &Bench, run: &Run) -> Deformations {
     let expansion = bench.boundary.thermal_strain(run.state().load_factor);
     let intact = &run.state().intact;
     let system = &*bench.model.system;
@@ -70,7 +70,7 @@ fn deformations(bench: &Bench, run: &Run) -> Vec<BondDeformation> {
 
 /// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
 fn free_strain(bench: &Bench) -> [f64; 3] {
-    bench.boundary.thermal_strain[0]
+    bench.boundary.thermal_strain.of_plane()[0]
 }
 
 /// A body that nothing but three gauges holds takes the shape of its thermal strain: displacements are (eps_xx x + gamma_xy y/2,
@@ -355,7 +355,7 @@ fn a_linear_temperature_bends_free_bodies() {
                 path.display()
             );
             let (bench, run) = solved(&text, &settings);
-            let strains = bench.boundary.thermal_strain.as_flattened();
+            let strains = bench.boundary.thermal_strain.of_plane().as_flattened();
             let size = largest(strains.iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(

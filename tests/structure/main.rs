@@ -43,14 +43,10 @@ const OF_SPACE: [&str; 10] = [
 ];
 
 /// Words of space that are still there, in any file or as `file.rs word`, each with its reason. Nothing may be added.
-const STILL_SPATIAL: [(&str, &str); 2] = [
+const STILL_SPATIAL: [(&str, &str); 1] = [
     (
         "eigen.rs 3 *",
         "the size of a basis, in vectors that are sought",
-    ),
-    (
-        "proportional.rs [f64; 3]",
-        "the strain of a temperature goes through as it is in the plane; the bonds alone read it",
     ),
 ];
 

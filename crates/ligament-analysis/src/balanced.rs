@@ -1,8 +1,7 @@
 //! States in equilibrium, and why there is none.
 
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::BondDeformation;
-use rayon::prelude::*;
+use ligament_model::deformation::Deformations;
 
 use crate::internal::InternalForces;
 use crate::serial;
@@ -31,7 +30,7 @@ impl Attempt {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balanced {
     /// Deformation of every bond without what its temperature gives it, shape (n_bonds).
-    pub deformations: Vec<BondDeformation>,
+    pub deformations: Deformations,
     /// Internal forces.
     pub internal: InternalForces,
     /// Energy stored in the intact bonds, J.
@@ -54,9 +53,8 @@ pub struct Balanced {
 impl Balanced {
     /// The equilibrium of the same bonds at `factor` times the load factor: everything is proportional to it.
     pub fn scaled(&self, factor: f64) -> Self {
-        let deformations = self.deformations.par_iter();
         Self {
-            deformations: deformations.map(|it| it.scaled(factor)).collect(),
+            deformations: self.deformations.scaled(factor),
             internal: InternalForces {
                 values: self.internal.values.iter().map(|f| factor * f).collect(),
                 force_scale: factor.abs() * self.internal.force_scale,

@@ -1,7 +1,7 @@
 //! Fields on the points, for output and probes.
 
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::BondDeformation;
+use ligament_model::deformation::Deformations;
 use ligament_model::failure::{Criteria, Weakened};
 use ligament_model::{Bonds, BondsLeft};
 
@@ -108,7 +108,7 @@ pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<
 pub fn strain_energy_density(
     system: &dyn Bonds,
     bonds: BondsLeft<'_>,
-    deformations: &[BondDeformation],
+    deformations: &Deformations,
     closed: &[ClosedPair],
 ) -> Vec<f64> {
     let mut densities = gather(system, |point| {
@@ -126,7 +126,7 @@ pub fn strain_energy_density(
 pub fn point_energy_density(
     system: &dyn Bonds,
     bonds: BondsLeft<'_>,
-    deformations: &[BondDeformation],
+    deformations: &Deformations,
     closed: &[ClosedPair],
     point: u32,
 ) -> f64 {

@@ -5,8 +5,9 @@
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Term};
-use crate::failure::Criterion;
+use crate::failure::{Criteria, Criterion};
 use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
 use crate::sweep::BondSweep;
@@ -124,7 +125,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
-    ) -> Vec<BondDeformation>;
+    ) -> Deformations;
 
     /// Forces and energy of bonds with given deformations (n_bonds).
     ///
@@ -133,41 +134,40 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     fn forces(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep;
 
-    /// 1/2 u^T K u', J, for two deformations of an unbroken bond with what remains of its stiffness.
+    /// 1/2 u^T K u', J, of an unbroken bond with what remains of its stiffness, for two deformations of all bonds.
     fn mutual_energy(
         &self,
         intact: &[bool],
         bond: usize,
         remaining: &Remaining,
-        deformations: [&BondDeformation; 2],
+        deformations: [&Deformations; 2],
+    ) -> f64;
+
+    /// Energy 1/2 u^T K u, J, of an unbroken bond with what remains of its stiffness, from what criteria measure of its deformation.
+    fn stored_energy(
+        &self,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64;
 
     /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
-    fn energy_density(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> f64;
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64;
 
     /// Components of the virial stress of a point, Pa.
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> Vec<f64>;
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
 
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(
         &self,
         reading: StressReading,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
     ) -> Stresses;
 
     /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
@@ -175,7 +175,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     fn force_through(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64;
@@ -204,6 +204,10 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         closed: &[ClosedPair],
         stresses: &mut Stresses,
     );
+
+    /// The first criterion of which the place where a bond reaches its limit is not known in closed form on a line of
+    /// deformations.
+    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion>;
 
     /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
     /// the bond never gets there.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
@@ -19,7 +20,7 @@ const TASK: usize = 2048;
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondSweep {
     /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
-    pub deformations: Vec<BondDeformation>,
+    pub deformations: Deformations,
     /// Internal forces of the intact bonds.
     pub internal: InternalForces,
     /// Sum of the sizes of the end forces that meet at each degree of freedom, shape (n_degrees_of_freedom), N and N m.
@@ -62,7 +63,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
-    ) -> Vec<BondDeformation> {
+    ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
         let mut deformations = vec![BondDeformation::default(); ends.len()];
@@ -79,7 +80,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
                     }
                 }
             });
-        deformations
+        Deformations::in_plane(deformations)
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds).
@@ -89,7 +90,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     pub(crate) fn forces(
         self,
         bonds: BondsLeft<'_>,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = deformations.len();

@@ -28,9 +28,8 @@ pub(super) fn break_bond(problem: &Problem, state: &mut State, record: &BreakRec
     state.dissipated[bond] = if after.is_brittle() {
         let left = state.softening.remaining.get(bond);
         let remaining = left.copied().unwrap_or(Remaining::WHOLE);
-        let both = [&record.deformation; 2];
-        let system = &problem.system;
-        let stored = system.mutual_energy(&state.intact, bond, &remaining, both);
+        let (system, deformation) = (&problem.system, &record.deformation);
+        let stored = system.stored_energy(&state.intact, bond, &remaining, deformation);
         by_softening(problem, state, bond, None) + stored / record.ratio.powi(2)
     } else {
         by_softening(problem, state, bond, Some(criterion))

@@ -52,7 +52,10 @@ pub fn run(
     if is_staged && problem.system.faces_close() {
         return Err(SetupError::ClosingFaces);
     }
-    if let Some(criterion) = problem.criteria.unknown_along_lines().filter(|_| is_staged) {
+    if let Some(criterion) = (problem.system)
+        .unknown_along_lines(&problem.criteria)
+        .filter(|_| is_staged)
+    {
         return Err(SetupError::UnknownAlongLines {
             criterion: criterion.name,
         });

@@ -1,6 +1,7 @@
 //! Bookkeeping that every driver shares: energies and records.
 
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::deformation::Deformations;
+use ligament_model::element::Remaining;
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
@@ -36,8 +37,8 @@ pub(super) struct Energies {
     last_loaded: Vec<Loaded>,
     /// Factor of the temperature and [`InternalForces::thermal`] in the last state.
     thermal: (f64, f64),
-    /// Deformations and what was left of the bonds in the last state; empty where no bond softens.
-    last: Vec<(BondDeformation, Remaining)>,
+    /// Deformations in the last state, and what was left of the bonds; empty where no bond softens.
+    last: (Deformations, Vec<Remaining>),
     /// Pairs across cracks that were closed in the last state; none where faces do not close.
     contact: ContactEnergy,
 }
@@ -105,7 +106,7 @@ impl Energies {
             released: 0.0,
             largest_work: 0.0,
             thermal: (0.0, 0.0),
-            last: Vec::new(),
+            last: Default::default(),
             contact: ContactEnergy::of_unloaded(&*problem.system),
             last_loaded: vec![Loaded::default(); loaded.len()],
             loaded,
@@ -151,10 +152,11 @@ impl Energies {
         let expansion = problem.loads.thermal_strain(state.load_factor);
         let remaining = &state.softening.remaining;
         self.released += breakage.released(&state.displacement, expansion);
-        for (bond, (before, left_before)) in self.last.iter().enumerate() {
+        let (before, left) = &self.last;
+        for (bond, left_before) in left.iter().enumerate() {
             let lost = left_before.lost(&remaining[bond]);
             if state.intact[bond] && lost != Remaining::NOTHING {
-                let both = [before, &balanced.deformations[bond]];
+                let both = [before, &balanced.deformations];
                 self.released += (problem.system).mutual_energy(&state.intact, bond, &lost, both);
             }
         }
@@ -186,10 +188,10 @@ impl Energies {
 
     /// Keeps deformations and what is left of the bonds.
     fn keep(&mut self, state: &State, balanced: &Balanced) {
-        let now = (balanced.deformations.iter()).zip(&state.softening.remaining);
-        self.last.clear();
-        self.last
-            .extend(now.map(|(deformation, left)| (*deformation, *left)));
+        let remaining = &state.softening.remaining;
+        if !remaining.is_empty() {
+            self.last = (balanced.deformations.clone(), remaining.clone());
+        }
     }
 }
 
@@ -282,7 +284,7 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
 /// Largest utilisation of the intact bonds; 0 without criteria.
 pub(super) fn largest_ratio(state: &State, balanced: &Balanced, criteria: &Criteria) -> f64 {
     let criteria = criteria.in_state(&state.intact, &balanced.deformations);
-    (&state.intact, &balanced.deformations)
+    (&state.intact, balanced.deformations.measured())
         .into_par_iter()
         .enumerate()
         .filter(|(_, (intact, _))| **intact)

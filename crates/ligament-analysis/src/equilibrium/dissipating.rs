@@ -18,6 +18,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use ligament_model::BondsLeft;
+use ligament_model::deformation::Deformations;
 use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::thermal::ThermalStrain;
 
@@ -130,14 +131,14 @@ struct Ahead {
     /// Growth of the displacements with the load factor, shape (n_degrees_of_freedom).
     growth: Vec<f64>,
     /// Deformations there, shape (n_bonds).
-    deformations: Vec<BondDeformation>,
+    deformations: Deformations,
 }
 
 /// The first place ahead on the line of the present bonds, from deformations (n_bonds), with the dissipated energy that is sought.
 fn ahead(
     equations: &mut Equations,
     state: &mut State,
-    here: &[BondDeformation],
+    here: &Deformations,
     goal: &Dissipation,
 ) -> Result<Ahead, Unbalanced> {
     let growth = equations.growth(state, &*goal.rate)?;
@@ -148,11 +149,7 @@ fn ahead(
         .filter(|(bond, _)| state.intact[*bond])
         .map(|(bond, slope)| problem.criteria.utilisation(bond, slope))
         .reduce(|| 0.0, f64::max);
-    let at = |by: f64| -> Vec<BondDeformation> {
-        let both = here.par_iter().zip(&slopes);
-        both.map(|(here, slope)| here.less(&slope.scaled(-by)))
-            .collect()
-    };
+    let at = |by: f64| here.ahead(&slopes, by);
     let excess = |by: f64| dissipated(problem, state, &at(by)) - goal.energy;
     let (mut low, mut high) = (0.0, 1.0 / largest);
     let mut above = excess(high);
@@ -188,7 +185,7 @@ fn ahead(
 fn opening(
     problem: &Problem,
     state: &State,
-    deformations: &[BondDeformation],
+    deformations: &Deformations,
     goal: &Dissipation,
 ) -> Option<Target> {
     let (system, criteria, intact) = (&*problem.system, &problem.criteria, &state.intact);
@@ -206,7 +203,7 @@ fn opening(
         remaining: &lost,
         intact,
     };
-    let forces = system.forces(bonds, deformations.to_vec(), ThermalStrain::NONE);
+    let forces = system.forces(bonds, deformations.clone(), ThermalStrain::NONE);
     let values = forces.internal.values.into_iter().enumerate();
     let weights: Vec<(u32, f64)> = values
         .filter(|(_, weight)| *weight != 0.0)

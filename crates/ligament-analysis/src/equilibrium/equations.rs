@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use ligament_linalg::FactorKind;
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::BondDeformation;
+use ligament_model::deformation::Deformations;
 
 use super::precedents::Precedents;
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
@@ -33,7 +33,7 @@ const CANCELLED: f64 = 1e-10;
 
 /// A state on its way to equilibrium, as the bonds see it.
 pub(super) struct Iterate {
-    deformations: Vec<BondDeformation>,
+    deformations: Deformations,
     internal: InternalForces,
     pub(super) stored_energy: f64,
     energy_floor: f64,
@@ -290,7 +290,7 @@ impl Equations {
     }
 
     /// Deformations of a state (n_bonds).
-    pub(super) fn deformations(&self, state: &State) -> Vec<BondDeformation> {
+    pub(super) fn deformations(&self, state: &State) -> Deformations {
         self.problem.system.deformations(
             &state.intact,
             &state.displacement,
@@ -302,7 +302,7 @@ impl Equations {
     pub(super) fn measure_deformed(
         &mut self,
         state: &State,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
     ) -> Iterate {
         let start = Instant::now();
         let expansion = self.problem.loads.thermal_strain(state.load_factor);

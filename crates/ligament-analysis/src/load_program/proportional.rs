@@ -8,7 +8,7 @@ use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
 use crate::internal::InternalForces;
 use crate::restraints::Restraints;
 use crate::unknowns::{Component, Layout};
-use ligament_model::thermal::ThermalStrain;
+use ligament_model::thermal::{FreeStrains, ThermalStrain};
 
 /// Loads that are all proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor
 /// one, and what the history reports of them.
@@ -22,9 +22,8 @@ pub struct ProportionalLoading {
     pub force: Vec<f64>,
     /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
     pub temperature_change: Vec<f64>,
-    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, at load factor 1, shape
-    /// (n_points); empty where no temperature changes.
-    pub thermal_strain: Vec<[f64; 3]>,
+    /// Strain that the temperature would give each point without stress, at load factor 1; empty where no temperature changes.
+    pub thermal_strain: FreeStrains,
     /// What resists motions that are not prescribed, beside the bonds.
     pub restraints: Arc<Restraints>,
     /// Forces of the restraints whose far ends move on a body that does not, at load factor 1, shape (n_degrees_of_freedom); empty where
@@ -62,7 +61,7 @@ impl ProportionalLoading {
             prescribed: vec![None; layout.n_degrees_of_freedom()],
             force: vec![0.0; layout.n_degrees_of_freedom()],
             temperature_change: Vec::new(),
-            thermal_strain: Vec::new(),
+            thermal_strain: FreeStrains::default(),
             restraints: Arc::default(),
             driving: Vec::new(),
             groups: Vec::new(),
@@ -191,7 +190,7 @@ impl LoadProgram for ProportionalLoading {
     }
 
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_> {
-        ThermalStrain::proportional(&self.thermal_strain, time)
+        self.thermal_strain.times(time)
     }
 
     fn temperature_change(&self, time: f64) -> Vec<f64> {

@@ -103,9 +103,7 @@ impl LoadProgram for StagedLoading {
 
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_> {
         match self.temperature(time) {
-            Some((load, factor)) => {
-                ThermalStrain::proportional(&self.loads[load].thermal_strain, factor)
-            }
+            Some((load, factor)) => self.loads[load].thermal_strain.times(factor),
             None => ThermalStrain::NONE,
         }
     }

@@ -3,7 +3,6 @@
 //! With d(t) = d_0 + t d_1 a measure is the largest of some linear functions of t, or the root of a quadratic one where the bond
 //! is stretched.
 
-use super::criterion::{Criteria, Criterion};
 use super::measure::Measure;
 use crate::element::BondDeformation;
 
@@ -15,9 +14,9 @@ pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// A strain along the line: value + t slope.
 #[derive(Debug, Clone, Copy)]
-struct Linear {
-    value: f64,
-    slope: f64,
+pub(super) struct Linear {
+    pub(super) value: f64,
+    pub(super) slope: f64,
 }
 
 impl Linear {
@@ -28,15 +27,24 @@ impl Linear {
         }
     }
 
-    fn negative(self) -> Self {
+    pub(super) fn negative(self) -> Self {
         Self {
             value: -self.value,
             slope: -self.slope,
         }
     }
 
+    /// Its square times a factor q.
+    fn square_times(self, q: f64) -> Quadratic {
+        Quadratic {
+            a: q * self.slope * self.slope,
+            half_b: q * self.value * self.slope,
+            c: q * self.value * self.value,
+        }
+    }
+
     /// Where it is at most a limit; empty (the first is larger) where it nowhere is.
-    fn at_most(self, limit: f64) -> Interval {
+    pub(super) fn at_most(self, limit: f64) -> Interval {
         let reached = (limit - self.value) / self.slope;
         match self.slope {
             slope if slope > 0.0 => [f64::NEG_INFINITY, reached],
@@ -88,20 +96,20 @@ impl Measure {
             Self::Fibre => either(stretch.plus(q, rotation), stretch.plus(-q, rotation)),
             Self::Sliding => either(shear, shear.negative()),
             Self::Friction => either(shear.plus(q, stretch), shear.negative().plus(q, stretch)),
-            Self::Energy => root(stretch, shear, q, limit),
+            Self::Energy => root(stretch, shear.square_times(q), limit),
             Self::MixedModeX => {
                 let [opening, sliding] = [0, 2].map(|place| Linear {
                     value: here.strain()[place],
                     slope: slope.strain()[place],
                 });
-                root(opening, sliding, q, limit)
+                root(opening, sliding.square_times(q), limit)
             }
             Self::MixedModeY => {
                 let [opening, sliding] = [1, 2].map(|place| Linear {
                     value: here.strain()[place],
                     slope: slope.strain()[place],
                 });
-                root(opening, sliding, q, limit)
+                root(opening, sliding.square_times(q), limit)
             }
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => {
                 unreachable!("printed measures have no closed form")
@@ -111,18 +119,22 @@ impl Measure {
     }
 }
 
-/// Where sqrt(max(s, 0)^2 + q gamma^2) is at most a limit: where the quadratic is while the bond is stretched, and q gamma^2 alone
+/// The function a t^2 + 2 b t + c.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quadratic {
+    pub(super) a: f64,
+    pub(super) half_b: f64,
+    pub(super) c: f64,
+}
+
+/// Where sqrt(max(s, 0)^2 + g), g = q gamma^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
 /// elsewhere. Where q is negative and the quadratic bends down, up to its first root beyond s = 0.
-fn root(s: Linear, gamma: Linear, q: f64, limit: f64) -> Interval {
-    let sliding = quadratic([
-        q * gamma.slope * gamma.slope,
-        2.0 * q * gamma.value * gamma.slope,
-        q * gamma.value * gamma.value - limit * limit,
-    ]);
+pub(super) fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
+    let sliding = quadratic([g.a, 2.0 * g.half_b, g.c - limit * limit]);
     let stretched = quadratic([
-        s.slope * s.slope + q * gamma.slope * gamma.slope,
-        2.0 * (s.value * s.slope + q * gamma.value * gamma.slope),
-        s.value * s.value + q * gamma.value * gamma.value - limit * limit,
+        s.slope * s.slope + g.a,
+        2.0 * (s.value * s.slope + g.half_b),
+        s.value * s.value + g.c - limit * limit,
     ]);
     let closed = s.at_most(0.0);
     let open = s.negative().at_most(0.0);
@@ -130,7 +142,7 @@ fn root(s: Linear, gamma: Linear, q: f64, limit: f64) -> Interval {
 }
 
 /// Where a t^2 + b t + c is at most zero; one that bends down is taken at the side of its roots on which t = 0 lies.
-fn quadratic([a, b, c]: [f64; 3]) -> Interval {
+pub(super) fn quadratic([a, b, c]: [f64; 3]) -> Interval {
     if a == 0.0 {
         return Linear { value: c, slope: b }.at_most(0.0);
     }
@@ -153,7 +165,7 @@ fn quadratic([a, b, c]: [f64; 3]) -> Interval {
     }
 }
 
-fn both(one: Interval, other: Interval) -> Interval {
+pub(super) fn both(one: Interval, other: Interval) -> Interval {
     [one[0].max(other[0]), one[1].min(other[1])]
 }
 
@@ -164,32 +176,6 @@ fn hull(one: Interval, other: Interval) -> Interval {
         (true, _) => other,
         (_, true) => one,
         _ => [one[0].min(other[0]), one[1].max(other[1])],
-    }
-}
-
-impl Criteria {
-    /// The first criterion whose measure is not known along lines, for some bond.
-    pub fn unknown_along_lines(&self) -> Option<&Criterion> {
-        let is_unknown = |it: &&Criterion| {
-            let mut bonds = 0..it.limit.len();
-            it.crack_at_points.is_some()
-                || bonds.any(|bond| !it.measure.is_known_along_lines(it.coefficients(bond)))
-        };
-        self.list.iter().find(is_unknown)
-    }
-
-    /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
-    pub fn within(&self, bond: usize, line: [&BondDeformation; 2]) -> Option<Interval> {
-        let of = |interval: Interval, it: &Criterion| {
-            let limit = it.break_limit(bond);
-            let of_criterion = if limit.is_finite() {
-                it.measure.within(line, it.coefficients(bond), limit)?
-            } else {
-                EVERYWHERE
-            };
-            Some(both(interval, of_criterion)).filter(|it| it[0] <= it[1])
-        };
-        self.list.iter().try_fold(EVERYWHERE, of)
     }
 }
 

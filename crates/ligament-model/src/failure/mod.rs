@@ -15,7 +15,9 @@
 //! | [`mixed_mode`] | mixed mode, along x or y | from G_Ic, G_IIc and the bonds that a crack cuts (MBB-PD appendix C) |
 //! | [`printed`] | stretch or angle by the class of the bond | the same as printed, and from the bonds that are left (MBB-PD eqs 22 to 24) |
 
+mod admissible;
 pub mod along_line;
+mod along_line_in_space;
 mod basis;
 mod choosing;
 pub mod crack_at_points;

@@ -4,8 +4,9 @@ use super::{BondSystem, BondsLeft, Kinematics, Typed};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
-use crate::failure::{Criterion, Weakened};
+use crate::failure::{Criteria, Criterion, Weakened};
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
@@ -226,14 +227,14 @@ impl Bonds for BondSystem {
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
-    ) -> Vec<BondDeformation> {
+    ) -> Deformations {
         typed!(self, it => it.deformations(intact, displacement, expansion))
     }
 
     fn forces(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: Vec<BondDeformation>,
+        deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         typed!(self, it => it.forces(bonds, deformations, expansion))
@@ -244,26 +245,26 @@ impl Bonds for BondSystem {
         intact: &[bool],
         bond: usize,
         remaining: &Remaining,
-        [one, other]: [&BondDeformation; 2],
+        [one, other]: [&Deformations; 2],
     ) -> f64 {
-        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(one, other))
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(&one[bond], &other[bond]))
     }
 
-    fn energy_density(
+    fn stored_energy(
         &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
+        intact: &[bool],
+        bond: usize,
+        remaining: &Remaining,
+        measured: &BondDeformation,
     ) -> f64 {
+        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(measured, measured))
+    }
+
+    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64 {
         typed!(self, it => it.energy_density(bonds, deformations, point))
     }
 
-    fn stress(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> Vec<f64> {
+    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
         typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
     }
 
@@ -271,7 +272,7 @@ impl Bonds for BondSystem {
         &self,
         reading: StressReading,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
     ) -> Stresses {
         match reading {
             StressReading::Virial => Stresses {
@@ -288,7 +289,7 @@ impl Bonds for BondSystem {
     fn force_through(
         &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64 {
@@ -324,6 +325,10 @@ impl Bonds for BondSystem {
         stresses: &mut Stresses,
     ) {
         self.add_stresses_of_contact(reading, closed, &mut stresses.values);
+    }
+
+    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion> {
+        criteria.unknown_along_lines()
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {

@@ -180,7 +180,7 @@ impl Heat {
         let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
         Self {
             change: view.loads.temperature_change(load_factor),
-            strain: of_points.flat_map(|point| strain.of_point(point)).collect(),
+            strain: of_points.flat_map(|point| strain.at_point(point)).collect(),
         }
     }
 

@@ -4,6 +4,7 @@ use ligament_analysis::{
     BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
 use ligament_model::mass::LumpedMass;
+use ligament_model::thermal::FreeStrains;
 use ligament_model::{BondSystem, Bonds, PointCloud};
 
 use super::places::Places;
@@ -42,7 +43,7 @@ pub(super) fn boundary(
     let is_heated = matches!(acting, Acting::All | Acting::Temperature);
     if let Some(Heating { change, strain }) = heating.filter(|_| is_heated) {
         boundary.temperature_change = change;
-        boundary.thermal_strain = strain;
+        boundary.thermal_strain = FreeStrains::in_plane(strain);
     }
     for (index, support) in setup.supports.iter().enumerate() {
         let field = Field::element("supports", index);

@@ -13,8 +13,6 @@
 use std::mem;
 use std::time::Instant;
 
-use rayon::prelude::*;
-
 use super::way::{Goal, Way};
 use crate::balanced::Balanced;
 use crate::breaking::{FirstToBreak, first_to_break};
@@ -23,12 +21,9 @@ use crate::driver::recorder::largest_ratio;
 use crate::history::Termination;
 use crate::load_program::{LoadProgram, PartControl};
 use crate::unbalanced::Unbalanced;
-use ligament_model::element::BondDeformation;
+use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
-use ligament_model::failure::along_line::{EVERYWHERE, Interval};
-
-/// Bonds that make a task worth while.
-const TASK: usize = 4096;
+use ligament_model::failure::along_line::EVERYWHERE;
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
@@ -53,7 +48,7 @@ impl Affine {
         &mut self,
         path: &mut Path<'_>,
         rate: &dyn LoadProgram,
-    ) -> Result<Vec<BondDeformation>, Unbalanced> {
+    ) -> Result<Deformations, Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
             self.growth = path.equilibrium.growth(&mut path.state, rate)?;
             path.course.solves[0] = path.equilibrium.costs().solves;
@@ -87,7 +82,7 @@ impl Way for Affine {
             Some(_) => EVERYWHERE,
             None => [begins - now, ends - now],
         };
-        let goal = match admissible(&criteria, intact, [&line.deformations, &slopes], reach) {
+        let goal = match criteria.admissible(intact, [&line.deformations, &slopes], reach) {
             None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
@@ -98,7 +93,7 @@ impl Way for Affine {
                 end: Some(Termination::NothingBreaks),
             },
             Some([_, upper]) => {
-                let at = deformations_at(line, &slopes, upper);
+                let at = line.deformations.ahead(&slopes, upper);
                 let tie = self.tie_tolerance;
                 let FirstToBreak { ratio, bonds } = first_to_break(tie, &at, &criteria, intact);
                 let is_at_end = upper == reach[1];
@@ -175,35 +170,4 @@ fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
         end: Some(Termination::DisplacementReached { displacement }),
         ..goal
     }
-}
-
-fn deformations_at(line: &Balanced, slopes: &[BondDeformation], by: f64) -> Vec<BondDeformation> {
-    let both = line.deformations.par_iter().zip(slopes);
-    both.map(|(here, slope)| here.less(&slope.scaled(-by)))
-        .collect()
-}
-
-/// The changes of the load factor, within `reach`, at which all intact bonds are within their limits; None where there are none.
-fn admissible(
-    criteria: &Criteria,
-    intact: &[bool],
-    [here, slopes]: [&[BondDeformation]; 2],
-    reach: Interval,
-) -> Option<Interval> {
-    let of_task = |(task, (here, slopes)): (usize, (&[BondDeformation], &[BondDeformation]))| {
-        let bonds = (task * TASK..).zip(here.iter().zip(slopes));
-        let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
-        of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
-            both(interval, criteria.within(bond, [here, slope])?)
-        })
-    };
-    let tasks = here.par_chunks(TASK).zip(slopes.par_chunks(TASK));
-    let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
-    let mut of_tasks = of_tasks.into_iter();
-    of_tasks.try_fold(reach, |interval, of_task| both(interval, of_task?))
-}
-
-fn both(one: Interval, other: Interval) -> Option<Interval> {
-    let both = [one[0].max(other[0]), one[1].min(other[1])];
-    (both[0] <= both[1]).then_some(both)
 }

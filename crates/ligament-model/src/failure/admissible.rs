@@ -1,0 +1,117 @@
+//! Where on a line of deformations no criterion breaks a bond.
+
+use rayon::prelude::*;
+
+use super::along_line::{EVERYWHERE, Interval};
+use super::criterion::{Criteria, Criterion};
+use super::measure::Measure;
+use crate::deformation::{Deformations, SpaceDeformation};
+use crate::element::BondDeformation;
+
+/// Bonds that make a task worth while.
+const TASK: usize = 4096;
+
+/// A deformation that goes along lines.
+trait AlongLine: Sync {
+    /// The t for which a measure of the first + t the second is at most a limit; None where it is for no t.
+    fn within(
+        line: [&Self; 2],
+        measure: Measure,
+        coefficients: &[f64],
+        limit: f64,
+    ) -> Option<Interval>;
+}
+
+impl AlongLine for BondDeformation {
+    #[inline]
+    fn within(
+        line: [&Self; 2],
+        measure: Measure,
+        coefficients: &[f64],
+        limit: f64,
+    ) -> Option<Interval> {
+        measure.within(line, coefficients, limit)
+    }
+}
+
+impl AlongLine for SpaceDeformation {
+    #[inline]
+    fn within(
+        line: [&Self; 2],
+        measure: Measure,
+        coefficients: &[f64],
+        limit: f64,
+    ) -> Option<Interval> {
+        measure.within_in_space(line, coefficients, limit)
+    }
+}
+
+impl Criteria {
+    /// The first criterion whose measure is not known along lines of bonds in the plane, for some bond.
+    pub fn unknown_along_lines(&self) -> Option<&Criterion> {
+        let is_unknown = |it: &&Criterion| {
+            let mut bonds = 0..it.limit.len();
+            it.crack_at_points.is_some()
+                || bonds.any(|bond| !it.measure.is_known_along_lines(it.coefficients(bond)))
+        };
+        self.list.iter().find(is_unknown)
+    }
+
+    /// The first criterion whose measure is not known along lines of bonds in space.
+    pub fn unknown_along_lines_in_space(&self) -> Option<&Criterion> {
+        (self.list.iter()).find(|it| !it.measure.is_known_along_lines_in_space())
+    }
+
+    /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `here` + t `slopes`; None where some
+    /// does for every t.
+    pub fn admissible(
+        &self,
+        intact: &[bool],
+        [here, slopes]: [&Deformations; 2],
+        reach: Interval,
+    ) -> Option<Interval> {
+        if here.vectors().is_empty() {
+            let line = [here.measured(), slopes.measured()];
+            return self.admissible_along(intact, line, reach);
+        }
+        self.admissible_along(intact, [here.vectors(), slopes.vectors()], reach)
+    }
+
+    fn admissible_along<D: AlongLine>(
+        &self,
+        intact: &[bool],
+        [here, slopes]: [&[D]; 2],
+        reach: Interval,
+    ) -> Option<Interval> {
+        let of_task = |(task, (here, slopes)): (usize, (&[D], &[D]))| {
+            let bonds = (task * TASK..).zip(here.iter().zip(slopes));
+            let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
+            of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
+                both(interval, self.within(bond, [here, slope])?)
+            })
+        };
+        let tasks = here.par_chunks(TASK).zip(slopes.par_chunks(TASK));
+        let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
+        let mut of_tasks = of_tasks.into_iter();
+        of_tasks.try_fold(reach, |interval, of_task| both(interval, of_task?))
+    }
+
+    /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
+    fn within<D: AlongLine>(&self, bond: usize, line: [&D; 2]) -> Option<Interval> {
+        let of = |interval: Interval, it: &Criterion| {
+            let limit = it.break_limit(bond);
+            let of_criterion = if limit.is_finite() {
+                D::within(line, it.measure, it.coefficients(bond), limit)?
+            } else {
+                EVERYWHERE
+            };
+            both(interval, of_criterion)
+        };
+        self.list.iter().try_fold(EVERYWHERE, of)
+    }
+}
+
+fn both(one: Interval, other: Interval) -> Option<Interval> {
+    let both = [one[0].max(other[0]), one[1].min(other[1])];
+    (both[0] <= both[1]).then_some(both)
+}
