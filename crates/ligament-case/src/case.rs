@@ -6,6 +6,8 @@
 
 mod analysis;
 mod conditions;
+mod coordinates;
+mod couple;
 mod correction;
 mod criterion;
 pub mod decode;
@@ -39,7 +41,9 @@ mod word;
 
 pub use analysis::{Analysis, MOST_MODES, Modal};
 pub use conditions::{Displacement, SpringStiffness, Support, Vector};
+pub use coordinates::Coordinates;
 pub use correction::Correction;
+pub use couple::Couple;
 pub use criterion::Criterion;
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
@@ -53,7 +57,7 @@ pub use output::{Output, StressField};
 pub use overrides::unset;
 pub use precrack::Precrack;
 pub use probe::Probe;
-pub use region::{Rectangle, Region};
+pub use region::{Corners, Rectangle, Region};
 pub use scatter::{Distribution, Scatter};
 pub use schema::schema;
 pub use sections::Case;

@@ -145,11 +145,11 @@ pub enum Fault {
     },
     /// A position that is not on the body.
     #[error(
-        "({:.6}, {:.6}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away", position[0], position[1]
+        "({}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away", coordinates(position)
     )]
     OffBody {
         /// The position, m.
-        position: [f64; 2],
+        position: Vec<f64>,
         /// The nearest point, in words.
         nearest: String,
         /// Distance from the nearest point, m.
@@ -244,6 +244,9 @@ pub enum Fault {
         "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: this group has no length"
     )]
     NoLength,
+    /// A force per area on points without an area.
+    #[error("a force per area needs a physical surface of a solid mesh, or cells at a side of a box: this group has no area")]
+    NoArea,
     /// A pressure on points without an outline.
     #[error(
         "a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: this group has no \
@@ -320,6 +323,12 @@ pub struct Torn {
     pub horizon: f64,
     /// The horizon that the side needs, in words.
     pub remedy: String,
+}
+
+/// Coordinates as errors show them.
+pub(crate) fn coordinates(position: &[f64]) -> String {
+    let coordinates = position.iter().map(|it| format!("{it:.6}"));
+    coordinates.collect::<Vec<_>>().join(", ")
 }
 
 impl Field {

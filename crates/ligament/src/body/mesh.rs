@@ -98,6 +98,12 @@ impl Body for MeshBody {
         lengths.into_iter().collect()
     }
 
+    fn around(&self, point: u32) -> Vec<u32> {
+        let corners = self.0.cells.iter().map(Cell::corners);
+        let around = corners.filter(|it| it.contains(&point));
+        around.flatten().copied().collect()
+    }
+
     fn cells(&self) -> &[Cell] {
         &self.0.cells
     }

@@ -4,13 +4,12 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 
 use ligament_model::correction::patch;
-use ligament_model::horizon::INCLUSION_TOLERANCE;
-use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
+use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic};
 
 use super::{
-    Action, Alpha, Analysis, Calibration, CorrectionDomain, Form, Horizon, Law, Load, Place,
+    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Law, Load, Place,
 };
-use super::{Reading, Setup, Strains, Surface};
+use super::{Reading, Setup, Surface};
 use super::dimension::{Dim, Dimension};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};

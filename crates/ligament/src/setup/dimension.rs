@@ -4,10 +4,12 @@ use std::fmt::Debug;
 
 use ligament_analysis::Component;
 use ligament_model::bonds::precrack::{self, PreCrack};
-use ligament_model::{BondSystem, Bonds, LumpedMass, Plane, PointCloud};
+use ligament_model::thermal::FreeStrains;
+use ligament_model::{BondSystem, Bonds, LumpedMass, Material, Plane, PointCloud};
 
 use super::{Section, Setup};
 use crate::error::SetupError;
+use crate::formulation::effective_elasticity;
 
 /// The plane and space: `Dim` is a [`Dimension<2>`](Dimension) and a [`Dimension<3>`](Dimension).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +53,18 @@ pub trait Dimension<const D: usize>: 'static {
     /// Bonds through a [section](super::Reading::Section), and whether their first end lies before it.
     fn crossing(system: &Self::System, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
 
+    /// Directions of length one across a direction of length one.
+    fn across(direction: [f64; D]) -> Vec<[f64; D]>;
+
+    /// Components of the strain of a material for one kelvin without stress, with the constants that the law makes of it; none without a
+    /// coefficient.
+    fn free_strain(setup: &Setup<D>, material: &Material) -> Option<Vec<f64>>
+    where
+        Dim: Dimension<D>;
+
+    /// Strains of the points (n_points) from their components, of which there are three in the plane.
+    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains;
+
     /// Masses from the densities of the materials (n_materials), kg/m^3.
     fn masses(cloud: &PointCloud<D>, densities: &[f64]) -> LumpedMass;
 }
@@ -90,6 +104,21 @@ impl Dimension<2> for Dim {
         let ends = system.bonds.ends.iter().copied();
         let ends = ends.chain(cut.map(|it| it.ends));
         precrack::crossing_bonds(ends, cloud, start, end)
+    }
+
+    fn across([x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+        vec![[-y, x]]
+    }
+
+    fn free_strain(setup: &Setup, material: &Material) -> Option<Vec<f64>> {
+        let plane = setup.plane();
+        let elasticity = effective_elasticity(material, &setup.law, plane);
+        Some(material.expansion?.free_strain(&elasticity, plane).to_vec())
+    }
+
+    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains {
+        let in_plane = components.into_iter().map(|[xx, yy, xy, ..]| [xx, yy, xy]);
+        FreeStrains::in_plane(in_plane.collect())
     }
 
     fn masses(cloud: &PointCloud, densities: &[f64]) -> LumpedMass {
