@@ -356,8 +356,7 @@ impl Separation {
                 0.5 * system.rigidities.axial[bond] * deformation.stretch().max(0.0).powi(2);
             let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear().powi(2);
             sum.counted += (opening + sliding) * per_energy;
-            let energy =
-                system.stored_energy(&intact, bond, &Remaining::WHOLE, &deformation);
+            let energy = system.stored_energy(&intact, bond, &Remaining::WHOLE, &deformation);
             sum.stored += energy * per_energy;
         }
         sum

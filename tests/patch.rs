@@ -41,7 +41,8 @@ fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
         components.iter().map(move |component| match component {
             Component::X => xx * x + 0.5 * xy * y,
             Component::Y => yy * y + 0.5 * xy * x,
-            _ => 0.0,
+            Component::Rotation => 0.0,
+            other => unreachable!("{other:?} in the plane"),
         })
     };
     model

@@ -321,7 +321,7 @@ fn only_the_outline_takes_a_pressure() {
         number,
         nodes: edge.to_vec(),
         edges: vec![edge],
-        cells: Vec::new(),
+        ..Group::default()
     };
     mesh.groups.push(group("seam", 3, [6, 7]));
     mesh.groups.push(group("across", 4, [6, 12]));

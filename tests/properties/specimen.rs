@@ -108,7 +108,7 @@ pub(crate) fn jittered(random: &mut Random, [columns, rows]: [u32; 2], spacing: 
             number: number as i32 + 1,
             edges: nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
             nodes,
-            cells: Vec::new(),
+            ..Group::default()
         }
     };
     Mesh {

@@ -63,16 +63,15 @@ pub(crate) fn plate(squares: Squares) -> Mesh {
         number,
         edges: nodes.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
         nodes,
-        cells: Vec::new(),
+        ..Group::default()
     };
     let [soft, hard] = surfaces;
     let surface = |name: &str, number, cells: Vec<u32>| Group {
         name: name.to_owned(),
         dimension: 2,
         number,
-        nodes: Vec::new(),
-        edges: Vec::new(),
         cells,
+        ..Group::default()
     };
     Mesh {
         node_tags: (0..u64::from(n_nodes))

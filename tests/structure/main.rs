@@ -43,12 +43,10 @@ const OF_SPACE: [&str; 10] = [
 ];
 
 /// Words of space that are still there, in any file or as `file.rs word`, each with its reason. Nothing may be added.
-const STILL_SPATIAL: [(&str, &str); 1] = [
-    (
-        "eigen.rs 3 *",
-        "the size of a basis, in vectors that are sought",
-    ),
-];
+const STILL_SPATIAL: [(&str, &str); 1] = [(
+    "eigen.rs 3 *",
+    "the size of a basis, in vectors that are sought",
+)];
 
 /// The trees of all crates, each with the name of its crate.
 fn trees() -> Vec<(String, Tree)> {

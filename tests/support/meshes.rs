@@ -152,7 +152,7 @@ pub fn lattice(n: u32, side: f64, corner: [f64; 2]) -> Mesh {
         number,
         nodes: (0..row).map(|i| node(i, j)).collect(),
         edges: (0..n).map(|i| [node(i, j), node(i + 1, j)]).collect(),
-        cells: Vec::new(),
+        ..Group::default()
     };
     Mesh {
         node_tags: (1..=u64::from(row * row)).collect(),

@@ -1,6 +1,7 @@
-//! Planar cells.
+//! Planar cells, and faces of solid ones.
 
-/// A planar cell given by its corner nodes (indices into the mesh's nodes), counter-clockwise.
+/// A planar cell given by its corner nodes (indices into the mesh's nodes), counter-clockwise; in space the face of a solid cell,
+/// whose corners stand counter-clockwise seen from its front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cell {
     /// Three corners.
@@ -44,6 +45,38 @@ impl Cell {
             .sum();
         0.5 * twice
     }
+
+    /// The area of a face in space times its unit normal, with the nodes at `positions`, m²: towards the side from which its
+    /// corners stand counter-clockwise. Where a quadrangle is no plane, it is that of any surface with its edges.
+    ///
+    /// # Panics
+    /// If a corner is no index into `positions`.
+    pub fn area_vector(&self, positions: &[[f64; 3]]) -> [f64; 3] {
+        let between = |from: u32, to: u32| {
+            let [from, to] = [from, to].map(|node| positions[node as usize]);
+            [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
+        };
+        let [u, v] = match *self {
+            Cell::Triangle([a, b, c]) => [between(a, b), between(a, c)],
+            Cell::Quadrangle([a, b, c, d]) => [between(a, c), between(b, d)],
+        };
+        [
+            0.5 * (u[1] * v[2] - u[2] * v[1]),
+            0.5 * (u[2] * v[0] - u[0] * v[2]),
+            0.5 * (u[0] * v[1] - u[1] * v[0]),
+        ]
+    }
+
+    /// The triangles that a face consists of, in its orientation: a quadrangle is split along the diagonal from its lowest node,
+    /// whichever cell it is a face of.
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + use<> {
+        let (first, second) = match *self {
+            Cell::Triangle(corners) => (corners, None),
+            Cell::Quadrangle([a, b, c, d]) if a.min(c) < b.min(d) => ([a, b, c], Some([a, c, d])),
+            Cell::Quadrangle([a, b, c, d]) => ([b, c, d], Some([b, d, a])),
+        };
+        std::iter::once(first).chain(second)
+    }
 }
 
 #[cfg(test)]
@@ -61,6 +94,34 @@ mod tests {
     fn area_of_a_trapezium_is_mean_width_times_height() {
         let positions = [[0.0, 0.0], [4.0, 0.0], [3.0, 2.0], [1.0, 2.0]];
         assert_eq!(Cell::Quadrangle([0, 1, 2, 3]).area(&positions), 6.0);
+    }
+
+    #[test]
+    fn area_vector_of_a_face_is_that_of_its_triangles() {
+        let positions = [
+            [0.0, 0.0, 1.0],
+            [2.0, 0.0, 1.0],
+            [2.0, 3.0, 2.0],
+            [0.0, 3.0, 1.0],
+        ];
+        assert_eq!(
+            Cell::Triangle([0, 1, 3]).area_vector(&positions),
+            [0.0, 0.0, 3.0]
+        );
+        for corners in [[0, 1, 2, 3], [1, 2, 3, 0]] {
+            let face = Cell::Quadrangle(corners);
+            let mut sum = [0.0; 3];
+            for part in face.triangles() {
+                assert!(
+                    part.contains(&0) && part.contains(&2),
+                    "the diagonal from the lowest node"
+                );
+                let area = Cell::Triangle(part).area_vector(&positions);
+                sum = [0, 1, 2].map(|axis| sum[axis] + area[axis]);
+            }
+            assert_eq!(face.area_vector(&positions), sum);
+            assert_eq!(sum, [-1.5, -1.0, 6.0]);
+        }
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Physical groups.
 
-/// A physical group of the mesh file: a named set of nodes, with the edges or cells that made it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+use crate::cell::Cell;
+
+/// A physical group of the mesh file: a named set of nodes, with the edges, faces or cells that made it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Group {
     /// Name of the group; where the file gives none, the number of the group in decimal.
     pub name: String,
-    /// Dimension: 0 points, 1 curves, 2 surfaces.
+    /// Dimension: 0 points, 1 curves, 2 surfaces, 3 volumes.
     pub dimension: u8,
     /// Number of the physical group in the file.
     pub number: i32,
@@ -13,6 +15,9 @@ pub struct Group {
     pub nodes: Vec<u32>,
     /// Edges of a curve group, ascending by their nodes, each once (empty otherwise).
     pub edges: Vec<[u32; 2]>,
-    /// Cells of a surface group, ascending (empty otherwise).
+    /// Faces of a surface group of a solid mesh, in the order of the file, each once; from which side their corners stand
+    /// counter-clockwise is left open (empty otherwise).
+    pub faces: Vec<Cell>,
+    /// Cells, ascending: of a surface group of a planar mesh, of a volume group of a solid one (empty otherwise).
     pub cells: Vec<u32>,
 }

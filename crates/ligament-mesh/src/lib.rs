@@ -15,15 +15,19 @@
 //! # Ok::<(), ligament_mesh::gmsh::GmshError>(())
 //! ```
 
+mod any_mesh;
 mod cell;
 mod field;
 pub mod gmsh;
 mod group;
 mod mesh;
 mod remark;
+mod solid;
 
+pub use any_mesh::AnyMesh;
 pub use cell::Cell;
 pub use field::NodeField;
 pub use group::Group;
 pub use mesh::Mesh;
 pub use remark::Remark;
+pub use solid::{SolidCell, SolidMesh};

@@ -140,6 +140,7 @@ fn expected_group(model: &Model, dimension: u8, number: i32) -> Group {
         nodes,
         edges,
         cells,
+        ..Group::default()
     }
 }
 

@@ -116,6 +116,11 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         force: &dyn Fn(usize) -> f64,
     ) -> Vec<FreeMotion>;
 
+    /// Displacements and rotations of some points in each rigid motion of them as a whole, whether it costs energy or not, shape
+    /// (motions, degrees of freedom of the points): translations of size one along the axes, then rotations about the middle of
+    /// the points by one over their radius, along which they turn as well.
+    fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>>;
+
     /// The rigid motions of the whole body about the centre of its masses (n_points).
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions;
 
@@ -219,6 +224,12 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Adds up the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and
     /// of itself, shape (n_lower + 1, components, components).
     fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
+
+    /// The product K u of the stiffness of the bonds that are left with motions u, shape (n_degrees_of_freedom) both; of bonds whose
+    /// forces are linear in the displacements. What `forces` held is lost.
+    ///
+    /// Nothing depends on the number of threads, as in [`Bonds::forces`].
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]);
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));

@@ -229,11 +229,20 @@ impl<'a> RigidMotions<'a> {
         is_fixed: impl Fn(usize) -> bool,
     ) -> Vec<Vec<f64>> {
         let free = self.left_by(&self.spanned_by(points, is_fixed));
+        self.moved(points, &free)
+    }
+
+    /// Displacements and rotations of `points` in each of all motions, shape (motions, degrees of freedom of the points).
+    pub(crate) fn shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
+        self.moved(points, &self.left_by(&[]))
+    }
+
+    fn moved(&self, points: &[u32], motions: &[Motion]) -> Vec<Vec<f64>> {
         let shape = |&motion| {
             let dofs = self.degrees_of_freedom(points);
             dofs.map(|dof| self.value(dof, motion)).collect()
         };
-        free.iter().map(shape).collect()
+        motions.iter().map(shape).collect()
     }
 
     /// The motions of `points` that no fixed degree of freedom prevents, with the work that forces (by degree of freedom, N

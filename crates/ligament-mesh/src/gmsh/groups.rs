@@ -49,16 +49,13 @@ fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
     let group = |(dimension, number)| {
         let name = records.names.get(&(dimension, number)).cloned();
         let name = name.unwrap_or_else(|| number.to_string());
-        let (nodes, edges, cells) = (Vec::new(), Vec::new(), Vec::new());
         (
             (dimension, number),
             Group {
                 name,
                 dimension,
                 number,
-                nodes,
-                edges,
-                cells,
+                ..Group::default()
             },
         )
     };

@@ -34,7 +34,7 @@ impl Linear {
         }
     }
 
-    /// Its square times a factor q.
+    /// Square times a factor q.
     fn square_times(self, q: f64) -> Quadratic {
         Quadratic {
             a: q * self.slope * self.slope,

@@ -195,6 +195,11 @@ impl Bonds for BondSystem {
         motions.free_motions(points, is_fixed, force)
     }
 
+    fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
+        let (layout, positions) = (self.layout(), &self.cloud.positions);
+        RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
+    }
+
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {
         let total: f64 = masses.iter().sum();
         let middle = [0, 1].map(|axis| {
@@ -350,6 +355,10 @@ impl Bonds for BondSystem {
 
     fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
         typed!(self, it => it.add_blocks(bonds, point, lower, blocks));
+    }
+
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+        typed!(self, it => it.multiply(bonds, motions, forces));
     }
 
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {

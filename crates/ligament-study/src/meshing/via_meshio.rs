@@ -200,9 +200,7 @@ fn group<'a>(
         dimension,
         // Numbers of groups are those of their order in their dimension, from 1.
         number: 1 + before.iter().filter(|it| it.dimension == dimension).count() as i32,
-        nodes: Vec::new(),
-        edges: Vec::new(),
-        cells: Vec::new(),
+        ..Group::default()
     };
     let is_node = |node: u32| (node as usize) < n_nodes;
     for line in lines.take(count) {

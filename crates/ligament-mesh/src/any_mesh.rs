@@ -1,0 +1,13 @@
+//! A mesh of either kind.
+
+use crate::mesh::Mesh;
+use crate::solid::SolidMesh;
+
+/// A mesh that is planar or solid.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyMesh {
+    /// Triangles and quadrangles in a plane.
+    Plane(Mesh),
+    /// Tetrahedra, hexahedra, prisms and pyramids.
+    Solid(SolidMesh),
+}

@@ -1,0 +1,293 @@
+//! Cells of a solid.
+
+use crate::cell::Cell;
+
+/// A solid cell given by its corner nodes (indices into the mesh's nodes), in the order of Gmsh.
+///
+/// Seen from the top (or the apex), the corners of the base stand counter-clockwise: the volume is positive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SolidCell {
+    /// A triangle and the apex over it.
+    Tetrahedron([u32; 4]),
+    /// A quadrangle, and the one over it, corner over corner.
+    Hexahedron([u32; 8]),
+    /// A triangle, and the one over it, corner over corner.
+    Prism([u32; 6]),
+    /// A quadrangle and the apex over it.
+    Pyramid([u32; 5]),
+}
+
+/// Places of the corners of each face among those of its cell, counter-clockwise seen from outside; three or four count.
+type FaceTable = &'static [&'static [usize]];
+
+const TETRAHEDRON: FaceTable = &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]];
+const HEXAHEDRON: FaceTable = &[
+    &[0, 3, 2, 1],
+    &[4, 5, 6, 7],
+    &[0, 1, 5, 4],
+    &[1, 2, 6, 5],
+    &[2, 3, 7, 6],
+    &[3, 0, 4, 7],
+];
+const PRISM: FaceTable = &[
+    &[0, 2, 1],
+    &[3, 4, 5],
+    &[0, 1, 4, 3],
+    &[1, 2, 5, 4],
+    &[2, 0, 3, 5],
+];
+const PYRAMID: FaceTable = &[
+    &[0, 3, 2, 1],
+    &[0, 1, 4],
+    &[1, 2, 4],
+    &[2, 3, 4],
+    &[3, 0, 4],
+];
+
+impl SolidCell {
+    /// The corner nodes of the cell.
+    pub fn corners(&self) -> &[u32] {
+        match self {
+            SolidCell::Tetrahedron(corners) => corners,
+            SolidCell::Hexahedron(corners) => corners,
+            SolidCell::Prism(corners) => corners,
+            SolidCell::Pyramid(corners) => corners,
+        }
+    }
+
+    /// The corner nodes of the cell, to be renumbered or turned round.
+    #[cfg(test)]
+    pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
+        match self {
+            SolidCell::Tetrahedron(corners) => corners,
+            SolidCell::Hexahedron(corners) => corners,
+            SolidCell::Prism(corners) => corners,
+            SolidCell::Pyramid(corners) => corners,
+        }
+    }
+
+    /// Name of the shape.
+    pub fn shape_name(&self) -> &'static str {
+        match self {
+            SolidCell::Tetrahedron(_) => "tetrahedron",
+            SolidCell::Hexahedron(_) => "hexahedron",
+            SolidCell::Prism(_) => "prism",
+            SolidCell::Pyramid(_) => "pyramid",
+        }
+    }
+
+    fn face_table(&self) -> FaceTable {
+        match self {
+            SolidCell::Tetrahedron(_) => TETRAHEDRON,
+            SolidCell::Hexahedron(_) => HEXAHEDRON,
+            SolidCell::Prism(_) => PRISM,
+            SolidCell::Pyramid(_) => PYRAMID,
+        }
+    }
+
+    /// The faces of the cell, their corners counter-clockwise seen from outside.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = Cell> + use<> {
+        let cell = *self;
+        let face = move |places: &&[usize]| {
+            let corners = cell.corners();
+            match **places {
+                [a, b, c, d] => Cell::Quadrangle([a, b, c, d].map(|place| corners[place])),
+                _ => Cell::Triangle([0, 1, 2].map(|place| corners[places[place]])),
+            }
+        };
+        self.face_table().iter().map(face)
+    }
+
+    /// The edges of the cell, each once, from the lower to the higher node.
+    pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        // Every edge bounds two faces, which go along it in opposite directions.
+        let sides = |face: Cell| {
+            let n = face.corners().len();
+            (0..n).map(move |k| [face.corners()[k], face.corners()[(k + 1) % n]])
+        };
+        self.faces().flat_map(sides).filter(|[a, b]| a < b)
+    }
+
+    /// The volume of the cell with the nodes at `positions`, m³; negative where it is turned inside out.
+    ///
+    /// A quadrangular face out of one plane is the bilinear surface through its corners: the volume is that of the trilinear
+    /// cell, the mean of the volumes of the two polyhedra in which each face is split along one diagonal and along the other.
+    ///
+    /// # Panics
+    /// If a corner is no index into `positions`.
+    pub fn volume(&self, positions: &[[f64; 3]]) -> f64 {
+        // Differences keep the digits of a cell far from the origin.
+        let origin = positions[self.corners()[0] as usize];
+        let at = |node: u32| difference(positions[node as usize], origin);
+        let over = |a, b, c| determinant(at(a), at(b), at(c));
+        let sixfold = self.faces().map(|face| match face {
+            Cell::Triangle([a, b, c]) => over(a, b, c),
+            Cell::Quadrangle([a, b, c, d]) => {
+                0.5 * (over(a, b, c) + over(a, c, d) + over(b, c, d) + over(b, d, a))
+            }
+        });
+        sixfold.sum::<f64>() / 6.0
+    }
+
+    /// The tetrahedra that the cell consists of, of positive volume where the cell is convex.
+    ///
+    /// A quadrangular face is split along the diagonal from its lowest node, so that neighbours split it alike (J. Dompierre et
+    /// al., How to subdivide pyramids, prisms and hexahedra into tetrahedra, 1999).
+    pub fn tetrahedra(&self) -> impl Iterator<Item = [u32; 4]> + use<> {
+        let lowest = self.corners().iter().copied().min().unwrap_or_default();
+        let opposite = self
+            .faces()
+            .filter(move |face| !face.corners().contains(&lowest));
+        opposite.flat_map(move |face| face.triangles().map(move |[a, b, c]| [lowest, a, b, c]))
+    }
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The corners of the cube of side 2 around (1, 1, 1), in the order of Gmsh.
+    const CUBE: [[f64; 3]; 8] = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [0.0, 0.0, 2.0],
+        [2.0, 0.0, 2.0],
+        [2.0, 2.0, 2.0],
+        [0.0, 2.0, 2.0],
+    ];
+
+    /// One cell of each shape on nodes of the cube, with its volume.
+    const CELLS: [(SolidCell, f64); 4] = [
+        (SolidCell::Tetrahedron([0, 1, 3, 4]), 8.0 / 6.0),
+        (SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]), 8.0),
+        (SolidCell::Prism([0, 1, 3, 4, 5, 7]), 4.0),
+        (SolidCell::Pyramid([0, 1, 2, 3, 4]), 8.0 / 3.0),
+    ];
+
+    fn volume_of_tetrahedra(cell: SolidCell, positions: &[[f64; 3]]) -> f64 {
+        let parts = cell
+            .tetrahedra()
+            .map(|it| SolidCell::Tetrahedron(it).volume(positions));
+        parts
+            .map(|it| {
+                assert!(it > 0.0, "{cell:?}");
+                it
+            })
+            .sum()
+    }
+
+    #[test]
+    fn volumes_are_those_of_elementary_geometry() {
+        for (cell, expected) in CELLS {
+            assert!(
+                (cell.volume(&CUBE) - expected).abs() < 1e-15 * 8.0,
+                "{cell:?}"
+            );
+            let far = CUBE.map(|it| it.map(|x| 1e6 + x));
+            assert!(
+                (cell.volume(&far) - expected).abs() < 1e-15 * 8.0,
+                "{cell:?} far away"
+            );
+        }
+    }
+
+    /// The faces of a closed surface go along every edge once in each direction, and away from the middle.
+    #[test]
+    fn faces_are_closed_and_look_outwards() {
+        for (cell, _) in CELLS {
+            let mut edges = Vec::new();
+            let corners = cell.corners();
+            let middle = [0, 1, 2].map(|axis| {
+                let sum: f64 = corners.iter().map(|&node| CUBE[node as usize][axis]).sum();
+                sum / corners.len() as f64
+            });
+            for face in cell.faces() {
+                let on = face.corners();
+                edges.extend((0..on.len()).map(|k| [on[k], on[(k + 1) % on.len()]]));
+                let area = face.area_vector(&CUBE);
+                let from_middle = difference(CUBE[on[0] as usize], middle);
+                let outward: f64 = (0..3).map(|axis| area[axis] * from_middle[axis]).sum();
+                assert!(outward > 0.0, "{cell:?} {face:?}");
+            }
+            let n_edges = edges.len();
+            assert!(
+                edges.iter().all(|&[a, b]| edges.contains(&[b, a])),
+                "{cell:?}"
+            );
+            edges.sort_unstable();
+            edges.dedup();
+            assert_eq!(edges.len(), n_edges, "{cell:?}");
+            assert_eq!(2 * cell.edges().count(), n_edges, "{cell:?}");
+        }
+    }
+
+    /// Whichever node is the lowest, the parts fill the cell.
+    #[test]
+    fn tetrahedra_fill_the_cell_for_any_numbering() {
+        for (cell, expected) in CELLS {
+            for shift in 0..8 {
+                let mut renumbered = cell;
+                for node in renumbered.corners_mut() {
+                    *node = (3 * *node + shift) % 8;
+                }
+                let mut positions = CUBE;
+                for (node, &position) in (0..8).zip(&CUBE) {
+                    positions[(3 * node + shift as usize) % 8] = position;
+                }
+                let sum = volume_of_tetrahedra(renumbered, &positions);
+                assert!((sum - expected).abs() < 1e-14, "{renumbered:?} {sum}");
+            }
+        }
+    }
+
+    /// The trilinear cell, by Gauss quadrature of its Jacobian, which two points an axis integrate exactly.
+    #[test]
+    fn a_warped_hexahedron_has_the_volume_of_the_trilinear_cell() {
+        let mut positions = CUBE;
+        positions[6] = [2.7, 2.2, 2.5];
+        positions[1] = [2.1, -0.3, 0.4];
+        let gauss = [-1.0, 1.0].map(|sign: f64| 0.5 + sign * 0.5 / 3.0_f64.sqrt());
+        let sign = [
+            [0, 0, 0],
+            [1, 0, 0],
+            [1, 1, 0],
+            [0, 1, 0],
+            [0, 0, 1],
+            [1, 0, 1],
+            [1, 1, 1],
+            [0, 1, 1],
+        ];
+        let mut volume = 0.0;
+        for place in (0..8).map(|k: usize| [gauss[k & 1], gauss[k >> 1 & 1], gauss[k >> 2]]) {
+            let tangent = |along: usize| {
+                let mut sum = [0.0; 3];
+                for (corner, position) in sign.iter().zip(&positions) {
+                    let factor = |axis: usize| match (axis == along, corner[axis] == 1) {
+                        (true, true) => 1.0,
+                        (true, false) => -1.0,
+                        (false, true) => place[axis],
+                        (false, false) => 1.0 - place[axis],
+                    };
+                    let weight: f64 = (0..3).map(factor).product();
+                    sum = [0, 1, 2].map(|axis| sum[axis] + weight * position[axis]);
+                }
+                sum
+            };
+            volume += 0.125 * determinant(tangent(0), tangent(1), tangent(2));
+        }
+        let found = SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]).volume(&positions);
+        assert!((found - volume).abs() < 1e-13, "{found} {volume}");
+    }
+}

@@ -1,0 +1,7 @@
+//! Meshes of solids.
+
+mod cell;
+mod mesh;
+
+pub use cell::SolidCell;
+pub use mesh::SolidMesh;

@@ -1,0 +1,66 @@
+//! The product of the stiffness with a vector, without a matrix: one sweep over the bonds.
+//!
+//! Iterative solvers ask for it several times a bond breakage. Nothing depends on the number of threads: the bonds are divided
+//! into fixed parts, those of a part are added up by one thread in their order, and the parts after each other.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::element::{Element, Elements};
+use crate::system::{BondsLeft, Typed};
+
+/// Parts into which the bonds are divided; fixed, so that the order of summation is fixed too. Each part but the first adds to
+/// forces of its own at all points.
+const PARTS: usize = 4;
+
+/// Points that make a task worth while.
+const TASK: usize = 2048;
+
+/// Adds up forces at points with M components over bonds that are divided into fixed parts: `add` adds those of a range of bonds to
+/// the forces of all points. What `forces` (M n_points) held is lost.
+pub(crate) fn over_parts<const M: usize>(
+    n_bonds: usize,
+    forces: &mut [f64],
+    add: impl Fn(Range<usize>, &mut [[f64; M]]) + Sync,
+) {
+    let (of_points, _) = forces.as_chunks_mut::<M>();
+    let range = |part: usize| part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+    let mut others = vec![vec![[0.0; M]; of_points.len()]; PARTS - 1];
+    rayon::scope(|scope| {
+        for (part, sums) in (1..).zip(&mut others) {
+            let add = &add;
+            scope.spawn(move |_| add(range(part), sums));
+        }
+        of_points.fill([0.0; M]);
+        add(range(0), of_points);
+    });
+    of_points
+        .par_iter_mut()
+        .with_min_len(TASK)
+        .enumerate()
+        .for_each(|(point, sum)| {
+            for part in &others {
+                for (sum, value) in sum.iter_mut().zip(part[point]) {
+                    *sum += value;
+                }
+            }
+        });
+}
+
+impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
+    /// The product of the stiffness of the bonds that are left with motions, shape (M n_points) both.
+    pub(crate) fn multiply(self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+        over_parts::<M>(self.system.bonds.len(), forces, |of_part, sums| {
+            for bond in of_part {
+                if let Some(element) = self.left(bonds, bond) {
+                    element.forces(&element.deformation(motions), |point, force| {
+                        for (sum, value) in sums[point as usize].iter_mut().zip(force) {
+                            *sum += value;
+                        }
+                    });
+                }
+            }
+        });
+    }
+}
