@@ -35,7 +35,7 @@ impl CaseFile {
     ///
     /// If a table of temperatures cannot be read.
     pub fn setup_on(&self, body: Arc<dyn Body>) -> Result<Setup, CaseError> {
-        let setup = self.case.setup_with(body);
+        let setup = self.case.in_plane(body);
         let mut setup = setup.map_err(|fault| self.source.error(fault))?;
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {

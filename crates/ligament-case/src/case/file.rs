@@ -78,7 +78,7 @@ impl CaseFile {
         let setup = file
             .case
             .stand_in()
-            .and_then(|body| file.case.setup_with(body));
+            .and_then(|body| file.case.in_plane(body));
         let setup = setup.map_err(|fault| file.source.error(fault))?;
         setup.check().map_err(|error| file.located(error))?;
         Ok(file)

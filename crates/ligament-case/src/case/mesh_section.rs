@@ -18,13 +18,24 @@ pub struct MeshSection {
     /// The mesh, a Gmsh file (2.2 or 4.1), from the folder of the case file.
     #[schemars(length(min = 1))]
     pub file: PathBuf,
-    /// Thickness of the body, m.
-    #[serde(default = "metre")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub thickness: f64,
-    /// Plane stress or plane strain.
-    #[serde(default)]
-    pub plane: Word<Plane>,
+    /// Thickness of a body in the plane, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
+    pub thickness: Option<f64>,
+    /// Plane stress or plane strain of a body in the plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = "stress"))]
+    pub plane: Option<Word<Plane>>,
+}
+
+impl MeshSection {
+    /// Fills in what is not given; `folder` is that of the case file.
+    pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+        complete_path(&key.child("file"), &mut self.file, folder)?;
+        self.thickness.get_or_insert_with(metre);
+        self.plane.get_or_insert_default();
+        Ok(())
+    }
 }
 
 /// Makes the path at a key an absolute one; without `..` where the file exists. Whether it does is for its reader to say.

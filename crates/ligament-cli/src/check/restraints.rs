@@ -28,7 +28,7 @@ fn of_support(support: &Support) -> Vec<String> {
     let mut words: Vec<String> = (support.components())
         .map(|it| it.name().to_owned())
         .collect();
-    for (component, total) in support.stiffness.components() {
+    for (component, total) in support.stiffness.components.components() {
         let unit = if component.is_rotation() {
             "N m/rad"
         } else {

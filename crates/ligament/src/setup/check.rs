@@ -44,10 +44,10 @@ where
         }
         self.check_criteria()?;
         self.check_scatter()?;
+        Dim::check(self)?;
         self.check_correction()?;
         self.check_load_factors()?;
         self.check_stages()?;
-        Dim::check(self)?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
         self.check_restraints()?;
