@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::CaseFile;
-use ligament_cli::explain::{self, Subject};
+use ligament_cli::explain::{self, Position, Subject};
 use ligament_plot::picture::Target as Picture;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
@@ -90,7 +90,7 @@ impl Results {
     fn explain(&self) -> Vec<String> {
         let subjects = [
             Subject::Point(5),
-            Subject::At([0.02, 0.01]),
+            Subject::At(Position::InPlane([0.02, 0.01])),
             Subject::Bond([5, 6]),
         ];
         let explained = subjects.map(|subject| {

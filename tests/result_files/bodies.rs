@@ -123,7 +123,7 @@ impl Canvas {
             }
             None => match body.grid().canvas {
                 Drawn::Around(corners) => Self::Lattice(corners),
-                Drawn::Between(_) => panic!("a lattice has cells of its own for its points"),
+                _ => panic!("a lattice has squares of its own for its points"),
             },
         }
     }

@@ -15,8 +15,8 @@ pub struct Group {
     pub nodes: Vec<u32>,
     /// Edges of a curve group, ascending by their nodes, each once (empty otherwise).
     pub edges: Vec<[u32; 2]>,
-    /// Faces of a surface group of a solid mesh, in the order of the file, each once; from which side their corners stand
-    /// counter-clockwise is left open (empty otherwise).
+    /// Faces of a surface group of a solid mesh, ascending by their nodes, each once; they may look to either side (empty
+    /// otherwise).
     pub faces: Vec<Cell>,
     /// Cells, ascending: of a surface group of a planar mesh, of a volume group of a solid one (empty otherwise).
     pub cells: Vec<u32>,

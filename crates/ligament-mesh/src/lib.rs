@@ -1,8 +1,9 @@
-//! Planar finite-element meshes and their groups, read from Gmsh files.
+//! Planar and solid finite-element meshes and their groups, read from Gmsh files.
 //!
 //! [`gmsh::parse`] reads the bytes of a `.msh` file (formats 2.2 and 4.1, ASCII and binary) into a
 //! [`Mesh`]: nodes, triangles and quadrangles with their corners counter-clockwise, and the physical
 //! groups as sets of nodes. What cannot be a planar mesh is refused with the place in the file.
+//! [`gmsh::parse_any`] reads solid meshes as well, of tetrahedra, hexahedra, prisms and pyramids.
 //!
 //! ```
 //! let file = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
@@ -30,4 +31,4 @@ pub use field::NodeField;
 pub use group::Group;
 pub use mesh::Mesh;
 pub use remark::Remark;
-pub use solid::{SolidCell, SolidMesh};
+pub use solid::{Faces, Side, SolidCell, SolidMesh};

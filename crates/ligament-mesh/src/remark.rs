@@ -12,7 +12,7 @@ pub enum Remark {
         /// Number of nodes dropped with it: those on sides and inside of the cells.
         nodes: usize,
     },
-    /// Nodes that no planar cell uses, dropped from the mesh and from its groups.
+    /// Nodes that no cell uses, dropped from the mesh and from its groups.
     UnusedNodes {
         /// Number of nodes.
         nodes: usize,
@@ -40,10 +40,7 @@ impl fmt::Display for Remark {
                  their {nodes} other nodes were dropped"
             ),
             Remark::UnusedNodes { nodes } => {
-                write!(
-                    f,
-                    "{nodes} nodes that no triangle or quadrangle uses were dropped"
-                )
+                write!(f, "{nodes} nodes that no cell uses were dropped")
             }
             Remark::EmptyGroup { name, dimension } => write!(
                 f,

@@ -1,12 +1,12 @@
 //! The body as fields of its points are drawn on it.
 
-use ligament_mesh::Cell;
+use ligament_mesh::{Cell, SolidCell};
 
 /// A body with its points, their tags and what their fields are drawn on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyGrid {
-    /// Positions of the points, shape (n_points), m.
-    pub positions: Vec<[f64; 2]>,
+    /// Positions of the points, shape (n_points), m; in the plane z = 0.
+    pub positions: Vec<[f64; 3]>,
     /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
     pub tags: Vec<i64>,
     /// What a tag is one of: `node`, `cell` or `point`.
@@ -23,4 +23,43 @@ pub enum Canvas {
     /// A cell of its own for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to
     /// no other cell: they move with the point, and cracks open.
     Around(Vec<[[f64; 2]; 4]>),
+    /// Solid cells between the points, whose fields are point data.
+    Solid(Vec<SolidCell>),
+    /// A box of its own for each point, whose fields are cell data: its lowest and its highest corner (n_points, m). It moves
+    /// with the point, and cracks open.
+    Boxes(Vec<[[f64; 3]; 2]>),
+}
+
+impl BodyGrid {
+    /// Positions of the points along x and y, shape (n_points), m.
+    pub fn positions_in_plane(&self) -> Vec<[f64; 2]> {
+        self.positions.iter().map(|&[x, y, _]| [x, y]).collect()
+    }
+}
+
+impl Canvas {
+    /// Whether the body is one in space.
+    pub fn is_solid(&self) -> bool {
+        matches!(self, Self::Solid(_) | Self::Boxes(_))
+    }
+}
+
+/// Positions in the plane as ones in space with z = 0.
+pub fn raised(positions: &[[f64; 2]]) -> Vec<[f64; 3]> {
+    positions.iter().map(|&[x, y]| [x, y, 0.0]).collect()
+}
+
+/// Corners of a box between its lowest and its highest corner, in the order of a hexahedron.
+pub fn box_corners([low, high]: [[f64; 3]; 2]) -> [[f64; 3]; 8] {
+    let [low_z, high_z] = [low[2], high[2]].map(|z| {
+        [
+            [low[0], low[1], z],
+            [high[0], low[1], z],
+            [high[0], high[1], z],
+            [low[0], high[1], z],
+        ]
+    });
+    [
+        low_z[0], low_z[1], low_z[2], low_z[3], high_z[0], high_z[1], high_z[2], high_z[3],
+    ]
 }

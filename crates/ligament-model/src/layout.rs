@@ -41,6 +41,19 @@ impl Component {
         !matches!(self, Self::X | Self::Y | Self::Z)
     }
 
+    /// Name of the force or moment that belongs to it, as columns have it.
+    pub fn force_name(self) -> &'static str {
+        match self {
+            Self::X => "force_x",
+            Self::Y => "force_y",
+            Self::Rotation => "moment",
+            Self::Z => "force_z",
+            Self::RotationX => "moment_x",
+            Self::RotationY => "moment_y",
+            Self::RotationZ => "moment_z",
+        }
+    }
+
     /// Name in case files and results.
     pub fn name(self) -> &'static str {
         match self {
@@ -66,6 +79,20 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// Whether points move in space.
+    pub fn is_in_space(self) -> bool {
+        self.components.contains(&Component::Z)
+    }
+
+    /// Components of the forces and moments on a body, whether or not its points turn.
+    pub fn of_body(self) -> &'static [Component] {
+        if self.is_in_space() {
+            &Component::IN_SPACE
+        } else {
+            &Component::ALL
+        }
+    }
+
     /// Number of degrees of freedom.
     pub fn n_degrees_of_freedom(self) -> usize {
         self.components.len() * self.n_points

@@ -10,8 +10,8 @@ fn fields(criterion: &mut Criterion) {
     let folder = tempfile::tempdir().unwrap();
     let mut group = criterion.benchmark_group("fields");
     for n_row in [100_u32, 200, 325] {
-        let points: Vec<[f64; 2]> = (0..n_row * n_row)
-            .map(|i| [f64::from(i % n_row) / 7.0, f64::from(i / n_row) / 3.0])
+        let points: Vec<[f64; 3]> = (0..n_row * n_row)
+            .map(|i| [f64::from(i % n_row) / 7.0, f64::from(i / n_row) / 3.0, 0.0])
             .collect();
         let corner = |row: u32, column: u32| row * n_row + column;
         let cells: Vec<Cell> = (0..n_row - 1)
@@ -22,10 +22,10 @@ fn fields(criterion: &mut Criterion) {
                 [Cell::Triangle([a, b, c]), Cell::Triangle([a, c, d])]
             })
             .collect();
-        let numbers: Vec<f64> = points.iter().map(|[x, y]| (x * y).sin()).collect();
+        let numbers: Vec<f64> = points.iter().map(|[x, y, _]| (x * y).sin()).collect();
         let vectors: Vec<[f64; 3]> = points
             .iter()
-            .map(|[x, y]| [x.sin(), y.cos(), 0.0])
+            .map(|[x, y, _]| [x.sin(), y.cos(), 0.0])
             .collect();
         let names: Vec<String> = (0..14).map(|i| format!("scalar {i}")).collect();
         let mut point_fields = vec![

@@ -10,6 +10,7 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use ligament_mesh::SolidCell;
 use rayon::prelude::*;
 
 use crate::atomic::replace_file;
@@ -29,6 +30,9 @@ pub enum Cell {
     Triangle([u32; 3]),
     /// Four corners in order around the cell.
     Quad([u32; 4]),
+    /// A tetrahedron, hexahedron, prism or pyramid, its corners as Gmsh has them: VTK then finds a positive volume. For prisms its
+    /// documentation says otherwise, and meshio turns both triangles round.
+    Solid(SolidCell),
 }
 
 impl Cell {
@@ -39,16 +43,22 @@ impl Cell {
             Self::Line(points) => points,
             Self::Triangle(points) => points,
             Self::Quad(points) => points,
+            Self::Solid(cell) => cell.corners(),
         }
     }
 
     /// The cell of a number in `vtkCellType.h`; None where it is of another kind, or has other points.
     fn from_vtk(vtk_type: u8, points: &[u32]) -> Option<Self> {
-        match (vtk_type, points) {
-            (1, &[a]) => Some(Self::Vertex([a])),
-            (3, &[a, b]) => Some(Self::Line([a, b])),
-            (5, &[a, b, c]) => Some(Self::Triangle([a, b, c])),
-            (9, &[a, b, c, d]) => Some(Self::Quad([a, b, c, d])),
+        use SolidCell::{Hexahedron, Prism, Pyramid, Tetrahedron};
+        match vtk_type {
+            1 => points.try_into().ok().map(Self::Vertex),
+            3 => points.try_into().ok().map(Self::Line),
+            5 => points.try_into().ok().map(Self::Triangle),
+            9 => points.try_into().ok().map(Self::Quad),
+            10 => points.try_into().ok().map(Tetrahedron).map(Self::Solid),
+            12 => points.try_into().ok().map(Hexahedron).map(Self::Solid),
+            13 => points.try_into().ok().map(Prism).map(Self::Solid),
+            14 => points.try_into().ok().map(Pyramid).map(Self::Solid),
             _ => None,
         }
     }
@@ -60,15 +70,19 @@ impl Cell {
             Self::Line(_) => 3,
             Self::Triangle(_) => 5,
             Self::Quad(_) => 9,
+            Self::Solid(SolidCell::Tetrahedron(_)) => 10,
+            Self::Solid(SolidCell::Hexahedron(_)) => 12,
+            Self::Solid(SolidCell::Prism(_)) => 13,
+            Self::Solid(SolidCell::Pyramid(_)) => 14,
         }
     }
 }
 
-/// A planar grid with its fields.
+/// A grid with its fields.
 #[derive(Debug, Clone, Copy)]
 pub struct UnstructuredGrid<'a> {
-    /// Reference positions; the file has z = 0.
-    pub points: &'a [[f64; 2]],
+    /// Reference positions; z = 0 of a planar grid.
+    pub points: &'a [[f64; 3]],
     /// Cells on these points, of any mixture of kinds.
     pub cells: &'a [Cell],
     /// Fields on the points. ParaView colours by the first scalar and warps by the first vector.
@@ -131,9 +145,8 @@ impl UnstructuredGrid<'_> {
         );
         push_fields(&mut xml, "PointData", self.point_fields);
         push_fields(&mut xml, "CellData", self.cell_fields);
-        let points: Vec<[f64; 3]> = self.points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
         xml.push_str("<Points>\n");
-        xml.push_str(&Field::vector("Points", &points).to_xml());
+        xml.push_str(&Field::vector("Points", self.points).to_xml());
         xml.push_str("</Points>\n<Cells>\n");
         xml.extend(cell_arrays(self.cells));
         xml.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");

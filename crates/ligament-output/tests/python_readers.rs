@@ -5,6 +5,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use ligament_mesh::SolidCell;
 use ligament_output::csv::Table;
 use ligament_output::pvd::Collection;
 use ligament_output::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
@@ -25,19 +26,29 @@ fn sample_cells() -> Vec<Cell> {
         Cell::Line([0, 4095]),
         Cell::Vertex([7]),
     ]);
+    let solids = [
+        SolidCell::Tetrahedron([0, 1, 64, 4095]),
+        SolidCell::Hexahedron([0, 1, 65, 64, 128, 129, 193, 192]),
+        SolidCell::Prism([0, 1, 64, 128, 129, 192]),
+        SolidCell::Pyramid([0, 1, 65, 64, 4095]),
+    ];
+    cells.extend(solids.map(Cell::Solid));
     cells
 }
 
 /// What `read_sample.py` expects, formula for formula.
 fn write_sample(folder: &Path) {
-    let point = |i: u32| [f64::from(i % N_ROW) * 0.1, f64::from(i / N_ROW) / 3.0];
-    let points: Vec<[f64; 2]> = (0..N_ROW * N_ROW).map(point).collect();
+    let point = |i: u32| {
+        let [x, y] = [f64::from(i % N_ROW) * 0.1, f64::from(i / N_ROW) / 3.0];
+        [x, y, x * y - 1.0]
+    };
+    let points: Vec<[f64; 3]> = (0..N_ROW * N_ROW).map(point).collect();
     let cells = sample_cells();
-    let displacement: Vec<[f64; 3]> = points.iter().map(|&[x, y]| [x * y, -x, 0.0]).collect();
-    let mut damage: Vec<f64> = points.iter().map(|&[x, y]| x / (1.0 + y)).collect();
+    let displacement: Vec<[f64; 3]> = points.iter().map(|&[x, y, _]| [x * y, -x, 0.0]).collect();
+    let mut damage: Vec<f64> = points.iter().map(|&[x, y, _]| x / (1.0 + y)).collect();
     damage[1..4].copy_from_slice(&[f64::NAN, f64::NEG_INFINITY, -0.0]);
     let single: Vec<f32> = damage.iter().map(|&it| it as f32).collect();
-    let stress: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, x - y]).collect();
+    let stress: Vec<f64> = points.iter().flat_map(|&[x, y, _]| [x, y, x - y]).collect();
     let n_bonds: Vec<i64> = (0..i64::from(N_ROW * N_ROW)).map(|i| i - 5).collect();
     let mut material: Vec<i64> = (0..cells.len() as i64).collect();
     material[..2].copy_from_slice(&[i64::MAX, i64::MIN]);

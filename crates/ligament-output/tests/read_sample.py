@@ -22,6 +22,7 @@ def expected():
     first = (np.arange(N_ROW - 1)[:, None] * N_ROW + np.arange(N_ROW - 1)).ravel()
     quads = np.column_stack([first, first + 1, first + N_ROW + 1, first + N_ROW])
     cells = [*quads.tolist(), [0, 1, 64], [0, 4095], [7]]
+    cells += [[0, 1, 64, 4095], [0, 1, 65, 64, 128, 129, 193, 192], [0, 1, 64, 128, 129, 192], [0, 1, 65, 64, 4095]]
     material = np.arange(len(cells))
     limits = np.iinfo(np.int64)
     material[:2] = limits.max, limits.min
@@ -29,7 +30,7 @@ def expected():
     point_fields = {"damage": damage, "displacement": displacement, "n_bonds <&>": index - 5}
     point_fields["single"] = damage.astype(np.float32)
     point_fields["stress"] = np.column_stack([x, y, x - y])
-    return np.column_stack([x, y, zero]), cells, point_fields, {"material": material}
+    return np.column_stack([x, y, x * y - 1.0]), cells, point_fields, {"material": material}
 
 
 def cells_from_offsets(connectivity, offsets):
@@ -60,9 +61,14 @@ def read_pyvista(path):
     return grid.points, cells, dict(grid.point_data), dict(grid.cell_data)
 
 
+def in_vtk_order(block):
+    """The corners of cells as they stand in the file: meshio turns the triangles of a prism round."""
+    return block.data[:, [0, 2, 1, 3, 5, 4]] if block.type == "wedge" else block.data
+
+
 def read_meshio(path):
     mesh = meshio.read(path)
-    cells = [cell for block in mesh.cells for cell in block.data.tolist()]
+    cells = [cell for block in mesh.cells for cell in in_vtk_order(block).tolist()]
     cell_data = {name: np.concatenate(blocks) for name, blocks in mesh.cell_data.items()}
     return mesh.points, cells, mesh.point_data, cell_data
 

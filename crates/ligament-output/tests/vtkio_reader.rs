@@ -5,6 +5,7 @@
 use std::fs;
 use std::path::Path;
 
+use ligament_mesh::SolidCell;
 use ligament_output::Error;
 use ligament_output::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
 use vtkio::IOBuffer;
@@ -12,12 +13,12 @@ use vtkio::model::{
     Attribute, CellType, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk,
 };
 
-const POINTS: [[f64; 2]; 5] = [
-    [0.0, 0.0],
-    [1.0, 0.0],
-    [1.0, 1.0],
-    [0.0, 0.1 + 0.2],
-    [2.0, 0.5],
+const POINTS: [[f64; 3]; 5] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.5],
+    [1.0, 1.0, -0.25],
+    [0.0, 0.1 + 0.2, 0.0],
+    [2.0, 0.5, 1.0],
 ];
 const CELLS: [Cell; 4] = [
     Cell::Quad([0, 1, 2, 3]),
@@ -85,7 +86,7 @@ fn points_cells_and_fields_read_back() {
     .unwrap();
 
     let piece = read(&path);
-    let expected: Vec<f64> = POINTS.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
+    let expected = POINTS.as_flattened().to_vec();
     assert_eq!(piece.points, IOBuffer::F64(expected));
     assert_eq!(
         piece.cells.cell_verts,
@@ -121,13 +122,52 @@ fn points_cells_and_fields_read_back() {
     );
 }
 
+/// Solid cells have VTK's numbers: 10, 12, 13 and 14 of vtkCellType.h, with their corners as they stand.
+#[test]
+fn solid_cells_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fields_0000.vtu");
+    let points: Vec<[f64; 3]> = (0..9_u32)
+        .map(|it| [it & 1, it >> 1 & 1, it >> 2].map(f64::from))
+        .collect();
+    let cells = [
+        SolidCell::Tetrahedron([0, 1, 2, 4]),
+        SolidCell::Hexahedron([0, 1, 3, 2, 4, 5, 7, 6]),
+        SolidCell::Prism([0, 1, 2, 4, 5, 6]),
+        SolidCell::Pyramid([4, 5, 7, 6, 8]),
+    ]
+    .map(Cell::Solid);
+    let grid = UnstructuredGrid {
+        points: &points,
+        cells: &cells,
+        point_fields: &[],
+        cell_fields: &[],
+    };
+    write_vtu(&path, &grid).unwrap();
+    let piece = read(&path);
+    let types = [
+        CellType::Tetra,
+        CellType::Hexahedron,
+        CellType::Wedge,
+        CellType::Pyramid,
+    ];
+    assert_eq!(piece.cells.types, types);
+    let connectivity = cells.iter().flat_map(|cell| cell.points());
+    let expected = VertexNumbers::XML {
+        connectivity: connectivity.map(|&it| u64::from(it)).collect(),
+        offsets: vec![4, 12, 18, 23],
+    };
+    assert_eq!(piece.cells.cell_verts, expected);
+    assert_eq!(piece.points, IOBuffer::F64(points.into_flattened()));
+}
+
 #[test]
 fn arrays_of_whole_compression_blocks_read_back() {
     // A block has 32768 bytes, 4096 numbers.
     for n_points in [4095, 4096, 4097, 8192] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fields_0000.vtu");
-        let points: Vec<_> = (0..n_points).map(|i| [f64::from(i), 0.0]).collect();
+        let points: Vec<_> = (0..n_points).map(|i| [f64::from(i), 0.0, 0.0]).collect();
         let cells: Vec<_> = (0..n_points as u32).map(|i| Cell::Vertex([i])).collect();
         let volume: Vec<_> = (0..n_points).map(|i| f64::from(i).sqrt()).collect();
         let grid = UnstructuredGrid {
@@ -176,10 +216,12 @@ fn the_first_scalar_and_the_first_vector_are_shown_first() {
 #[test]
 fn the_number_of_threads_changes_no_byte() {
     // Some ten blocks an array, so that threads finish them out of order.
-    let points: Vec<_> = (0..40_000).map(|i| [f64::from(i).sqrt(), 0.0]).collect();
+    let points: Vec<_> = (0..40_000)
+        .map(|i| [f64::from(i).sqrt(), 0.0, 0.0])
+        .collect();
     let cells: Vec<_> = (0..40_000).map(|i| Cell::Vertex([i])).collect();
-    let volume: Vec<_> = points.iter().map(|[x, _]| x.sin()).collect();
-    let damage: Vec<_> = points.iter().map(|[x, _]| x.cos()).collect();
+    let volume: Vec<_> = points.iter().map(|[x, ..]| x.sin()).collect();
+    let damage: Vec<_> = points.iter().map(|[x, ..]| x.cos()).collect();
     let grid = UnstructuredGrid {
         points: &points,
         cells: &cells,

@@ -42,7 +42,10 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
                 Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
             };
             let cells = cells.iter().map(drawn).collect();
-            MappedBody::of_mesh("", grid.positions.clone(), cells, displacements, values)
+            MappedBody::of_mesh("", grid.positions_in_plane(), cells, displacements, values)
+        }
+        Canvas::Solid(_) | Canvas::Boxes(_) => {
+            return Err(PictureError::Solid("a map from memory"));
         }
     };
     let maps = Maps {

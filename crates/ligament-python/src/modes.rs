@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use crate::arrays::{array, rows};
 use crate::case::Case;
 use crate::errors::Failure;
+use crate::run::positions;
 use crate::solution::watched;
 
 /// Finds the natural modes of a case: arrays over the modes, and a shape over the points for each.
@@ -37,7 +38,7 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     named.set_item("complete", outcome.complete)?;
     let notices: Vec<String> = outcome.notices.iter().map(ToString::to_string).collect();
     named.set_item("warnings", notices)?;
-    named.set_item("position", rows(py, grid.positions.into_flattened(), 2)?)?;
+    named.set_item("position", positions(py, &grid)?)?;
     let mut shapes = Vec::new();
     for mode in outcome.modes {
         let of_mode = PyDict::new(py);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
-use ligament_model::{Absence, BodyGrid, Canvas, FixedFields};
+use ligament_model::{Absence, BodyGrid, Canvas, FixedFields, box_corners};
 use ligament_output::results::FieldValues;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_run::provenance::Provenance;
@@ -132,10 +132,7 @@ impl Run {
         }
         let points = PyDict::new(py);
         points.set_item(grid.tagged, array(py, grid.tags.clone()))?;
-        points.set_item(
-            "position",
-            rows(py, grid.positions.clone().into_flattened(), 2)?,
-        )?;
+        points.set_item("position", positions(py, &grid)?)?;
         fixed(&points, model.fixed)?;
         let bonds = PyDict::new(py);
         bonds.set_item("step_of_breaking", array(py, step_of_breaking))?;
@@ -241,8 +238,16 @@ fn of_outcome(bonds: &Bound<'_, PyDict>, outcome: Outcome) -> PyResult<()> {
     bonds.set_item("dissipated_energy", array(py, outcome.state.dissipated))
 }
 
+/// Positions of the points: (n_points, 2) in the plane, (n_points, 3) in space.
+pub(crate) fn positions<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyAny>> {
+    match grid.canvas.is_solid() {
+        true => rows(py, grid.positions.as_flattened().to_vec(), 3),
+        false => rows(py, grid.positions_in_plane().into_flattened(), 2),
+    }
+}
+
 /// Cells that fields are drawn on: `triangles` (n, 3) and `quadrangles` (n, 4) between the points, or `corners` (n_points, 4, 2) of
-/// the cell around each.
+/// the cell around each. In space `tetrahedra`, `pyramids`, `prisms` and `hexahedra`, or the `corners` (n_points, 8, 3) of boxes.
 fn cells<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyDict>> {
     let cells = PyDict::new(py);
     match &grid.canvas {
@@ -260,6 +265,28 @@ fn cells<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyDict>> 
         Canvas::Around(squares) => {
             let corners: Vec<f64> = squares.as_flattened().as_flattened().to_vec();
             cells.set_item("corners", rows(py, corners, 2)?)?;
+        }
+        Canvas::Solid(all) => {
+            let of_kind = |n_corners: usize| -> Vec<i64> {
+                let of_kind = all.iter().filter(|it| it.corners().len() == n_corners);
+                of_kind
+                    .flat_map(|it| it.corners())
+                    .map(|&it| i64::from(it))
+                    .collect()
+            };
+            let kinds = [
+                ("tetrahedra", 4),
+                ("pyramids", 5),
+                ("prisms", 6),
+                ("hexahedra", 8),
+            ];
+            for (name, n_corners) in kinds {
+                cells.set_item(name, rows(py, of_kind(n_corners), n_corners)?)?;
+            }
+        }
+        Canvas::Boxes(boxes) => {
+            let corners = boxes.iter().flat_map(|it| box_corners(*it)).flatten();
+            cells.set_item("corners", rows(py, corners.collect(), 3)?)?;
         }
     }
     Ok(cells)

@@ -33,7 +33,7 @@ impl Body {
     ///
     /// If the file cannot be used.
     pub(crate) fn read(file: &VtuFile) -> Result<Self, Error> {
-        let (corners, cells) = (file.points()?, file.cells()?);
+        let (corners, cells) = (file.points_in_plane()?, file.cells()?);
         let is_mesh = file.components(FieldLocation::Point, "horizon").is_some();
         let location = if is_mesh {
             FieldLocation::Point

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::numbers::position;
-use crate::explain::{Request, Subject, explain};
+use super::numbers::numbers;
+use crate::explain::{Position, Request, Subject, explain};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament explain results/disk --point 812         all bonds of node 812
-  ligament explain results/disk --at 0.01,-0.02     of the point nearest to x, y (m)
+  ligament explain results/disk --at 0.01,-0.02     of the point nearest to x, y (m), of a solid x, y, z
   ligament explain results/disk --bond 812 815      the bond between two nodes
   ligament explain results/disk --bond 812 815 --csv bond.csv
 
@@ -47,8 +47,8 @@ pub struct SubjectArgs {
     #[arg(long, value_names = ["A", "B"], num_args = 2)]
     pub bond: Option<Vec<i64>>,
     /// All bonds of the point nearest to this position, in the coordinates of the mesh, m
-    #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
-    pub at: Option<[f64; 2]>,
+    #[arg(long, value_name = "X,Y[,Z]", value_parser = position, allow_hyphen_values = true)]
+    pub at: Option<Position>,
 }
 
 impl ExplainArgs {
@@ -71,5 +71,24 @@ impl ExplainArgs {
             json: self.json,
         };
         explain(&request, &mut terminal::stdout())
+    }
+}
+
+/// A position in the plane or in space, m.
+fn position(text: &str) -> Result<Position, String> {
+    let in_plane = numbers(text).map(Position::InPlane);
+    let position = in_plane.or_else(|| numbers(text).map(Position::InSpace));
+    position.ok_or_else(|| "expected X,Y in m, such as 0.01,-0.02, or X,Y,Z of a solid".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_have_two_or_three_coordinates() {
+        assert_eq!(position("-0.01,2"), Ok(Position::InPlane([-0.01, 2.0])));
+        assert_eq!(position("1,2,3"), Ok(Position::InSpace([1.0, 2.0, 3.0])));
+        assert!(position("1").is_err() && position("1,2,3,4").is_err());
     }
 }

@@ -88,16 +88,6 @@ pub(super) fn write_json(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow:
 
 fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
     let bonds = &run.model.bonds;
-    let limits = life.limits.iter().map(|limit| {
-        json!({
-            "criterion": limit.name,
-            "measure": limit.measure.word(),
-            "limit": limit.limit,
-            "coefficients": limit.coefficients,
-            "after": limit.after.word(),
-            "break_limit": limit.limit * limit.after.end(0),
-        })
-    });
     let breakage = life.breakage.as_ref().map(|(broke, _)| {
         let breakage = json!({
             "order": broke.order,
@@ -131,18 +121,37 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
         });
         with_components(moment, lives, deformation)
     });
-    json!({
+    let mut document = json!({
         "ends": life.ends.map(|end| run.model.tags[end as usize]),
         "length": life.length,
-        "angle": angle(life),
         "horizon": bonds.horizon[life.pair],
         "alpha": bonds.length_factor[life.pair],
         "omega": bonds.domain_factor[life.pair],
-        "limits": limits.collect::<Vec<_>>(),
+        "limits": limits(life),
         "breakage": breakage,
         "largest": nearest,
         "path": path.collect::<Vec<_>>(),
-    })
+    });
+    match run.model.in_space {
+        true => document["direction"] = json!(life.direction),
+        false => document["angle"] = json!(angle(life)),
+    }
+    document
+}
+
+/// The limits of a bond.
+fn limits(life: &Life) -> Vec<serde_json::Value> {
+    let limits = life.limits.iter().map(|limit| {
+        json!({
+            "criterion": limit.name,
+            "measure": limit.measure.word(),
+            "limit": limit.limit,
+            "coefficients": limit.coefficients,
+            "after": limit.after.word(),
+            "break_limit": limit.limit * limit.after.end(0),
+        })
+    });
+    limits.collect()
 }
 
 /// An object with the components of a deformation under their names.

@@ -10,6 +10,7 @@ use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
+use super::space;
 use super::strains::{Strains, without_heat};
 use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
@@ -41,7 +42,7 @@ pub(super) struct Life {
     /// Length, m.
     pub(super) length: f64,
     /// Direction cosines from the first to the second end.
-    pub(super) direction: [f64; 2],
+    pub(super) direction: [f64; 3],
     /// Limits of the bond, one a criterion.
     pub(super) limits: Vec<Limit>,
     /// Deformation of the bond in each moment, also after it broke.
@@ -117,6 +118,9 @@ impl Lives {
             for life in &mut lives.of_bonds {
                 life.deformation.push(match &strains {
                     Some(strains) => strains.deformation(life.pair, &motions),
+                    None if run.model.in_space => {
+                        space::deformed(life.ends, (life.length, life.direction), &motions)
+                    }
                     None => life.deformed(&motions),
                 });
             }
@@ -159,8 +163,8 @@ impl Life {
         let model = &run.model;
         let ends = model.bonds.ends[pair];
         let [a, b] = ends.map(|end| model.positions[end as usize]);
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let length = along[0].hypot(along[1]);
+        let along = [0, 1, 2].map(|axis| b[axis] - a[axis]);
+        let length = along[0].hypot(along[1]).hypot(along[2]);
         let limit = |criterion: &StoredCriterion| {
             Limit::from_criterion(criterion, pair).ok_or_else(|| Error::Unreadable {
                 path: run.folder.join("criteria.csv"),
@@ -183,7 +187,7 @@ impl Life {
         })
     }
 
-    /// The deformation for the motions of all points, without what the temperature gives it. The points of springs do not
+    /// The deformation in the plane for the motions of all points, without what the temperature gives it. The points of springs do not
     /// turn, so that this holds for them as well.
     fn deformed(&self, motions: &Motions) -> BondDeformation {
         let pair = Pair {
@@ -191,7 +195,7 @@ impl Life {
             bond: BeamBond {
                 springs: SpringBond {
                     length: self.length,
-                    direction: self.direction,
+                    direction: [self.direction[0], self.direction[1]],
                     axial_rigidity: 0.0,
                     shear_rigidity: 0.0,
                 },
@@ -199,8 +203,8 @@ impl Life {
             },
         };
         let [a, b] = self.ends.map(|end| {
-            let [x, y] = motions.displacement[end as usize];
-            [x, y, motions.rotation[end as usize]]
+            let [x, y, _] = motions.displacement[end as usize];
+            [x, y, motions.rotation[end as usize][2]]
         });
         let whole = pair.bond.deformation(&a, &b);
         without_heat(whole, &pair, self.ends, motions)
@@ -305,7 +309,7 @@ pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> 
         pair: 0,
         ends: [0, 1],
         length: 1.0,
-        direction: [1.0, 0.0],
+        direction: [1.0, 0.0, 0.0],
         limits,
         n_intact: deformation.len(),
         deformation,

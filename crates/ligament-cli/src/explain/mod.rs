@@ -6,6 +6,7 @@
 mod files;
 mod life;
 mod report;
+mod space;
 mod strains;
 mod words;
 
@@ -26,7 +27,16 @@ pub enum Subject {
     /// The bond between two points with these tags.
     Bond([i64; 2]),
     /// The family of the point nearest to a position (coordinates of the case), m.
-    At([f64; 2]),
+    At(Position),
+}
+
+/// A position in the coordinates of the case, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Position {
+    /// Along x and y.
+    InPlane([f64; 2]),
+    /// Along x, y and z.
+    InSpace([f64; 3]),
 }
 
 /// What to explain, and where to.
@@ -57,6 +67,12 @@ pub enum ExplainError {
         /// The tags before and after it.
         nearest: Vec<i64>,
     },
+    /// A position in the plane for a body in space.
+    #[error("the body is a solid: --at needs X,Y,Z")]
+    InSpace,
+    /// A position in space for a body in the plane.
+    #[error("the body lies in the plane: --at needs X,Y")]
+    InPlane,
     /// A bond from a point to itself.
     #[error(
         "a bond has two ends, and both are {tagged} {tag}; --point {tag} explains all bonds of it"
@@ -83,14 +99,17 @@ fn nearest_words(nearest: &[i64]) -> String {
 pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
-    let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 2]>| {
+    let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 3]>| {
         let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
         report::family(out, &run, point, sought, &lives)?;
         anyhow::Ok(lives)
     };
     let lives = match request.subject {
         Subject::Point(tag) => family(out, point_of(&run, tag)?, None)?,
-        Subject::At(position) => family(out, nearest_point(&run, position), Some(position))?,
+        Subject::At(position) => {
+            let position = position_of(&run, position)?;
+            family(out, nearest_point(&run, position), Some(position))?
+        }
         Subject::Bond(tags) => {
             let [a, b] = [point_of(&run, tags[0])?, point_of(&run, tags[1])?];
             if a == b {
@@ -131,9 +150,19 @@ fn point_of(run: &StoredRun, tag: i64) -> Result<u32, ExplainError> {
     })
 }
 
+/// A position with as many coordinates as the body has, and z = 0 in the plane.
+fn position_of(run: &StoredRun, position: Position) -> Result<[f64; 3], ExplainError> {
+    match (run.model.in_space, position) {
+        (true, Position::InSpace(position)) => Ok(position),
+        (false, Position::InPlane([x, y])) => Ok([x, y, 0.0]),
+        (true, Position::InPlane(_)) => Err(ExplainError::InSpace),
+        (false, Position::InSpace(_)) => Err(ExplainError::InPlane),
+    }
+}
+
 /// The point nearest to a position, the first of several.
-fn nearest_point(run: &StoredRun, [x, y]: [f64; 2]) -> u32 {
-    let distance = |p: &[f64; 2]| (p[0] - x).hypot(p[1] - y);
+fn nearest_point(run: &StoredRun, position: [f64; 3]) -> u32 {
+    let distance = |p: &[f64; 3]| words::distance(position, *p);
     let positions = run.model.positions.iter().enumerate();
     let nearest = positions.min_by(|(_, p), (_, q)| distance(p).total_cmp(&distance(q)));
     nearest.map_or(0, |(point, _)| point as u32)

@@ -28,12 +28,12 @@ pub(super) fn bond(
         let pair = lives.absent.first().copied();
         return sentences(out, words::no_bond(run, [a, b], pair));
     };
-    let (length, degrees) = (metres(life.length), angle(life));
-    entry(
-        out,
-        "length",
-        format!("{length}, {degrees:.2} degrees from x"),
-    )?;
+    let length = metres(life.length);
+    let along = match run.model.in_space {
+        true => format!("along {}", direction(life)),
+        false => format!("{:.2} degrees from x", angle(life)),
+    };
+    entry(out, "length", format!("{length}, {along}"))?;
     let [h_a, h_b] = [a, b].map(|end| metres(run.model.horizon[end as usize]));
     let bonds = &run.model.bonds;
     let horizon = metres(bonds.horizon[life.pair]);
@@ -55,16 +55,17 @@ pub(super) fn family(
     out: &mut dyn Write,
     run: &StoredRun,
     point: u32,
-    sought: Option<[f64; 2]>,
+    sought: Option<[f64; 3]>,
     lives: &Lives,
 ) -> io::Result<()> {
     let model = &run.model;
     writeln!(out, "{} in {}", label(run, point), run.folder.display())?;
-    let [x, y] = model.positions[point as usize];
-    entry(out, "position", format!("({x:.6}, {y:.6}) m"))?;
-    if let Some([at_x, at_y]) = sought {
-        let distance = metres((at_x - x).hypot(at_y - y));
-        let words = format!("({at_x:.6}, {at_y:.6}) m, {distance} from it");
+    let position = model.positions[point as usize];
+    let words = words::coordinates(run, position);
+    entry(out, "position", format!("{words} m"))?;
+    if let Some(sought) = sought {
+        let distance = metres(words::distance(position, sought));
+        let words = format!("{} m, {distance} from it", words::coordinates(run, sought));
         entry(out, "nearest to", words)?;
     }
     let volume = quantity(model.volumes[point as usize], "m^3");
@@ -91,9 +92,15 @@ fn sentences(out: &mut dyn Write, sentences: Vec<String>) -> io::Result<()> {
     (sentences.iter()).try_for_each(|sentence| writeln!(out, "  {sentence}"))
 }
 
-/// Direction of a bond, degrees above -90 up to 90.
+/// Direction of a bond in space, as the cosines from its first to its second end.
+fn direction(life: &Life) -> String {
+    let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
+    format!("({x}, {y}, {z})")
+}
+
+/// Direction of a bond in the plane, degrees above -90 up to 90.
 pub(super) fn angle(life: &Life) -> f64 {
-    let [a, b] = life.direction;
+    let [a, b, _] = life.direction;
     let angle = b.atan2(a).to_degrees();
     if angle > 90.0 {
         angle - 180.0
@@ -216,7 +223,9 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
 fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     let bonds = &run.model.bonds;
     let mut header = vec![run.model.tagged.to_owned()];
-    header.extend(["length", "angle", "H", "alpha", "Omega"].map(str::to_owned));
+    let in_space = run.model.in_space;
+    let along = if in_space { "direction" } else { "angle" };
+    header.extend(["length", along, "H", "alpha", "Omega"].map(str::to_owned));
     let criteria = run.model.criteria.iter();
     header.extend(criteria.map(|it| format!("limit {}", it.name)));
     header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
@@ -235,7 +244,10 @@ fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
         let mut row = vec![
             run.model.tags[other_end(life.ends, point)].to_string(),
             metres(life.length),
-            format!("{:.2}", angle(life)),
+            match in_space {
+                true => direction(life),
+                false => format!("{:.2}", angle(life)),
+            },
             metres(bonds.horizon[life.pair]),
             format!("{:.5}", bonds.length_factor[life.pair]),
             format!("{:.5}", bonds.domain_factor[life.pair]),

@@ -24,6 +24,7 @@ impl Strains {
             return None;
         }
         let model = &run.model;
+        let positions: Vec<[f64; 2]> = model.positions.iter().map(|p| [p[0], p[1]]).collect();
         let pairs = model.bonds.ends.iter().zip(&model.bonds.absence);
         // Bonds stand before pairs that are none, so that both have the same numbers.
         let ends: Vec<[u32; 2]> = pairs
@@ -31,7 +32,7 @@ impl Strains {
             .map(|(ends, _)| *ends)
             .collect();
         let offset = |[a, b]: [u32; 2]| {
-            let [a, b] = [a, b].map(|end| model.positions[end as usize]);
+            let [a, b] = [a, b].map(|end| positions[end as usize]);
             [b[0] - a[0], b[1] - a[1]]
         };
         let offsets: Vec<[f64; 2]> = ends.iter().map(|ends| offset(*ends)).collect();
@@ -53,7 +54,7 @@ impl Strains {
             first_share: 0.5,
         };
         let stiffness = vec![none; bonds.len()];
-        let elements = ImaginaryElements::new(&bonds, model.positions.clone(), stiffness);
+        let elements = ImaginaryElements::new(&bonds, positions, stiffness);
         Some(Self {
             broke_in: breakages(run, &bonds),
             intact: vec![true; bonds.len()],
@@ -78,9 +79,10 @@ impl Strains {
 
     /// The deformation of a bond, without what the temperature gives it.
     pub(super) fn deformation(&self, bond: usize, motions: &Motions) -> BondDeformation {
+        let in_plane: Vec<[f64; 2]> = motions.displacement.iter().map(|u| [u[0], u[1]]).collect();
         let none = Rigidities::default();
         let element = (self.elements).element(&self.bonds, &none, &self.intact, bond);
-        let whole = element.deformation(motions.displacement.as_flattened());
+        let whole = element.deformation(in_plane.as_flattened());
         without_heat(whole, &element, self.bonds.ends[bond], motions)
     }
 }
@@ -95,7 +97,7 @@ pub(super) fn without_heat<const M: usize>(
     if motions.thermal_strain.is_empty() {
         return whole;
     }
-    let [a, b] = ends.map(|end| motions.thermal_strain[end as usize]);
+    let [a, b] = ends.map(|end| motions.thermal_strain.of_plane()[end as usize]);
     whole.less(&element.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
 }
 

@@ -29,10 +29,23 @@ pub(super) fn label(run: &StoredRun, point: u32) -> String {
     format!("{} {}", run.model.tagged, run.model.tags[point as usize])
 }
 
+/// A position in words, without z in the plane.
+pub(super) fn coordinates(run: &StoredRun, [x, y, z]: [f64; 3]) -> String {
+    match run.model.in_space {
+        true => format!("({x:.6}, {y:.6}, {z:.6})"),
+        false => format!("({x:.6}, {y:.6})"),
+    }
+}
+
+/// Distance between two places; one in the plane has z = 0.
+pub(super) fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
+    (q[0] - p[0]).hypot(q[1] - p[1]).hypot(q[2] - p[2])
+}
+
 /// A point in words, and where it is.
 pub(super) fn place(run: &StoredRun, point: u32) -> String {
-    let [x, y] = run.model.positions[point as usize];
-    format!("{} at ({x:.6}, {y:.6}) m", label(run, point))
+    let position = coordinates(run, run.model.positions[point as usize]);
+    format!("{} at {position} m", label(run, point))
 }
 
 fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
@@ -227,7 +240,7 @@ pub(super) fn short_fate(run: &StoredRun, lives: &Lives, life: &Life) -> String 
 pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) -> Vec<String> {
     let model = &run.model;
     let [p, q] = [a, b].map(|end| model.positions[end as usize]);
-    let distance = (q[0] - p[0]).hypot(q[1] - p[1]);
+    let distance = distance(p, q);
     let [h_a, h_b] = [a, b].map(|end| model.horizon[end as usize]);
     let mut lines = vec![format!(
         "Their distance is {}; the horizons are {} ({}) and {} ({}).",

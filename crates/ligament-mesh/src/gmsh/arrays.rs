@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::assembly;
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
+use super::plane;
 use super::records::{self, Node, Records};
 use crate::mesh::Mesh;
 
@@ -55,18 +55,18 @@ pub fn assemble(nodes: &[(u64, [f64; 2])], elements: &[Element<'_>]) -> Result<M
             .physicals
             .entry((dimension, owner))
             .or_insert_with(|| vec![owner]);
-        let mut corners = [0; 4];
-        corners[..element.corners.len()].copy_from_slice(&element.corners);
+        let first_corner = records.corners.len();
+        records.corners.extend_from_slice(&element.corners);
         records.elements.push(records::Element {
             tag: 1 + index as u64,
             shape,
-            nodes: corners,
             higher_order: false,
             owner,
+            first_corner,
             offset: index,
         });
     }
-    assembly::assemble(&cursor, &records)
+    plane::assemble(&cursor, &records)
 }
 
 fn shape_of(cursor: &Cursor<'_>, index: usize, element: &Element<'_>) -> Result<Shape, GmshError> {

@@ -22,7 +22,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a file was not read as a planar mesh.
+/// Why a file was not read as a mesh.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GmshError {
@@ -66,7 +66,7 @@ pub enum GmshError {
         /// Where the integer stands.
         place: Place,
     },
-    /// A section that no planar mesh has.
+    /// A section that no mesh has.
     #[error("{place}: unknown section ${name}; save the mesh by Gmsh, without extra data")]
     UnknownSection {
         /// Where the section begins.
@@ -130,7 +130,8 @@ pub enum GmshError {
     },
     /// An element type that Gmsh does not have, or one that is no polynomial cell.
     #[error(
-        "{place}: element type {code} is unknown or not supported; mesh with triangles or quadrangles"
+        "{place}: element type {code} is unknown or not supported; \
+         mesh with triangles or quadrangles, a solid with tetrahedra, hexahedra, prisms or pyramids"
     )]
     UnknownElementType {
         /// Where the type stands.
@@ -138,7 +139,7 @@ pub enum GmshError {
         /// Gmsh's number of the element type.
         code: i32,
     },
-    /// A volume element.
+    /// A solid cell where a planar mesh was asked for.
     #[error(
         "{place}: element type {code} is a volume, but the mesh must be planar; \
          mesh with `gmsh -2` and save surfaces only"
@@ -183,18 +184,19 @@ pub enum GmshError {
         /// Tag of the node.
         node: u64,
     },
-    /// The file has no triangle and no quadrangle.
+    /// The file has no triangle, no quadrangle and no solid cell.
     #[error(
-        "the mesh has no triangle and no quadrangle; mesh the surface (`gmsh -2`) \
-         and let a physical surface hold it, or save all (Mesh.SaveAll = 1)"
+        "the mesh has no cells: no triangle, no quadrangle and no solid cell; mesh the surface (`gmsh -2`) or the volume (`gmsh -3`) \
+         and let a physical group hold it, or save all (Mesh.SaveAll = 1)"
     )]
     NoCells,
     /// More nodes or cells than can be numbered.
     #[error("the mesh has more than {} nodes or cells; coarsen it", u32::MAX)]
     TooLarge,
-    /// The cells do not lie in one plane z = const.
+    /// There are no solid cells, and the others do not lie in one plane z = const.
     #[error(
-        "{place}: node {tag} lies at z = {z}, others at z = {plane}: the mesh is not planar; put it into one plane z = const"
+        "{place}: node {tag} lies at z = {z}, others at z = {plane}: the mesh has no solid cells and is not planar; \
+         put it into one plane z = const, or mesh the volume (`gmsh -3`) and let a physical volume hold it"
     )]
     NotPlanar {
         /// Where the node stands.
@@ -264,10 +266,82 @@ pub enum GmshError {
         /// Tag of the first cell.
         other: u64,
     },
+    /// Two nodes of a solid mesh at one place.
+    #[error(
+        "{place}: nodes {other} and {tag} are both at ({}, {}, {}); merge them \
+         (`Coherence Mesh;` in the geometry, or Geometry.AutoCoherence)",
+        .position[0], .position[1], .position[2]
+    )]
+    CoincidentNodesInSpace {
+        /// Place of the second of the two nodes.
+        place: Place,
+        /// Tag of the second node.
+        tag: u64,
+        /// Tag of the first node.
+        other: u64,
+        /// Position of both nodes, m.
+        position: [f64; 3],
+    },
+    /// A solid cell whose corners lie in a plane.
+    #[error(
+        "{place}: {shape} {element} is flat: its volume is {fraction:.1e} of the cube of its longest edge, less than {least:.0e}; \
+         mesh again with `gmsh -3 -optimize`, or with smaller cells"
+    )]
+    FlatCell {
+        /// Where the cell stands.
+        place: Place,
+        /// Tag of the cell.
+        element: u64,
+        /// Name of its shape.
+        shape: &'static str,
+        /// Volume over the cube of the longest edge.
+        fraction: f64,
+        /// The least fraction of a cell.
+        least: f64,
+    },
+    /// A hexahedron, prism or pyramid that is not convex: its edges at a corner span no positive volume, or it is twisted.
+    #[error(
+        "{place}: {shape} {element} is not convex; are its corners in Gmsh's order? \
+         Else mesh again, with tetrahedra (no Recombine) if need be"
+    )]
+    NotConvexSolid {
+        /// Where the cell stands.
+        place: Place,
+        /// Tag of the cell.
+        element: u64,
+        /// Name of its shape.
+        shape: &'static str,
+    },
+    /// Two solid cells on the same side of a common face.
+    #[error(
+        "{place}: cell {element} overlaps cell {other}: both lie on the same side of their common face; \
+         mesh the geometry again, or check how its nodes were moved"
+    )]
+    OverlappingSolids {
+        /// Where the second stands.
+        place: Place,
+        /// Tag of the second cell.
+        element: u64,
+        /// Tag of the first cell.
+        other: u64,
+    },
+    /// A surface element in a group of a solid mesh that is a face of none of its cells.
+    #[error(
+        "{place}: element {element} of the surface \"{group}\" is a face of no solid cell; a mesh is of solid cells and their \
+         faces, or of plane cells alone: leave the surface out of the physical groups, or mesh surface and volume together (`gmsh -3`)"
+    )]
+    LooseFace {
+        /// Where the element stands.
+        place: Place,
+        /// Tag of the element.
+        element: u64,
+        /// Name of the group, or its number in decimal.
+        group: String,
+    },
     /// Two cells of the same corners.
     #[error(
         "{place}: cell {element} has the corners of cell {other}; \
-         do two surfaces of the geometry overlap? Remove one (`Coherence;`)"
+         do two parts of the geometry overlap? Remove one (`Coherence;`)"
     )]
     DuplicateCell {
         /// Where the second stands.

@@ -2,20 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use super::records::{Corners, Records};
+use super::assembly::{Assembly, DROPPED};
+use super::records::Records;
+use crate::cell::Cell;
 use crate::group::Group;
 use crate::remark::Remark;
 
 /// The groups of all elements, in the order of dimension and number; remarks on those left out.
 pub(super) fn collect(
     records: &Records,
-    corners: &[Corners],
+    assembly: &Assembly,
     cell_of_element: &[Option<u32>],
     remarks: &mut Vec<Remark>,
 ) -> Vec<Group> {
     let mut groups = announced(records);
     let mut undescribed = 0;
-    for ((element, corners), cell) in records.elements.iter().zip(corners).zip(cell_of_element) {
+    for (element, cell) in records.elements.iter().zip(cell_of_element) {
+        let corners = &assembly.corners[element.corners()];
         let dimension = element.shape.dimension();
         let Some(numbers) = records.physicals.get(&(dimension, element.owner)) else {
             undescribed += 1;
@@ -25,10 +28,16 @@ pub(super) fn collect(
             let Some(group) = groups.get_mut(&(dimension, *number)) else {
                 continue;
             };
-            group.nodes.extend(corners.iter().flatten());
+            let kept = corners.iter().filter(|corner| **corner != DROPPED);
+            group.nodes.extend(kept);
             group.cells.extend(cell);
-            if let (1, [Some(a), Some(b), ..]) = (dimension, *corners) {
-                group.edges.push([a, b]);
+            if corners.contains(&DROPPED) {
+                continue;
+            }
+            match (dimension, corners) {
+                (1, &[a, b]) => group.edges.push([a, b]),
+                (2, _) if cell.is_none() => group.faces.extend(face(corners)),
+                _ => {}
             }
         }
     }
@@ -37,7 +46,16 @@ pub(super) fn collect(
             elements: undescribed,
         });
     }
-    finished(groups, remarks)
+    finished(groups, assembly.nodes.len(), remarks)
+}
+
+/// The face of a solid cell with these corners.
+pub(super) fn face(corners: &[u32]) -> Option<Cell> {
+    match *corners {
+        [a, b, c] => Some(Cell::Triangle([a, b, c])),
+        [a, b, c, d] => Some(Cell::Quadrangle([a, b, c, d])),
+        _ => None,
+    }
 }
 
 /// All groups that the file names or uses, empty.
@@ -71,17 +89,23 @@ fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
 }
 
 /// The groups with their lists in order; the empty ones become remarks.
-fn finished(groups: BTreeMap<(u8, i32), Group>, remarks: &mut Vec<Remark>) -> Vec<Group> {
+fn finished(
+    groups: BTreeMap<(u8, i32), Group>,
+    n_nodes: usize,
+    remarks: &mut Vec<Remark>,
+) -> Vec<Group> {
     let (mut full, empty): (Vec<_>, Vec<_>) = groups
         .into_values()
         .partition(|group| !group.nodes.is_empty());
     for group in &mut full {
-        group.nodes.sort_unstable();
-        group.nodes.dedup();
+        group.nodes = ascending(std::mem::take(&mut group.nodes), n_nodes);
         group.cells.sort_unstable();
+        group.cells.dedup();
         let key = |edge: &[u32; 2]| (edge[0].min(edge[1]), edge[0].max(edge[1]));
         group.edges.sort_by_key(key);
         group.edges.dedup_by_key(|edge| key(edge));
+        group.faces.sort_by_key(sorted_corners);
+        group.faces.dedup_by_key(|face| sorted_corners(face));
     }
     remarks.extend(empty.into_iter().map(
         |Group {
@@ -89,4 +113,27 @@ fn finished(groups: BTreeMap<(u8, i32), Group>, remarks: &mut Vec<Remark>) -> Ve
          }| Remark::EmptyGroup { name, dimension },
     ));
     full
+}
+
+/// The nodes in ascending order, each once.
+fn ascending(mut nodes: Vec<u32>, n_nodes: usize) -> Vec<u32> {
+    if nodes.len() < n_nodes {
+        nodes.sort_unstable();
+        nodes.dedup();
+        return nodes;
+    }
+    // Most nodes stand there several times: a mark a node is quicker than an order.
+    let mut is_in = vec![false; n_nodes];
+    for node in nodes {
+        is_in[node as usize] = true;
+    }
+    let all = 0..n_nodes as u32;
+    all.filter(|node| is_in[*node as usize]).collect()
+}
+
+fn sorted_corners(face: &Cell) -> [u32; 4] {
+    let mut key = [u32::MAX; 4];
+    key[..face.corners().len()].copy_from_slice(face.corners());
+    key.sort_unstable();
+    key
 }

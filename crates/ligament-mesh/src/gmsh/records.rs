@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::cursor::Cursor;
-use super::element_type::{ElementType, Shape};
+use super::element_type::Shape;
 use super::error::GmshError;
 
 /// Coordinates beyond this would overflow in products.
@@ -18,29 +18,34 @@ pub(super) struct Node {
     pub(super) offset: usize,
 }
 
-/// An element record, by its corner nodes.
+/// An element record.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Element {
     pub(super) tag: u64,
     pub(super) shape: Shape,
-    /// Tags of the corner nodes; as many count as the shape has corners.
-    pub(super) nodes: [u64; 4],
     /// Whether the element has nodes beside its corners.
     pub(super) higher_order: bool,
     /// Number of the physical group (2.2) or of the entity (4.1), which decides the groups of the element.
     pub(super) owner: i32,
+    /// Place of its first corner among those of all elements.
+    pub(super) first_corner: usize,
     /// Offset of the element in the file, bytes.
     pub(super) offset: usize,
 }
 
 impl Element {
-    pub(super) fn corners(&self) -> &[u64] {
-        &self.nodes[..self.shape.corners()]
+    /// The places of its corners among those of all elements.
+    pub(super) fn corners(&self) -> std::ops::Range<usize> {
+        self.first_corner..self.first_corner + self.shape.corners()
     }
 }
 
-/// Indices of the corners of an element; none behind the last, and where the node was dropped.
-pub(super) type Corners = [Option<u32>; 4];
+/// Where the type of an element stands in the file, and its number.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TypeRecord {
+    pub(super) offset: usize,
+    pub(super) code: i32,
+}
 
 /// The records of a section `$NodeData`.
 #[derive(Debug)]
@@ -57,8 +62,12 @@ pub(super) struct FieldRecord {
 pub(super) struct Records {
     pub(super) nodes: Vec<Node>,
     pub(super) elements: Vec<Element>,
-    /// Nodes of planar cells that are no corners, each with the index of its element.
+    /// Tags of the corners of all elements, one after the other.
+    pub(super) corners: Vec<u64>,
+    /// Nodes of planar and solid cells that are no corners, each with the index of its element.
     pub(super) inner_nodes: Vec<(u64, u32)>,
+    /// Type of the first solid element.
+    pub(super) first_solid: Option<TypeRecord>,
     /// Names of physical groups by dimension and number.
     pub(super) names: HashMap<(u8, i32), String>,
     /// Numbers of the physical groups by dimension and owner of their elements.
@@ -88,6 +97,24 @@ impl Records {
         }
     }
 
+    /// The shape and number of nodes of a type.
+    pub(super) fn element_type(
+        &mut self,
+        cursor: &Cursor<'_>,
+        record: TypeRecord,
+    ) -> Result<(Shape, usize), GmshError> {
+        // The place costs a pass over the file: only errors may ask for it.
+        let (shape, nodes) =
+            Shape::from_code(record.code).ok_or_else(|| GmshError::UnknownElementType {
+                place: cursor.place(record.offset),
+                code: record.code,
+            })?;
+        if shape.dimension() == 3 {
+            self.first_solid.get_or_insert(record);
+        }
+        Ok((shape, nodes))
+    }
+
     /// Reads the node tags of an element, by `tag`, and keeps it.
     pub(super) fn push_element<'a>(
         &mut self,
@@ -96,47 +123,26 @@ impl Records {
         (shape, nodes): (Shape, usize),
         node_tag: impl Fn(&mut Cursor<'a>) -> Result<u64, GmshError>,
     ) -> Result<(), GmshError> {
-        let corners = shape.corners();
-        let higher_order = nodes > corners;
-        let mut element = Element {
+        let n_corners = shape.corners();
+        let element = Element {
             tag,
             shape,
-            nodes: [0; 4],
-            higher_order,
+            higher_order: nodes > n_corners,
             owner,
+            first_corner: self.corners.len(),
             offset,
         };
-        for corner in &mut element.nodes[..corners] {
-            *corner = node_tag(cursor)?;
+        for _ in 0..n_corners {
+            self.corners.push(node_tag(cursor)?);
         }
         let index = u32::try_from(self.elements.len()).map_err(|_| GmshError::TooLarge)?;
-        for _ in corners..nodes {
+        for _ in n_corners..nodes {
             let inner = node_tag(cursor)?;
-            if shape.dimension() == 2 {
+            if shape.dimension() > 1 {
                 self.inner_nodes.push((inner, index));
             }
         }
         self.elements.push(element);
         Ok(())
-    }
-}
-
-/// The shape and number of nodes of a type number read at `offset`.
-pub(super) fn planar_type(
-    cursor: &Cursor<'_>,
-    offset: usize,
-    code: i32,
-) -> Result<(Shape, usize), GmshError> {
-    // The place costs a pass over the file: only errors may ask for it.
-    match ElementType::from_code(code) {
-        Some(ElementType::Planar(shape, nodes)) => Ok((shape, nodes)),
-        Some(ElementType::Volume) => Err(GmshError::VolumeElement {
-            place: cursor.place(offset),
-            code,
-        }),
-        None => Err(GmshError::UnknownElementType {
-            place: cursor.place(offset),
-            code,
-        }),
     }
 }

@@ -3,7 +3,7 @@
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{Node, Records, planar_type};
+use super::records::{Node, Records, TypeRecord};
 
 /// Reads `$Nodes` behind its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
@@ -75,27 +75,31 @@ fn read_row(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshEr
     cursor.begin_row();
     let offset = cursor.offset();
     let tag = cursor.unsigned_int("an element number")?;
-    let type_offset = cursor.offset();
-    let code = cursor.int("an element type")?;
-    let planar = planar_type(cursor, type_offset, code)?;
+    let record = TypeRecord {
+        offset: cursor.offset(),
+        code: cursor.int("an element type")?,
+    };
+    let element_type = records.element_type(cursor, record)?;
     let tags = cursor.unsigned_int("a number of tags")?;
-    read_tags_and_nodes(cursor, records, (tag, offset), planar, tags)?;
+    read_tags_and_nodes(cursor, records, (tag, offset), element_type, tags)?;
     cursor.end_row()
 }
 
 /// Reads elements of one type from a binary file and gives their number.
 fn read_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<u64, GmshError> {
-    let type_offset = cursor.offset();
-    let code = cursor.int("an element type")?;
-    let planar = planar_type(cursor, type_offset, code)?;
+    let record = TypeRecord {
+        offset: cursor.offset(),
+        code: cursor.int("an element type")?,
+    };
+    let element_type = records.element_type(cursor, record)?;
     let count_offset = cursor.offset();
     let count = cursor.unsigned_int("a number of elements")?;
     let tags = cursor.unsigned_int("a number of tags")?;
-    cursor.check_count(count_offset, count, 4 * (1 + planar.1), "elements")?;
+    cursor.check_count(count_offset, count, 4 * (1 + element_type.1), "elements")?;
     for _ in 0..count {
         let offset = cursor.offset();
         let tag = cursor.unsigned_int("an element number")?;
-        read_tags_and_nodes(cursor, records, (tag, offset), planar, tags)?;
+        read_tags_and_nodes(cursor, records, (tag, offset), element_type, tags)?;
     }
     Ok(count)
 }
@@ -104,7 +108,7 @@ fn read_tags_and_nodes(
     cursor: &mut Cursor<'_>,
     records: &mut Records,
     (tag, offset): (u64, usize),
-    planar: (Shape, usize),
+    element_type: (Shape, usize),
     tags: u64,
 ) -> Result<(), GmshError> {
     // The first tag is the physical group: 0, or no tag, for none; negative for a reversed one.
@@ -117,9 +121,9 @@ fn read_tags_and_nodes(
     }
     records
         .physicals
-        .entry((planar.0.dimension(), physical))
+        .entry((element_type.0.dimension(), physical))
         .or_insert_with(|| vec![physical]);
-    records.push_element(cursor, (tag, physical, offset), planar, |cursor| {
+    records.push_element(cursor, (tag, physical, offset), element_type, |cursor| {
         cursor.unsigned_int("a node number")
     })
 }

@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::error::GmshError;
-use super::records::{Node, Records, planar_type};
+use super::records::{Node, Records, TypeRecord};
 
 /// Reads `$Entities`, or `$PartitionedEntities`, behind its first line: which groups an entity is in.
 pub(super) fn read_entities(
@@ -216,24 +216,26 @@ fn read_element_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<
     cursor.begin_row();
     let dimension = dimension(cursor)?;
     let entity = cursor.int("an entity tag")?;
-    let type_offset = cursor.offset();
-    let code = cursor.int("an element type")?;
-    let planar = planar_type(cursor, type_offset, code)?;
-    if planar.0.dimension() != dimension {
+    let record = TypeRecord {
+        offset: cursor.offset(),
+        code: cursor.int("an element type")?,
+    };
+    let element_type = records.element_type(cursor, record)?;
+    if element_type.0.dimension() != dimension {
         let expected = "an element type of the dimension of its entity";
-        return Err(cursor.unexpected(type_offset, expected, code.to_string()));
+        return Err(cursor.unexpected(record.offset, expected, record.code.to_string()));
     }
     let count_offset = cursor.offset();
     let count = cursor.size("a number of elements")?;
     cursor.end_row()?;
-    let smallest = if cursor.is_ascii() { 2 } else { 8 } * (1 + planar.1);
+    let smallest = if cursor.is_ascii() { 2 } else { 8 } * (1 + element_type.1);
     let count = cursor.check_count(count_offset, count, smallest, "elements")?;
     records.elements.reserve(count);
     for _ in 0..count {
         cursor.begin_row();
         let offset = cursor.offset();
         let tag = cursor.size("an element tag")?;
-        records.push_element(cursor, (tag, entity, offset), planar, |cursor| {
+        records.push_element(cursor, (tag, entity, offset), element_type, |cursor| {
             cursor.size("a node tag")
         })?;
         cursor.end_row()?;

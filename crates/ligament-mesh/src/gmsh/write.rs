@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
+use crate::group::Group;
 use crate::mesh::Mesh;
+use crate::solid::SolidMesh;
 
 /// The text of a Gmsh file (4.1, ASCII) of a mesh, from which [`parse`](super::parse) makes an equal mesh: nodes with their
 /// tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is
@@ -15,13 +17,53 @@ use crate::mesh::Mesh;
 ///
 /// If a cell or a group has a node, or a group a cell, that the mesh does not have.
 pub fn write(mesh: &Mesh) -> String {
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let cells: Vec<&[u32]> = mesh.cells.iter().map(|cell| cell.corners()).collect();
+    text_of(&Source {
+        dimension: 2,
+        node_tags: &mesh.node_tags,
+        positions: &positions,
+        cells: &cells,
+        groups: &mesh.groups,
+    })
+}
+
+/// The text of a Gmsh file (4.1, ASCII) of a solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh, as
+/// [`write()`] does for a planar one.
+///
+/// # Panics
+///
+/// If a cell, a face or a group has a node, or a group a cell, that the mesh does not have.
+pub fn write_solid(mesh: &SolidMesh) -> String {
+    let cells: Vec<&[u32]> = mesh.cells.iter().map(|cell| cell.corners()).collect();
+    text_of(&Source {
+        dimension: 3,
+        node_tags: &mesh.node_tags,
+        positions: &mesh.positions,
+        cells: &cells,
+        groups: &mesh.groups,
+    })
+}
+
+/// A mesh to be written.
+struct Source<'a> {
+    /// Dimension of the cells.
+    dimension: usize,
+    node_tags: &'a [u64],
+    positions: &'a [[f64; 3]],
+    /// Corners of the cells.
+    cells: &'a [&'a [u32]],
+    groups: &'a [Group],
+}
+
+fn text_of(source: &Source<'_>) -> String {
     let mut text = String::new();
-    let entities = Entities::from_mesh(mesh);
+    let entities = Entities::new(source);
     // Writing to a string cannot fail.
-    let _ = write_head(&mut text, mesh)
-        .and_then(|()| entities.write(&mut text, mesh))
-        .and_then(|()| write_nodes(&mut text, mesh))
-        .and_then(|()| entities.write_elements(&mut text, mesh));
+    let _ = write_head(&mut text, source.groups)
+        .and_then(|()| entities.write(&mut text, source.positions))
+        .and_then(|()| write_nodes(&mut text, source))
+        .and_then(|()| entities.write_elements(&mut text, source.node_tags));
     text
 }
 
@@ -34,34 +76,31 @@ struct Element {
     entity: usize,
 }
 
-/// Elements and entities of the dimensions 0, 1 and 2.
+/// Elements and entities of the dimensions 0, 1, 2 and 3.
 struct Entities {
     /// Groups of each entity.
-    groups: [Vec<Memberships>; 3],
-    elements: [Vec<Element>; 3],
+    groups: [Vec<Memberships>; 4],
+    elements: [Vec<Element>; 4],
 }
 
 impl Entities {
-    fn from_mesh(mesh: &Mesh) -> Self {
-        let mut points: BTreeMap<u32, Memberships> = BTreeMap::new();
-        let mut edges: BTreeMap<[u32; 2], Memberships> = BTreeMap::new();
-        let mut cells = vec![Memberships::new(); mesh.cells.len()];
-        for group in &mesh.groups {
-            let number = group.number;
-            match group.dimension {
-                0 => {
-                    for &node in &group.nodes {
-                        points.entry(node).or_default().insert(number);
-                    }
-                }
-                1 => {
-                    for &edge in &group.edges {
-                        edges.entry(edge).or_default().insert(number);
-                    }
+    fn new(source: &Source<'_>) -> Self {
+        let mut parts: [BTreeMap<Vec<u32>, Memberships>; 3] = Default::default();
+        let mut cells = vec![Memberships::new(); source.cells.len()];
+        for group in source.groups {
+            let mut add = |dimension: usize, nodes: &[u32]| {
+                let memberships = parts[dimension].entry(nodes.to_vec()).or_default();
+                memberships.insert(group.number);
+            };
+            match usize::from(group.dimension) {
+                0 => group.nodes.iter().for_each(|node| add(0, &[*node])),
+                1 => group.edges.iter().for_each(|edge| add(1, edge)),
+                2 if source.dimension == 3 => {
+                    group.faces.iter().for_each(|face| add(2, face.corners()));
                 }
                 _ => {
                     for &cell in &group.cells {
-                        cells[cell as usize].insert(number);
+                        cells[cell as usize].insert(group.number);
                     }
                 }
             }
@@ -70,17 +109,17 @@ impl Entities {
             groups: Default::default(),
             elements: Default::default(),
         };
+        let [points, edges, faces] = parts;
         // An entity of dimension 0 is one point.
-        for (node, groups) in points {
+        for (nodes, groups) in points {
             let entity = entities.groups[0].len();
             entities.groups[0].push(groups);
-            let nodes = vec![node];
             entities.elements[0].push(Element { nodes, entity });
         }
-        let edges = edges.into_iter().map(|(edge, it)| (edge.to_vec(), it));
-        entities.gather(1, edges);
-        let corners = mesh.cells.iter().map(|cell| cell.corners().to_vec());
-        entities.gather(2, corners.zip(cells));
+        entities.gather(1, edges.into_iter());
+        entities.gather(2, faces.into_iter());
+        let corners = source.cells.iter().map(|corners| corners.to_vec());
+        entities.gather(source.dimension, corners.zip(cells));
         entities
     }
 
@@ -100,51 +139,55 @@ impl Entities {
         }
     }
 
-    fn write(&self, text: &mut String, mesh: &Mesh) -> fmt::Result {
-        let [points, curves, surfaces] = self.groups.each_ref().map(Vec::len);
-        writeln!(text, "$Entities\n{points} {curves} {surfaces} 0")?;
+    fn write(&self, text: &mut String, positions: &[[f64; 3]]) -> fmt::Result {
+        let [points, curves, surfaces, volumes] = self.groups.each_ref().map(Vec::len);
+        writeln!(text, "$Entities\n{points} {curves} {surfaces} {volumes}")?;
         for (dimension, groups) in self.groups.iter().enumerate() {
-            let mut boxes = vec![[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; groups.len()];
+            let mut boxes = vec![[[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]; groups.len()];
             for element in &self.elements[dimension] {
                 let [low, high] = &mut boxes[element.entity];
                 for &node in &element.nodes {
-                    for (axis, value) in mesh.positions[node as usize].into_iter().enumerate() {
+                    for (axis, value) in positions[node as usize].into_iter().enumerate() {
                         low[axis] = low[axis].min(value);
                         high[axis] = high[axis].max(value);
                     }
                 }
             }
             for (place, (groups, [low, high])) in groups.iter().zip(boxes).enumerate() {
-                write!(text, "{} {:?} {:?} 0 ", place + 1, low[0], low[1])?;
+                write!(text, "{} {} ", place + 1, Position(low))?;
                 if dimension > 0 {
-                    write!(text, "{:?} {:?} 0 ", high[0], high[1])?;
+                    write!(text, "{} ", Position(high))?;
                 }
                 write!(text, "{}", groups.len())?;
                 for group in groups {
                     write!(text, " {group}")?;
                 }
-                // What bounds curves and surfaces is not known.
+                // What bounds curves, surfaces and volumes is not known.
                 writeln!(text, "{}", if dimension > 0 { " 0" } else { "" })?;
             }
         }
         writeln!(text, "$EndEntities")
     }
 
-    fn write_elements(&self, text: &mut String, mesh: &Mesh) -> fmt::Result {
+    fn write_elements(&self, text: &mut String, node_tags: &[u64]) -> fmt::Result {
         let alike =
             |a: &Element, b: &Element| a.entity == b.entity && a.nodes.len() == b.nodes.len();
         let blocks = |dimension: usize| self.elements[dimension].chunk_by(alike);
-        let n_blocks: usize = (0..3).map(|dimension| blocks(dimension).count()).sum();
+        let n_blocks: usize = (0..4).map(|dimension| blocks(dimension).count()).sum();
         let total: usize = self.elements.iter().map(Vec::len).sum();
         writeln!(text, "$Elements\n{n_blocks} {total} 1 {total}")?;
         let mut number = 0;
-        for dimension in 0..3 {
+        for dimension in 0..4 {
             for block in blocks(dimension) {
                 let code = match (dimension, block[0].nodes.len()) {
                     (0, _) => 15,
                     (1, _) => 1,
-                    (_, 3) => 2,
-                    _ => 3,
+                    (2, 3) => 2,
+                    (2, _) => 3,
+                    (_, 4) => 4,
+                    (_, 5) => 7,
+                    (_, 6) => 6,
+                    (_, _) => 5,
                 };
                 let entity = block[0].entity + 1;
                 writeln!(text, "{dimension} {entity} {code} {}", block.len())?;
@@ -152,7 +195,7 @@ impl Entities {
                     number += 1;
                     write!(text, "{number}")?;
                     for &node in &element.nodes {
-                        write!(text, " {}", mesh.node_tags[node as usize])?;
+                        write!(text, " {}", node_tags[node as usize])?;
                     }
                     writeln!(text)?;
                 }
@@ -162,30 +205,45 @@ impl Entities {
     }
 }
 
-fn write_head(text: &mut String, mesh: &Mesh) -> fmt::Result {
+/// A position with all digits; a height of zero is written short.
+struct Position([f64; 3]);
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [x, y, 0.0] => write!(f, "{x:?} {y:?} 0"),
+            [x, y, z] => write!(f, "{x:?} {y:?} {z:?}"),
+        }
+    }
+}
+
+fn write_head(text: &mut String, groups: &[Group]) -> fmt::Result {
     writeln!(text, "$MeshFormat\n4.1 0 8\n$EndMeshFormat")?;
-    if mesh.groups.is_empty() {
+    if groups.is_empty() {
         return Ok(());
     }
-    writeln!(text, "$PhysicalNames\n{}", mesh.groups.len())?;
-    for group in &mesh.groups {
+    writeln!(text, "$PhysicalNames\n{}", groups.len())?;
+    for group in groups {
         let (dimension, number, name) = (group.dimension, group.number, &group.name);
         writeln!(text, "{dimension} {number} \"{name}\"")?;
     }
     writeln!(text, "$EndPhysicalNames")
 }
 
-/// One block, on the first surface: what the nodes of a mesh lie on is not known.
-fn write_nodes(text: &mut String, mesh: &Mesh) -> fmt::Result {
-    let count = mesh.node_tags.len();
-    let least = mesh.node_tags.iter().min().unwrap_or(&0);
-    let largest = mesh.node_tags.iter().max().unwrap_or(&0);
-    writeln!(text, "$Nodes\n1 {count} {least} {largest}\n2 1 0 {count}")?;
-    for tag in &mesh.node_tags {
+/// One block, on the first entity of the dimension of the cells: what the nodes of a mesh lie on is not known.
+fn write_nodes(text: &mut String, source: &Source<'_>) -> fmt::Result {
+    let (count, dimension) = (source.node_tags.len(), source.dimension);
+    let least = source.node_tags.iter().min().unwrap_or(&0);
+    let largest = source.node_tags.iter().max().unwrap_or(&0);
+    writeln!(
+        text,
+        "$Nodes\n1 {count} {least} {largest}\n{dimension} 1 0 {count}"
+    )?;
+    for tag in source.node_tags {
         writeln!(text, "{tag}")?;
     }
-    for [x, y] in &mesh.positions {
-        writeln!(text, "{x:?} {y:?} 0")?;
+    for position in source.positions {
+        writeln!(text, "{}", Position(*position))?;
     }
     writeln!(text, "$EndNodes")
 }

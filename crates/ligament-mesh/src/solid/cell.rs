@@ -57,7 +57,7 @@ impl SolidCell {
 
     /// The corner nodes of the cell, to be renumbered or turned round.
     #[cfg(test)]
-    pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
+    fn corners_mut(&mut self) -> &mut [u32] {
         match self {
             SolidCell::Tetrahedron(corners) => corners,
             SolidCell::Hexahedron(corners) => corners,
@@ -88,14 +88,16 @@ impl SolidCell {
     /// The faces of the cell, their corners counter-clockwise seen from outside.
     pub fn faces(&self) -> impl ExactSizeIterator<Item = Cell> + use<> {
         let cell = *self;
-        let face = move |places: &&[usize]| {
-            let corners = cell.corners();
-            match **places {
-                [a, b, c, d] => Cell::Quadrangle([a, b, c, d].map(|place| corners[place])),
-                _ => Cell::Triangle([0, 1, 2].map(|place| corners[places[place]])),
-            }
-        };
-        self.face_table().iter().map(face)
+        (0..self.face_table().len()).map(move |place| cell.face(place))
+    }
+
+    /// The face at a place among those of the cell.
+    pub(crate) fn face(&self, place: usize) -> Cell {
+        let (corners, places) = (self.corners(), self.face_table()[place]);
+        match *places {
+            [a, b, c, d] => Cell::Quadrangle([a, b, c, d].map(|place| corners[place])),
+            _ => Cell::Triangle([0, 1, 2].map(|place| corners[places[place]])),
+        }
     }
 
     /// The edges of the cell, each once, from the lower to the higher node.
@@ -181,9 +183,8 @@ mod tests {
             .tetrahedra()
             .map(|it| SolidCell::Tetrahedron(it).volume(positions));
         parts
-            .map(|it| {
-                assert!(it > 0.0, "{cell:?}");
-                it
+            .inspect(|it| {
+                assert!(*it > 0.0, "{cell:?}");
             })
             .sum()
     }

@@ -40,11 +40,14 @@ pub enum Part {
 const ONE_CORNER: f64 = 0.01;
 
 impl Faces {
-    /// The faces of a body with its points at `positions` (n_points), m.
+    /// The faces of a body in the plane with its points at `positions` (n_points), m; of a solid none, whose cracks are surfaces.
     pub fn new(positions: &[[f64; 2]], canvas: &Canvas) -> Self {
         match canvas {
             Canvas::Between(cells) => Self::between_nodes(positions, cells),
             Canvas::Around(squares) => Self::around_points(squares),
+            Canvas::Solid(_) | Canvas::Boxes(_) => {
+                Unsorted::default().sorted(Vec::new(), Vec::new())
+            }
         }
     }
 

@@ -10,6 +10,7 @@ use std::path::Path;
 
 use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
 use ligament_model::crack::CrackLine;
+use ligament_model::raised;
 
 use super::cracks::{CrackRecord, StoredCracks};
 use crate::Error;
@@ -109,7 +110,7 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
         let segments = 0..line.places.len() as u32 - 1;
         numbers.extend(segments.clone().map(|_| number));
         cells.extend(segments.map(|it| Cell::Line([first + it, first + it + 1])));
-        points.extend_from_slice(&line.places);
+        points.extend(raised(&line.places));
         along.extend(line.along());
     }
     let grid = UnstructuredGrid {

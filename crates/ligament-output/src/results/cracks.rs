@@ -107,7 +107,7 @@ impl StoredCracks {
         softened: &[([u32; 2], usize)],
         (history, thickness): (&[StepRecord], f64),
     ) -> Self {
-        let faces = Faces::new(&body.positions, &body.canvas);
+        let faces = Faces::new(&body.positions_in_plane(), &body.canvas);
         let breaks = (1..).zip(broken);
         let breaks = breaks.map(|(order, ends)| (*ends, Moment::Breakage(order)));
         let opened = softened
@@ -264,7 +264,7 @@ struct StoredBody {
 impl StoredBody {
     fn read(path: &Path) -> Result<Self, Error> {
         let file = VtuFile::open(path)?;
-        let corners = file.points()?;
+        let corners = file.points_in_plane()?;
         let cells: Option<Vec<Cell>> = file.cells()?.iter().map(planar).collect();
         let cells =
             cells.ok_or_else(|| file.strange("its cells are no triangles or quadrangles"))?;
@@ -292,7 +292,7 @@ fn planar(cell: &vtu::Cell) -> Option<Cell> {
     match *cell {
         vtu::Cell::Triangle(corners) => Some(Cell::Triangle(corners)),
         vtu::Cell::Quad(corners) => Some(Cell::Quadrangle(corners)),
-        vtu::Cell::Vertex(_) | vtu::Cell::Line(_) => None,
+        vtu::Cell::Vertex(_) | vtu::Cell::Line(_) | vtu::Cell::Solid(_) => None,
     }
 }
 

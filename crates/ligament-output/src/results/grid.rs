@@ -1,9 +1,10 @@
 //! The body on which fields are drawn, and the fields that do not change.
 
+use std::iter::repeat_n;
 use std::path::Path;
 
-use ligament_mesh::Cell;
-use ligament_model::{BodyGrid, Canvas, FixedFields};
+use ligament_mesh::{Cell, SolidCell};
+use ligament_model::{BodyGrid, Canvas, FixedFields, box_corners, raised};
 
 use crate::Error;
 use crate::vtu::{self, Field, UnstructuredGrid};
@@ -62,37 +63,51 @@ pub(super) fn write_grid(
     let vector = |values| Field::vector("displacement", values);
     let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
     all.extend(fields);
-    match &body.canvas {
-        Canvas::Between(cells) => {
-            let drawn = |cell: &Cell| match *cell {
-                Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
-                Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
-            };
-            let cells: Vec<vtu::Cell> = cells.iter().map(drawn).collect();
+    let cells = cells(&body.canvas);
+    let (points, n_corners) = match &body.canvas {
+        Canvas::Between(_) | Canvas::Solid(_) => {
             let grid = UnstructuredGrid {
                 points: &body.positions,
                 cells: &cells,
                 point_fields: &all,
                 cell_fields: &[],
             };
-            vtu::write_vtu(path, &grid)
+            return vtu::write_vtu(path, &grid);
         }
-        Canvas::Around(corners) => {
-            let cells: Vec<vtu::Cell> = (0..corners.len() as u32)
-                .map(|cell| vtu::Cell::Quad([0, 1, 2, 3].map(|corner| 4 * cell + corner)))
-                .collect();
-            let of_corners: Option<Vec<[f64; 3]>> =
-                displacement.map(|values| values.iter().flat_map(|value| [*value; 4]).collect());
-            let of_corners: Vec<Field<'_>> =
-                of_corners.as_deref().map(vector).into_iter().collect();
-            let grid = UnstructuredGrid {
-                points: corners.as_flattened(),
-                cells: &cells,
-                point_fields: &of_corners,
-                cell_fields: &all,
-            };
-            vtu::write_vtu(path, &grid)
-        }
+        Canvas::Around(corners) => (raised(corners.as_flattened()), 4),
+        Canvas::Boxes(boxes) => (boxes.iter().copied().flat_map(box_corners).collect(), 8),
+    };
+    let moved = |values: &[[f64; 3]]| -> Vec<[f64; 3]> {
+        let of_corners = values.iter().flat_map(|it| repeat_n(*it, n_corners));
+        of_corners.collect()
+    };
+    let of_corners = displacement.map(moved);
+    let of_corners: Vec<Field<'_>> = of_corners.as_deref().map(vector).into_iter().collect();
+    let grid = UnstructuredGrid {
+        points: &points,
+        cells: &cells,
+        point_fields: &of_corners,
+        cell_fields: &all,
+    };
+    vtu::write_vtu(path, &grid)
+}
+
+/// The cells of a canvas; those of one point each have corners of their own, in the order of the points.
+fn cells(canvas: &Canvas) -> Vec<vtu::Cell> {
+    let planar = |cell: &Cell| match *cell {
+        Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
+        Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
+    };
+    match canvas {
+        Canvas::Between(cells) => cells.iter().map(planar).collect(),
+        Canvas::Solid(cells) => cells.iter().copied().map(vtu::Cell::Solid).collect(),
+        Canvas::Around(squares) => (0..squares.len() as u32)
+            .map(|cell| vtu::Cell::Quad(std::array::from_fn(|it| 4 * cell + it as u32)))
+            .collect(),
+        Canvas::Boxes(boxes) => (0..boxes.len() as u32)
+            .map(|cell| std::array::from_fn(|it| 8 * cell + it as u32))
+            .map(|corners| vtu::Cell::Solid(SolidCell::Hexahedron(corners)))
+            .collect(),
     }
 }
 
@@ -111,7 +126,7 @@ mod tests {
     fn cells_around_points_have_their_own_corners() {
         let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
         let grid = BodyGrid {
-            positions: vec![[0.5, 0.5], [1.5, 0.5]],
+            positions: vec![[0.5, 0.5, 0.0], [1.5, 0.5, 0.0]],
             tags: vec![1, 2],
             tagged: "cell",
             canvas: Canvas::Around(vec![square(0.0), square(1.0)]),

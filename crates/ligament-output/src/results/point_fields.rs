@@ -13,8 +13,11 @@ use super::rule::WriteRule;
 use crate::Error;
 use crate::vtu::Field;
 
-/// Field of the strain (eps_xx, eps_yy, gamma_xy) that the temperature would make without stress.
+/// Field of the strain (eps_xx, eps_yy, gamma_xy; in space eps_xx, eps_yy, eps_zz, gamma_xy, gamma_xz, gamma_yz) that the temperature would make without stress.
 pub(super) const THERMAL_STRAIN: &str = "thermal_strain";
+
+/// Field of the rotations of the points.
+const ROTATION: &str = "rotation";
 
 /// Field of the energy that bonds took for good.
 const DISSIPATED: &str = "dissipated_energy_density";
@@ -73,7 +76,7 @@ impl PointFields {
         let (motion, damage, heat) = (self.motion, self.damage, self.heat);
         let n_points = damage.share.len().max(1);
         let mut named = vec![
-            ("rotation", Numbers(1, motion.rotation)),
+            (ROTATION, motion.rotation.into_values()),
             ("damage", Numbers(1, damage.share)),
             ("strain_energy_density", Numbers(1, motion.density)),
             ("reaction", Numbers(3, motion.reaction.into_flattened())),
@@ -100,7 +103,7 @@ impl PointFields {
 
 /// Motion of the points, what the bonds store and exert, and which parts are connected.
 struct Motion {
-    rotation: Vec<f64>,
+    rotation: Rotations,
     density: Vec<f64>,
     reaction: Vec<[f64; 3]>,
     fragment: Vec<i64>,
@@ -114,14 +117,14 @@ impl Motion {
         let layout = view.system.layout();
         let held = state.held.chunks(layout.components.len());
         Self {
-            rotation: values(layout, Component::Rotation, &state.displacement),
+            rotation: Rotations::read(layout, &state.displacement),
             density: fields::strain_energy_density(
                 view.system,
                 state.bonds(),
                 &balanced.deformations,
                 &balanced.closed,
             ),
-            reaction: in_plane(layout, &reactions),
+            reaction: vectors(layout, &reactions),
             fragment: (view.fragments.of_point.iter())
                 .map(|&fragment| i64::from(fragment))
                 .collect(),
@@ -131,13 +134,48 @@ impl Motion {
 
     fn fields<'a>(&'a self, damage: &'a [f64]) -> Vec<Field<'a>> {
         vec![
-            Field::scalar("rotation", &self.rotation),
+            self.rotation.field(),
             Field::scalar("damage", damage),
             Field::scalar("strain_energy_density", &self.density),
             Field::vector("reaction", &self.reaction),
             Field::integer("fragment", &self.fragment),
             Field::integer("held", &self.held),
         ]
+    }
+}
+
+/// Rotations of the points, rad; zero where points do not turn.
+pub(super) enum Rotations {
+    /// In the plane, counter-clockwise, shape (n_points).
+    InPlane(Vec<f64>),
+    /// In space about the axes, right-handed, shape (n_points).
+    InSpace(Vec<[f64; 3]>),
+}
+
+impl Rotations {
+    /// Reads them from values of all degrees of freedom.
+    pub(super) fn read(layout: Layout, of_all: &[f64]) -> Self {
+        use Component::{Rotation, RotationX, RotationY, RotationZ};
+        if layout.is_in_space() {
+            return Self::InSpace(triples(layout, [RotationX, RotationY, RotationZ], of_all));
+        }
+        let of_point = |point| layout.value(point, Rotation, of_all);
+        Self::InPlane((0..layout.n_points as u32).map(of_point).collect())
+    }
+
+    /// The field of a file.
+    pub(super) fn field(&self) -> Field<'_> {
+        match self {
+            Self::InPlane(values) => Field::scalar(ROTATION, values),
+            Self::InSpace(values) => Field::vector(ROTATION, values),
+        }
+    }
+
+    fn into_values(self) -> FieldValues {
+        match self {
+            Self::InPlane(values) => FieldValues::Numbers(1, values),
+            Self::InSpace(values) => FieldValues::Numbers(3, values.into_flattened()),
+        }
     }
 }
 
@@ -190,8 +228,11 @@ impl Heat {
             fields.push(Field::scalar("temperature_change", &self.change));
         }
         if !self.strain.is_empty() {
-            let components = &["xx", "yy", "xy"];
-            fields.push(Field::components(THERMAL_STRAIN, components, &self.strain));
+            let names: &[&str] = match self.strain.len() / self.change.len().max(1) {
+                6 => &["xx", "yy", "zz", "xy", "xz", "yz"],
+                _ => &["xx", "yy", "xy"],
+            };
+            fields.push(Field::components(THERMAL_STRAIN, names, &self.strain));
         }
         fields
     }
@@ -216,22 +257,18 @@ fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
         .collect()
 }
 
-/// Displacements of the points with a third component of zero, shape (n_points), m.
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points), m.
 pub fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
-    in_plane(view.system.layout(), &view.state.displacement)
+    vectors(view.system.layout(), &view.state.displacement)
 }
 
-/// The x and y components with a third of zero, as readers expect vectors, shape (n_points).
-pub(super) fn in_plane(layout: Layout, of_all: &[f64]) -> Vec<[f64; 3]> {
-    let of_point = |point| {
-        let [x, y] = [Component::X, Component::Y].map(|it| layout.value(point, it, of_all));
-        [x, y, 0.0]
-    };
-    (0..layout.n_points as u32).map(of_point).collect()
+/// The x, y and z components, of which those that points do not have are zero, shape (n_points).
+pub(super) fn vectors(layout: Layout, of_all: &[f64]) -> Vec<[f64; 3]> {
+    triples(layout, [Component::X, Component::Y, Component::Z], of_all)
 }
 
-/// Values of a component, shape (n_points).
-pub(super) fn values(layout: Layout, component: Component, of_all: &[f64]) -> Vec<f64> {
-    let of_point = |point| layout.value(point, component, of_all);
+/// Values of three components, zero where points do not have them, shape (n_points).
+fn triples(layout: Layout, components: [Component; 3], of_all: &[f64]) -> Vec<[f64; 3]> {
+    let of_point = |point| components.map(|it| layout.value(point, it, of_all));
     (0..layout.n_points as u32).map(of_point).collect()
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
+use ligament_model::thermal::FreeStrains;
 
 use super::model_file::{COEFFICIENTS, MODEL};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
@@ -38,8 +39,10 @@ pub struct StoredModel {
     pub tagged: &'static str,
     /// Tags of the points, shape (n_points).
     pub tags: Vec<i64>,
-    /// Positions, shape (n_points), m.
-    pub positions: Vec<[f64; 2]>,
+    /// Positions, shape (n_points), m; z = 0 in the plane.
+    pub positions: Vec<[f64; 3]>,
+    /// Whether the body is one in space.
+    pub in_space: bool,
     /// Volumes, shape (n_points), m^3.
     pub volumes: Vec<f64>,
     /// Horizons, shape (n_points), m.
@@ -134,13 +137,12 @@ pub struct StoredBreak {
 /// The motions of the points in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motions {
-    /// Displacements of the points along x and y, shape (n_points), m.
-    pub displacement: Vec<[f64; 2]>,
-    /// Rotations of the points, shape (n_points), rad.
-    pub rotation: Vec<f64>,
-    /// Strain (eps_xx, eps_yy, gamma_xy) that the temperature would give each point without stress, shape (n_points, 3); empty
-    /// where it does not change.
-    pub thermal_strain: Vec<[f64; 3]>,
+    /// Displacements of the points, shape (n_points), m; along z none in the plane.
+    pub displacement: Vec<[f64; 3]>,
+    /// Rotations of the points about the axes, shape (n_points), rad; about z alone in the plane.
+    pub rotation: Vec<[f64; 3]>,
+    /// Strains that the temperature would give the points without stress; empty where it does not change.
+    pub thermal_strain: FreeStrains,
 }
 
 impl StoredRun {
@@ -195,6 +197,13 @@ impl StoredRun {
         };
         let displacement = file.finite_numbers(location, "displacement")?;
         let rotation = file.finite_numbers(location, "rotation")?;
+        let rotation: Vec<[f64; 3]> = match self.model.in_space {
+            true => rotation.as_chunks().0.to_vec(),
+            false => rotation
+                .into_iter()
+                .map(|about_z| [0.0, 0.0, about_z])
+                .collect(),
+        };
         let n_points = self.model.positions.len();
         let thermal = match file.components(location, THERMAL_STRAIN) {
             Some(_) => file.finite_numbers(location, THERMAL_STRAIN)?,
@@ -203,11 +212,13 @@ impl StoredRun {
         if rotation.len() != n_points {
             return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
         }
-        let in_plane = displacement.chunks_exact(3).map(|u| [u[0], u[1]]);
         Ok(Some(Motions {
-            displacement: in_plane.collect(),
+            displacement: displacement.as_chunks().0.to_vec(),
             rotation,
-            thermal_strain: thermal.as_chunks().0.to_vec(),
+            thermal_strain: match self.model.in_space {
+                true => FreeStrains::in_space(thermal.as_chunks().0.to_vec()),
+                false => FreeStrains::in_plane(thermal.as_chunks().0.to_vec()),
+            },
         }))
     }
 }
@@ -244,10 +255,12 @@ impl StoredModel {
         let (tagged, tags) = file.tags(FieldLocation::Point)?;
         let no_fail = file.required_integers(FieldLocation::Point, "no_fail")?;
         let bonds = StoredBonds::read(&file)?;
+        let positions = file.points()?;
         Ok(Self {
             tagged,
             tags,
-            positions: file.points()?,
+            in_space: positions.iter().any(|it| it[2] != 0.0),
+            positions,
             volumes: numbers("volume")?,
             horizon: numbers("horizon")?,
             no_fail: no_fail.into_iter().map(|flag| flag != 0).collect(),

@@ -5,7 +5,7 @@ use std::time::Duration;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
-use ligament_analysis::{Bonds, Component, serial};
+use ligament_analysis::{Bonds, serial};
 
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -164,8 +164,10 @@ pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
 /// Names of the columns of the history of a problem.
 pub fn history_columns(problem: &Problem) -> Vec<String> {
     let groups = problem.loads.groups().iter();
+    let of_body = problem.system.layout().of_body();
     let of_groups = groups.flat_map(|group| {
-        ["force_x", "force_y", "moment"].map(|it| format!("{}.{it}", group.name))
+        let names = of_body.iter().map(|it| it.force_name());
+        names.map(|it| format!("{}.{it}", group.name))
     });
     let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
     (HISTORY.iter().map(|column| column.0.to_owned()))
@@ -190,7 +192,8 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
     let layout = view.system.layout();
     let of_groups = record.group_forces.iter().flat_map(|force| {
         // The forces of a group stand as those of one point.
-        Component::ALL.map(|component| layout.value(0, component, force))
+        let of_body = layout.of_body().iter();
+        of_body.map(move |component| layout.value(0, *component, force))
     });
     row.extend(of_groups.map(Value::from));
     row.extend(record.probes.iter().map(|&value| Value::from(value)));

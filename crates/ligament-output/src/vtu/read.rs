@@ -17,7 +17,7 @@ use crate::xml::{attribute, unescape};
 use crate::{Error, FieldLocation};
 
 /// Corners of a cell at most.
-const MOST_CORNERS: usize = 4;
+const MOST_CORNERS: usize = 8;
 
 /// Numbers that a field has for a point or cell at most.
 const MOST_COMPONENTS: usize = 16;
@@ -175,15 +175,26 @@ impl VtuFile {
         Err(self.strange(format!("its {location}s have no tags")))
     }
 
-    /// Positions of the points, shape (n_points).
+    /// Positions of the points, shape (n_points); z = 0 of a planar grid.
     ///
     /// # Errors
     ///
     /// If they are damaged or missing.
-    pub fn points(&self) -> Result<Vec<[f64; 2]>, Error> {
+    pub fn points(&self) -> Result<Vec<[f64; 3]>, Error> {
         let values = self.floats(self.required(Section::Points, "Points")?)?;
         let values = self.finite("Points", values)?;
-        Ok(values.chunks_exact(3).map(|p| [p[0], p[1]]).collect())
+        Ok(values.as_chunks().0.to_vec())
+    }
+
+    /// Positions of the points of a planar grid, shape (n_points).
+    ///
+    /// # Errors
+    ///
+    /// If they are damaged or missing, or do not lie in the plane z = 0.
+    pub fn points_in_plane(&self) -> Result<Vec<[f64; 2]>, Error> {
+        let in_plane = |[x, y, z]: [f64; 3]| (z == 0.0).then_some([x, y]);
+        let points: Option<Vec<[f64; 2]>> = self.points()?.into_iter().map(in_plane).collect();
+        points.ok_or_else(|| self.strange("its points do not lie in the plane z = 0"))
     }
 
     /// The cells, whose points are points of the file.
@@ -209,7 +220,8 @@ impl VtuFile {
         };
         let cells: Option<Vec<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
         let cells = cells.filter(|cells| cells.len() == self.contents.n_cells);
-        cells.ok_or_else(|| self.strange("its cells are not those of a planar grid"))
+        cells
+            .ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
     }
 
     /// The cells of a file whose cells are lines between its points, as their ends.

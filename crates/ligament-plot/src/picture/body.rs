@@ -55,7 +55,7 @@ impl Body {
             }
         };
         Ok(Self {
-            reference: file.points()?,
+            reference: file.points_in_plane()?,
             displacement: moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect(),
             cells: file.cells()?,
             tagged,

@@ -152,7 +152,7 @@ mod tests {
     fn sample(folder: &std::path::Path) -> VtuFile {
         let path = folder.join("a.vtu");
         let grid = UnstructuredGrid {
-            points: &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+            points: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             cells: &[Cell::Triangle([0, 1, 2])],
             point_fields: &[
                 vtu::Field::scalar("damage", &[0.0, 0.5, f64::NAN]),

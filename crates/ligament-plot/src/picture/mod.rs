@@ -103,6 +103,9 @@ pub enum PictureError {
         /// Results given.
         n_results: usize,
     },
+    /// A solid in a kind of picture that shows bodies in the plane.
+    #[error("{0} draws bodies in the plane, and this one is a solid")]
+    Solid(&'static str),
     /// There is no history to choose or to draw from in the folder.
     #[error("{0} has no history.csv with the outputs, so none can be chosen by the displacement")]
     NoHistory(PathBuf),

@@ -210,7 +210,7 @@ fn halves_of(cell: &Cell) -> Vec<[u32; 3]> {
     match *cell {
         Cell::Triangle(corners) => vec![corners],
         Cell::Quad(corners) => halves(corners).to_vec(),
-        Cell::Vertex(_) | Cell::Line(_) => Vec::new(),
+        Cell::Vertex(_) | Cell::Line(_) | Cell::Solid(_) => Vec::new(),
     }
 }
 

@@ -82,7 +82,7 @@ impl Sampled {
             .map(|name| Field::read(file, name))
             .collect();
         let fields = fields?;
-        let positions = file.points()?;
+        let positions = file.points_in_plane()?;
         let triangles: Vec<Triangle> = (file.cells()?.iter().enumerate())
             .flat_map(|(cell, corners)| Triangle::of_cell(cell, corners.points(), &positions))
             .collect();

@@ -7,7 +7,7 @@ use ligament::Model;
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::first_bonds::FirstBond;
 use ligament_analysis::history::StepRecord;
-use ligament_analysis::{Component, Layout, LoadProgram};
+use ligament_analysis::{Layout, LoadProgram};
 use ligament_output::quantity::place;
 use ligament_output::results::criterion_labels;
 use serde::Serialize;
@@ -34,16 +34,9 @@ pub struct BondEvent {
     tagged: &'static str,
 }
 
-/// Resultant of what a group with supports or loads exerts on the body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Resultant {
-    /// Force along x, N.
-    pub force_x: f64,
-    /// Force along y, N.
-    pub force_y: f64,
-    /// Sum of the moments on its points, N m.
-    pub moment: f64,
-}
+/// Resultant of what a group with supports or loads exerts on the body, by names: force_x and force_y, N, and moment, the sum of
+/// the moments on its points, N m; in space force_x to force_z and moment_x to moment_z.
+pub type Resultant = BTreeMap<&'static str, f64>;
 
 impl BondEvent {
     /// What happened to a bond of a model.
@@ -91,13 +84,10 @@ pub(super) fn resultants_at_peak(
     let peak = at_rest.reduce(|best, record| if higher(best, record) { record } else { best });
     let groups = loads.groups().iter().map(|group| group.name.clone());
     let forces = peak.iter().flat_map(|record| &record.group_forces);
-    let resultant = |force: &Vec<f64>| {
-        let [force_x, force_y, moment] = Component::ALL.map(|it| layout.value(0, it, force));
-        Resultant {
-            force_x,
-            force_y,
-            moment,
-        }
+    let resultant = |force: &Vec<f64>| -> Resultant {
+        let of_body = layout.of_body().iter();
+        let named = of_body.map(|it| (it.force_name(), layout.value(0, *it, force)));
+        named.collect()
     };
     groups.zip(forces.map(resultant)).collect()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use ligament_model::cloud::lattice::Face;
-use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape};
+use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape, raised};
 use thiserror::Error;
 
 use super::interface::{Body, OffOutline, Origin};
@@ -272,7 +272,7 @@ impl Body for LatticeBody {
                 .map(|[right, up]| [x + right * half[0], y + up * half[1]])
         };
         BodyGrid {
-            positions: self.positions.clone(),
+            positions: raised(&self.positions),
             tags: (1..=self.positions.len() as i64).collect(),
             tagged: self.tagged(),
             canvas: Canvas::Around(self.positions.iter().map(corners).collect()),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ligament_mesh::{Cell, Group, Mesh, NodeField};
-use ligament_model::{BodyGrid, Canvas, PointCloud};
+use ligament_model::{BodyGrid, Canvas, PointCloud, raised};
 
 use super::interface::{Body, OffOutline, Origin};
 
@@ -162,7 +162,7 @@ impl Body for MeshBody {
 
     fn grid(&self) -> BodyGrid {
         BodyGrid {
-            positions: self.0.positions.clone(),
+            positions: raised(&self.0.positions),
             tags: self.0.node_tags.iter().map(|&tag| tag as i64).collect(),
             tagged: self.tagged(),
             canvas: Canvas::Between(self.0.cells.clone()),

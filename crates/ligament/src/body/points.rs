@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::{BodyGrid, Canvas, PointCloud};
+use ligament_model::{BodyGrid, Canvas, PointCloud, raised};
 use thiserror::Error;
 
 use super::interface::{Body, OffOutline, Origin};
@@ -185,7 +185,7 @@ impl Body for Points {
         };
         let squares = self.positions.iter().zip(&self.areas).map(square);
         BodyGrid {
-            positions: self.positions.clone(),
+            positions: raised(&self.positions),
             tags: (0..self.positions.len() as i64).collect(),
             tagged: self.tagged(),
             canvas: Canvas::Around(squares.collect()),

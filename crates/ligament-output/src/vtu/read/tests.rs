@@ -4,6 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use ligament_mesh::SolidCell;
 use proptest::prelude::*;
 
 /// Numbers with all bits, also those of what is no number.
@@ -28,13 +29,23 @@ proptest! {
         let n_points = numbers.len();
         let is_place = |x: f64| x.abs() < 1e100;
         let places = numbers.iter().map(|x| if is_place(*x) { *x } else { 0.5 });
-        let points: Vec<[f64; 2]> = places.map(|x| [x, -x]).collect();
+        let points: Vec<[f64; 3]> = places.map(|x| [x, -x, 0.5 * x]).collect();
         let cells: Vec<Cell> = (0..n_points as u32 - 1)
             .map(|point| Cell::Line([point, point + 1]))
             .chain([Cell::Vertex([0])])
+            .chain([
+                SolidCell::Tetrahedron([0; 4]),
+                SolidCell::Hexahedron([0; 8]),
+                SolidCell::Prism([0; 6]),
+                SolidCell::Pyramid([0; 5]),
+            ].map(Cell::Solid))
             .collect();
+        let of_cells = |values: &[f64]| -> Vec<f64> {
+            (0..cells.len()).map(|it| values[it % n_points]).collect()
+        };
         let single: Vec<f32> = (0..n_points).map(|point| point as f32 / 7.0).collect();
-        let vectors: Vec<[f64; 3]> = numbers.iter().map(|x| [*x, 0.0, -*x]).collect();
+        let vectors: Vec<[f64; 3]> = of_cells(&numbers).iter().map(|x| [*x, 0.0, -*x]).collect();
+        let integers: Vec<i64> = (0..cells.len()).map(|it| integers[it % n_points]).collect();
         let grid = UnstructuredGrid {
             points: &points,
             cells: &cells,
@@ -74,7 +85,7 @@ fn sample() -> (tempfile::TempDir, PathBuf, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.vtu");
     let grid = UnstructuredGrid {
-        points: &[[0.0, 1.0], [2.0, 3.0]],
+        points: &[[0.0, 1.0, 4.0], [2.0, 3.0, 5.0]],
         cells: &[Cell::Line([0, 1])],
         point_fields: &[Field::scalar("damage", &[0.25, 0.5])],
         cell_fields: &[],

@@ -1,8 +1,8 @@
 //! Whether nodes can be those of a planar mesh.
 
-use super::cursor::Cursor;
-use super::error::GmshError;
-use super::records::Node;
+use super::super::cursor::Cursor;
+use super::super::error::GmshError;
+use super::super::records::Node;
 
 /// Heights may differ by this part of the mesh size.
 const FLATNESS: f64 = 1e-9;

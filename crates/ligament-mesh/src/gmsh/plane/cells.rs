@@ -1,9 +1,9 @@
 //! The planar cells: their shape, their orientation, and those that stand twice in the file.
 
-use super::cursor::Cursor;
-use super::element_type::Shape;
-use super::error::GmshError;
-use super::records::{Corners, Element, Records};
+use super::super::cursor::Cursor;
+use super::super::element_type::Shape;
+use super::super::error::GmshError;
+use super::super::records::{Element, Records};
 use crate::cell::Cell;
 
 /// Twice the area of a triangle, as a part of its longest side times the mesh size, that counts as none.
@@ -19,14 +19,14 @@ pub(super) struct PlanarCell {
 pub(super) fn oriented(
     cursor: &Cursor<'_>,
     records: &Records,
-    corners: &[Corners],
+    corners: &[u32],
     positions: &[[f64; 2]],
     size: f64,
 ) -> Result<Vec<PlanarCell>, GmshError> {
     let mut cells = Vec::with_capacity(records.elements.len());
-    for (index, (element, corners)) in records.elements.iter().zip(corners).enumerate() {
-        if let Some(mut cell) = cell(element.shape, corners) {
-            check_corners(cursor, element)?;
+    for (index, element) in records.elements.iter().enumerate() {
+        if let Some(mut cell) = cell(element.shape, &corners[element.corners()]) {
+            check_corners(cursor, records, element)?;
             orient(cursor, element, &mut cell, positions, size)?;
             cells.push(PlanarCell {
                 element: index,
@@ -37,18 +37,20 @@ pub(super) fn oriented(
     Ok(cells)
 }
 
-fn cell(shape: Shape, corners: &Corners) -> Option<Cell> {
-    match (shape, *corners) {
-        (Shape::Triangle, [Some(a), Some(b), Some(c), _]) => Some(Cell::Triangle([a, b, c])),
-        (Shape::Quadrangle, [Some(a), Some(b), Some(c), Some(d)]) => {
-            Some(Cell::Quadrangle([a, b, c, d]))
-        }
+fn cell(shape: Shape, corners: &[u32]) -> Option<Cell> {
+    match (shape, corners) {
+        (Shape::Triangle, &[a, b, c]) => Some(Cell::Triangle([a, b, c])),
+        (Shape::Quadrangle, &[a, b, c, d]) => Some(Cell::Quadrangle([a, b, c, d])),
         _ => None,
     }
 }
 
-fn check_corners(cursor: &Cursor<'_>, element: &Element) -> Result<(), GmshError> {
-    let corners = element.corners();
+fn check_corners(
+    cursor: &Cursor<'_>,
+    records: &Records,
+    element: &Element,
+) -> Result<(), GmshError> {
+    let corners = &records.corners[element.corners()];
     let repeated = (1..corners.len()).find(|index| corners[..*index].contains(&corners[*index]));
     match repeated {
         Some(index) => Err(GmshError::RepeatedCorner {

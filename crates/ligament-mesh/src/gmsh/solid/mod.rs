@@ -1,0 +1,88 @@
+//! A solid mesh from the records of a file.
+
+mod cells;
+mod nodes;
+
+use super::assembly::{Assembly, DROPPED};
+use super::cursor::Cursor;
+use super::error::GmshError;
+use super::records::Records;
+use super::{fields, groups};
+use crate::group::Group;
+use crate::solid::{Faces, SolidMesh};
+
+/// Makes the solid mesh of the records, or refuses them.
+pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMesh, GmshError> {
+    let assembly = Assembly::new(cursor, records, 3)?;
+    nodes::check_distinct(cursor, &assembly.nodes)?;
+    let positions: Vec<_> = assembly.nodes.iter().map(|node| node.position).collect();
+    let solid = cells::oriented(cursor, records, &assembly.corners, &positions)?;
+    let (solid, cell_of_element) = cells::merge_repeated(cursor, records, solid, positions.len())?;
+    let higher_order = solid.elements.iter();
+    let higher_order = higher_order.filter(|element| records.elements[**element].higher_order);
+    let mut remarks = assembly.remarks(higher_order.count());
+    let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
+    let faces = Faces::new(&solid.cells, positions.len());
+    check_overlap(cursor, records, &solid, &faces)?;
+    check_faces(cursor, records, &assembly, &faces, &groups)?;
+    let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
+    Ok(SolidMesh {
+        node_tags: assembly.nodes.iter().map(|node| node.tag).collect(),
+        positions,
+        cells: solid.cells,
+        groups,
+        fields,
+        remarks,
+    })
+}
+
+/// Refuses cells that lie on the same side of a common face: one of them covers some of the other.
+fn check_overlap(
+    cursor: &Cursor<'_>,
+    records: &Records,
+    solid: &cells::SolidCells,
+    faces: &Faces<'_>,
+) -> Result<(), GmshError> {
+    let Some(pair) = faces.first_overlap() else {
+        return Ok(());
+    };
+    let [first, second] = pair.map(|cell| &records.elements[solid.elements[cell as usize]]);
+    Err(GmshError::OverlappingSolids {
+        place: cursor.place(second.offset),
+        element: second.tag,
+        other: first.tag,
+    })
+}
+
+/// Refuses surface elements in a group that are faces of no cell: shells beside the solid, or a surface that was meshed anew.
+fn check_faces(
+    cursor: &Cursor<'_>,
+    records: &Records,
+    assembly: &Assembly,
+    faces: &Faces<'_>,
+    groups: &[Group],
+) -> Result<(), GmshError> {
+    for element in records
+        .elements
+        .iter()
+        .filter(|it| it.shape.dimension() == 2)
+    {
+        let numbers = records.physicals.get(&(2, element.owner));
+        let Some(&number) = numbers.and_then(|numbers| numbers.iter().find(|it| **it != 0)) else {
+            continue;
+        };
+        let corners = &assembly.corners[element.corners()];
+        let is_face = !corners.contains(&DROPPED)
+            && groups::face(corners).is_some_and(|face| !faces.sides_at(&face).is_empty());
+        if !is_face {
+            let mut named = groups.iter();
+            let named = named.find(|it| (it.dimension, it.number) == (2, number));
+            return Err(GmshError::LooseFace {
+                place: cursor.place(element.offset),
+                element: element.tag,
+                group: named.map_or_else(|| number.to_string(), |it| it.name.clone()),
+            });
+        }
+    }
+    Ok(())
+}

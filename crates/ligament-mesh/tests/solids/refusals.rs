@@ -1,0 +1,143 @@
+//! One file for each refusal of what is no solid mesh, with the place it is refused at.
+
+use crate::small_files::{CHAPEL, changed};
+use ligament_mesh::gmsh::{GmshError, Place, parse_any};
+
+fn refusal(old: &str, new: &str) -> GmshError {
+    parse_any(changed(old, new).as_bytes()).unwrap_err()
+}
+
+#[test]
+fn flat_cells_are_refused() {
+    for height in [1.0, 1.0 + 1e-9] {
+        let error = refusal("9 0.5 0.5 2", &format!("9 0.5 0.5 {height}"));
+        let GmshError::FlatCell {
+            place,
+            element: 6,
+            shape: "pyramid",
+            fraction,
+            ..
+        } = error
+        else {
+            panic!("{error}")
+        };
+        assert_eq!(place, Place::Line(23));
+        assert!(
+            (fraction - (height - 1.0) / 3.0).abs() < 1e-15,
+            "{fraction}"
+        );
+    }
+    assert!(parse_any(changed("9 0.5 0.5 2", "9 0.5 0.5 1.00001").as_bytes()).is_ok());
+    let sliver = changed("6 7 2 6 1 5 6 7 8 9", "6 4 2 6 1 5 6 7 9")
+        .replace("9 0.5 0.5 2", "9 0.2 0.7 1.00000001");
+    let error = parse_any(sliver.as_bytes()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            GmshError::FlatCell {
+                element: 6,
+                shape: "tetrahedron",
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert!(
+        error.to_string().contains("line 23") && error.to_string().contains("5.9e-10"),
+        "{error}"
+    );
+}
+
+#[test]
+fn cells_that_are_not_convex_are_refused() {
+    let expected = |line, element, shape| GmshError::NotConvexSolid {
+        place: Place::Line(line),
+        element,
+        shape,
+    };
+    // The upper corner pushed through the cell, and the top turned round by half a turn.
+    assert_eq!(
+        refusal("7 1 1 1\n", "7 0.2 0.2 0.2\n"),
+        expected(22, 5, "hexahedron")
+    );
+    assert_eq!(
+        refusal("5 1 1 2 3 4 5 6 7 8", "5 1 1 2 3 4 7 8 5 6"),
+        expected(22, 5, "hexahedron")
+    );
+    assert_eq!(
+        refusal("6 1 5 6 7 8 9", "6 1 5 7 6 8 9"),
+        expected(23, 6, "pyramid")
+    );
+}
+
+#[test]
+fn a_corner_that_stands_twice_is_refused() {
+    let error = refusal("5 1 1 2 3 4 5 6 7 8", "5 1 1 2 3 4 5 6 7 7");
+    let expected = GmshError::RepeatedCorner {
+        place: Place::Line(22),
+        element: 5,
+        node: 7,
+    };
+    assert_eq!(error, expected);
+}
+
+#[test]
+fn cells_twice_or_over_each_other_are_refused() {
+    let add = |row: &str| {
+        let text = changed(
+            "6 7 2 6 1 5 6 7 8 9\n",
+            &format!("6 7 2 6 1 5 6 7 8 9\n{row}\n"),
+        );
+        parse_any(text.replace("$Elements\n6", "$Elements\n7").as_bytes()).unwrap_err()
+    };
+    let place = Place::Line(24);
+    let duplicate = GmshError::DuplicateCell {
+        place,
+        element: 7,
+        other: 6,
+    };
+    assert_eq!(add("7 7 2 6 1 6 7 8 5 9"), duplicate);
+    let overlap = GmshError::OverlappingSolids {
+        place,
+        element: 7,
+        other: 6,
+    };
+    assert_eq!(add("7 4 2 6 1 5 6 9 8"), overlap);
+}
+
+#[test]
+fn nodes_at_one_place_are_refused() {
+    let near =
+        changed("6 1 5 6 7 8 9", "6 1 5 6 7 8 9").replace("9 0.5 0.5 2", "9 1 1 1.0000000000001");
+    let expected = GmshError::CoincidentNodesInSpace {
+        place: Place::Line(14),
+        tag: 9,
+        other: 7,
+        position: [1.0, 1.0, 1.000_000_000_000_1],
+    };
+    assert_eq!(parse_any(near.as_bytes()), Err(expected));
+}
+
+/// A shell in a group beside the solid, or a surface whose faces are those of another mesh.
+#[test]
+fn faces_of_no_cell_are_refused() {
+    let shell = changed("$Nodes\n9", "$Nodes\n11\n20 7 7 7\n21 8 7 7")
+        .replace("3 1 1 2 3 4", "3 1 1 2 21 20");
+    for text in [shell, changed("3 3 2 3 1 1 2 3 4", "3 2 2 3 1 1 2 3")] {
+        let expected = |line| GmshError::LooseFace {
+            place: Place::Line(line),
+            element: 3,
+            group: "3".to_owned(),
+        };
+        let error = parse_any(text.as_bytes()).unwrap_err();
+        assert!(error == expected(20) || error == expected(22), "{error}");
+    }
+}
+
+#[test]
+fn a_file_without_cells_is_refused() {
+    let begin = CHAPEL.find("3 3 2 3").unwrap();
+    let text =
+        format!("{}$EndElements\n", &CHAPEL[..begin]).replace("$Elements\n6", "$Elements\n2");
+    assert_eq!(parse_any(text.as_bytes()), Err(GmshError::NoCells));
+}
