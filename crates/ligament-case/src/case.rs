@@ -7,8 +7,8 @@
 mod analysis;
 mod conditions;
 mod coordinates;
-mod couple;
 mod correction;
+mod couple;
 mod criterion;
 pub mod decode;
 pub mod document;

@@ -5,9 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament::setup::Iteration;
-use ligament_case::case::{
-    CaseFile, Control, Displacement, Precrack, Region, Steps, Vector, Word,
-};
+use ligament_case::case::{CaseFile, Control, Displacement, Precrack, Region, Steps, Vector, Word};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
 
@@ -36,7 +34,9 @@ fn set(setting: &str) -> Result<CaseFile, String> {
 fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;
     assert_eq!(
-        case.mesh.as_ref().map(|it| (it.thickness, it.plane.map(|it| it.0))),
+        case.mesh
+            .as_ref()
+            .map(|it| (it.thickness, it.plane.map(|it| it.0))),
         Some((Some(1.0), Some(Plane::Stress)))
     );
     let mean = Some(Word(Some(Iteration::MEAN)));
@@ -45,7 +45,14 @@ fn defaults_are_filled_in() {
         (mean, Some(500))
     );
     assert_eq!(case.loads[0].name.as_deref(), Some("load-1"));
-    assert_eq!(case.loads[0].body_force, Some(Vector { x: 0.0, y: -2.5e4, z: None }));
+    assert_eq!(
+        case.loads[0].body_force,
+        Some(Vector {
+            x: 0.0,
+            y: -2.5e4,
+            z: None
+        })
+    );
     let top = &case.loads[1];
     assert_eq!(
         (top.name.as_deref(), top.group.as_deref()),

@@ -145,7 +145,8 @@ pub enum Fault {
     },
     /// A position that is not on the body.
     #[error(
-        "({}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away", coordinates(position)
+        "({}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away",
+        coordinates(position)
     )]
     OffBody {
         /// The position, m.
@@ -245,7 +246,9 @@ pub enum Fault {
     )]
     NoLength,
     /// A force per area on points without an area.
-    #[error("a force per area needs a physical surface of a solid mesh, or cells at a side of a box: this group has no area")]
+    #[error(
+        "a force per area needs a physical surface of a solid mesh, or cells at a side of a box: this group has no area"
+    )]
     NoArea,
     /// A pressure on points without an outline.
     #[error(

@@ -38,7 +38,9 @@ fn the_plate_itself_is_right() {
 #[test]
 fn a_group_that_is_not_there_is_named_with_the_nearest() {
     let mut setup = plate();
-    setup.loads.push(Load::new("rigth", Action::Moment(1.0.into())));
+    setup
+        .loads
+        .push(Load::new("rigth", Action::Moment(1.0.into())));
     let Error::Setup(error) = setup.solve(&mut Unobserved).unwrap_err() else {
         panic!("another error");
     };

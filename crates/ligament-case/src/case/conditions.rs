@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::coordinates::Coordinates;
 use super::region::{Corners, place};
 use super::values::exactly_one;
 use ligament::setup;

@@ -109,10 +109,11 @@ impl Load {
 
     fn actions<const D: usize>(&self, key: &KeyPath) -> Actions<D> {
         let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
-        let vector = |name: &'static str, given: Option<Vector>, make: fn([f64; D]) -> Action<D>| {
-            let action = given.map(|it| it.of(&key.child(name)).map(make));
-            (name, action)
-        };
+        let vector =
+            |name: &'static str, given: Option<Vector>, make: fn([f64; D]) -> Action<D>| {
+                let action = given.map(|it| it.of(&key.child(name)).map(make));
+                (name, action)
+            };
         let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action<D>| {
             let action = given.map(|it| it.of::<D>(&key.child(name)).map(make));
             (name, action)

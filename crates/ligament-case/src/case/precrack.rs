@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::coordinates::Coordinates;
 use super::values::{Point, exactly_one, first_given, missing};
 use super::values::{not_exactly_one, refuse, require};
 use super::word::Word;
@@ -69,7 +69,9 @@ impl Precrack {
                 refuse(key, straight, "`points`", reason)?;
                 let key = key.child("points");
                 let corners = points.iter().enumerate();
-                corners.map(|(index, it)| it.of(&key.child(index))).collect::<Result<_, _>>()?
+                corners
+                    .map(|(index, it)| it.of(&key.child(index)))
+                    .collect::<Result<_, _>>()?
             }
             None if first_given(straight).is_some() => self.ends_of_line(key)?.to_vec(),
             None => {

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::coordinates::Coordinates;
 use super::values::{exactly_one, first_given, one_of, require_column_name};
 use super::word::Word;
 use ligament::setup::{self, Axis, Reading};
@@ -34,10 +34,7 @@ pub struct Probe {
 }
 
 impl Probe {
-    pub(super) fn setup<const D: usize>(
-        &self,
-        key: &KeyPath,
-    ) -> Result<setup::Probe<D>, KeyFault> {
+    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Probe<D>, KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
         let pair = |name: &str, [first, second]: [Coordinates; 2]| {
             let key = key.child(name);

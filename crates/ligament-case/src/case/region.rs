@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, one_of};
-use super::coordinates::Coordinates;
 use ligament::setup::Place;
 
 /// A rectangle: its lower left and its upper right corner, m.

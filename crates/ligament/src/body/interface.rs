@@ -53,8 +53,7 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
     fn n_cells(&self) -> usize;
 
     /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize)
-    -> PointCloud<D>;
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
     /// Kind of the body's groups, for errors: "physical group in the mesh".
     fn group_kind(&self) -> &'static str;

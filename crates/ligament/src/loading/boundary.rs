@@ -106,8 +106,8 @@ where
     let rotations = || Dim::COMPONENTS.iter().filter(|it| it.is_rotation());
     let is_idle = |&point: &u32| {
         rotations().any(|&rotation| {
-            let [given, turned] = [boundary.layout, bonds]
-                .map(|layout| layout.degree_of_freedom(point, rotation));
+            let [given, turned] =
+                [boundary.layout, bonds].map(|layout| layout.degree_of_freedom(point, rotation));
             let is_resisted = turned.is_some_and(|dof| resisted[dof]);
             let acts =
                 |dof: usize| boundary.force[dof] != 0.0 && boundary.prescribed[dof].is_none();
@@ -279,7 +279,9 @@ where
                 (masses, force_alone(acceleration))
             }
             Action::BodyCouple(couple) => (volumes, couple_alone::<D>(couple)),
-            Action::ForcePerLength(force) => (self.lengths(field, &load.place)?, force_alone(force)),
+            Action::ForcePerLength(force) => {
+                (self.lengths(field, &load.place)?, force_alone(force))
+            }
             Action::ForcePerArea(force) => (self.areas(field, &load.place)?, force_alone(force)),
             Action::Force(force) => {
                 let weights = if extents.is_empty() { volumes } else { extents };
@@ -288,7 +290,10 @@ where
             }
             Action::Moment(couple) => {
                 let total = size(&volumes);
-                (volumes, couple_alone::<D>(couple).map(|value| value / total))
+                (
+                    volumes,
+                    couple_alone::<D>(couple).map(|value| value / total),
+                )
             }
         };
         let total = size(&weights);

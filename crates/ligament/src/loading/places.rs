@@ -73,7 +73,10 @@ where
         let around = body.around(nearest).into_iter();
         let reach = around
             .map(|corner| distance(body.positions()[corner as usize], place))
-            .fold((D as f64).sqrt() * self.cloud.spacing[nearest as usize], f64::max);
+            .fold(
+                (D as f64).sqrt() * self.cloud.spacing[nearest as usize],
+                f64::max,
+            );
         let distance = distance(place, position);
         if distance <= reach {
             return Ok(());

@@ -82,11 +82,7 @@ where
 }
 
 /// The parts of all stages with what controls them.
-fn controlled_parts<const D: usize>(
-    setup: &Setup<D>,
-    layout: Layout,
-    probes: &[Probe],
-) -> Vec<Part>
+fn controlled_parts<const D: usize>(setup: &Setup<D>, layout: Layout, probes: &[Probe]) -> Vec<Part>
 where
     Dim: Dimension<D>,
 {

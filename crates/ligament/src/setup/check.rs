@@ -6,11 +6,11 @@ use std::fmt::Debug;
 use ligament_model::correction::patch;
 use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic};
 
+use super::dimension::{Dim, Dimension};
 use super::{
     Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Law, Load, Place,
 };
 use super::{Reading, Setup, Surface};
-use super::dimension::{Dim, Dimension};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 
@@ -101,7 +101,8 @@ where
             return contradiction(elasticity, reason);
         }
         // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
-        if matches!(material.elasticity, Elasticity::Anisotropic(_)) || !Dim::widens(&self.section) {
+        if matches!(material.elasticity, Elasticity::Anisotropic(_)) || !Dim::widens(&self.section)
+        {
             return Ok(());
         }
         if material.expansion.is_some_and(|it| it.across.is_none()) {

@@ -1,8 +1,8 @@
 //! What may control a stage, and what it goes together with.
 
 use super::check::{Checked, contradiction, require};
-use super::{Analysis, Control, Course, Quantity, Setup, Stage};
 use super::dimension::{Dim, Dimension};
+use super::{Analysis, Control, Course, Quantity, Setup, Stage};
 use crate::error::{Fault, Field};
 
 impl<const D: usize> Setup<D>

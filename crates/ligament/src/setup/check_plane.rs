@@ -23,9 +23,15 @@ impl Setup {
 
     /// Points of the plane move along x and y and turn about z.
     fn check_components(&self) -> Checked {
-        let reason = "a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids";
+        let reason =
+            "a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids";
         let leaves = |given: &Displacement| {
-            let beyond = [given.z, given.rotation_x, given.rotation_y, given.rotation_z];
+            let beyond = [
+                given.z,
+                given.rotation_x,
+                given.rotation_y,
+                given.rotation_z,
+            ];
             beyond.iter().any(Option::is_some)
         };
         for (index, support) in self.supports.iter().enumerate() {
@@ -41,7 +47,8 @@ impl Setup {
             match load.action {
                 Action::Displacement(it) if leaves(&it) => return contradiction(action, reason),
                 Action::ForcePerArea(_) => {
-                    let reason = "a body in the plane has curves and no surfaces: give a force per length";
+                    let reason =
+                        "a body in the plane has curves and no surfaces: give a force per length";
                     return contradiction(action, reason);
                 }
                 Action::Moment(it) | Action::BodyCouple(it) if it.about[..2] != [0.0; 2] => {

@@ -1,9 +1,9 @@
 //! What stages must be, and what they go together with.
 
 use super::check::{Checked, contradiction, require, require_unique};
+use super::dimension::{Dim, Dimension};
 use super::stage::TEMPERATURE;
 use super::{Analysis, Course, Setup, Stage};
-use super::dimension::{Dim, Dimension};
 use crate::error::{Fault, Field};
 
 impl<const D: usize> Setup<D>

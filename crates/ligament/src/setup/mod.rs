@@ -27,9 +27,11 @@ use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 use crate::body::Body;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
-pub use conditions::{Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support};
-pub use dimension::{Dim, Dimension};
+pub use conditions::{
+    Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support,
+};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
+pub use dimension::{Dim, Dimension};
 pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};
 pub use stage::{Control, Course, Quantity, Stage};

@@ -2,8 +2,8 @@
 
 use super::check::{Checked, contradiction, positive};
 use super::conditions::axis_along;
-use super::{Action, Analysis, Form, Law, Load, Setup, Support};
 use super::dimension::{Dim, Dimension};
+use super::{Action, Analysis, Form, Law, Load, Setup, Support};
 use crate::error::Field;
 
 impl<const D: usize> Support<D> {
@@ -85,7 +85,10 @@ fn check_support<const D: usize>(field: Field, support: &Support<D>) -> Checked 
         ..
     } = support;
     let springs = stiffness.components.components();
-    for value in springs.map(|(_, value)| Some(value)).chain([stiffness.normal]) {
+    for value in springs
+        .map(|(_, value)| Some(value))
+        .chain([stiffness.normal])
+    {
         positive(field.part("stiffness"), value)?;
     }
     if let Some(normal) = normal {
