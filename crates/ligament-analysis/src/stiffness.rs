@@ -56,7 +56,7 @@ impl Stiffness {
                 ordering,
                 update: settings.update.unwrap_or(Update::Incremental),
                 rebuild_every: settings.rebuild_every.max(1),
-                most_bonds_in_place: most_bonds_in_place(&symbolic),
+                most_bonds_in_place: most_bonds_in_place(&symbolic, system.components().len()),
             },
             symbolic,
             unknowns,
@@ -125,12 +125,12 @@ impl Stiffness {
     }
 }
 
-/// Terms by which an element changes a factor, at most.
+/// Terms by which an element changes a factor, at least as they are counted; at most one for each component of a point that has more.
 const TERMS: usize = 3;
 
 /// Number of elements up to which changing the factor costs less than making it: each of the terms of an element reads and writes
 /// a part of the values of the factor.
-fn most_bonds_in_place(symbolic: &Symbolic) -> usize {
-    let of_one_bond = (TERMS * symbolic.n_factor_values()) as f64;
+fn most_bonds_in_place(symbolic: &Symbolic, n_components: usize) -> usize {
+    let of_one_bond = (TERMS.max(n_components) * symbolic.n_factor_values()) as f64;
     (symbolic.n_multiplications() / of_one_bond) as usize
 }

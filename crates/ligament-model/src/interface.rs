@@ -90,7 +90,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
 
-    /// Sorts points so that those of the first half lie before those of the second along the longer side of all; ties are
+    /// Sorts points so that those of the first half lie before those of the second along the longest side of all; ties are
     /// broken by number.
     fn halve(&self, points: &mut [u32]);
 
@@ -166,6 +166,11 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// Components of the virial stress of a point, Pa.
     fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
+
+    /// Readings of the forces of the bonds as stresses that there are.
+    fn stress_readings(&self) -> &'static [StressReading] {
+        &[StressReading::Virial, StressReading::Traction]
+    }
 
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(

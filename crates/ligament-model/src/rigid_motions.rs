@@ -9,18 +9,20 @@ const RANK_TOLERANCE: f64 = 1e-6;
 /// spread over many points, and below what results are read to.
 const BALANCE_TOLERANCE: f64 = 1e-6;
 
-/// A rigid motion: displacements along x and y at the middle, and the angle times the radius.
-type Motion = [f64; 3];
-
-/// The rigid motions of some points, about their middle and scaled by their size: two translations, and the rotation where
-/// it costs no energy either.
-pub(crate) struct RigidMotions<'a> {
+/// The rigid motions of some points in D dimensions, about their middle and scaled by their size: D translations, and the rotations where
+/// they cost no energy either, N motions in all. A motion has N numbers: displacements along the axes at the middle, and angles times the
+/// radius.
+pub(crate) struct RigidMotions<'a, const D: usize, const N: usize> {
     layout: Layout,
-    positions: &'a [[f64; 2]],
-    centre: [f64; 2],
+    positions: &'a [[f64; D]],
+    centre: [f64; D],
     radius: f64,
     turn: Turn,
+    row: RowOf<D, N>,
 }
+
+/// How the N motions of size one move a component at a place from the middle, over the radius.
+pub(crate) type RowOf<const D: usize, const N: usize> = fn(Turn, Component, [f64; D]) -> [f64; N];
 
 /// Cost and effect of rotating some points as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,19 +35,48 @@ pub(crate) enum Turn {
     OfPointsAlong,
 }
 
-impl<'a> RigidMotions<'a> {
-    /// The rigid motions of `points` among `positions`.
-    pub(crate) fn new(
+impl<'a> RigidMotions<'a, 2, 3> {
+    /// The rigid motions of `points` among `positions` in the plane: along x and y, and the rotation.
+    pub(crate) fn in_plane(
         layout: Layout,
         positions: &'a [[f64; 2]],
         points: &[u32],
         turn: Turn,
     ) -> Self {
+        let distance = |[x, y]: [f64; 2]| x.hypot(y);
+        Self::new(layout, positions, points, turn, (distance, row_in_plane))
+    }
+}
+
+/// Row of a degree of freedom in the plane.
+fn row_in_plane(turn: Turn, component: Component, [x, y]: [f64; 2]) -> [f64; 3] {
+    let [turn_x, turn_y, turn] = match turn {
+        Turn::Costly => [0.0; 3],
+        Turn::OfPositions => [-y, x, 0.0],
+        Turn::OfPointsAlong => [-y, x, 1.0],
+    };
+    match component {
+        Component::X => [1.0, 0.0, turn_x],
+        Component::Y => [0.0, 1.0, turn_y],
+        _ => [0.0, 0.0, turn],
+    }
+}
+
+impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
+    /// The rigid motions of `points` among `positions`, with the size of a vector and the rows of degrees of freedom.
+    pub(crate) fn new(
+        layout: Layout,
+        positions: &'a [[f64; D]],
+        points: &[u32],
+        turn: Turn,
+        (size, row): (fn([f64; D]) -> f64, RowOf<D, N>),
+    ) -> Self {
         let chosen = || points.iter().map(|&point| positions[point as usize]);
-        let centre =
-            [0, 1].map(|axis| chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
+        let centre = std::array::from_fn(|axis| {
+            chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64
+        });
         let radius = chosen()
-            .map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1]))
+            .map(|p| size(std::array::from_fn(|axis| p[axis] - centre[axis])))
             .fold(0.0, f64::max);
         Self {
             layout,
@@ -53,11 +84,15 @@ impl<'a> RigidMotions<'a> {
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
             turn,
+            row,
         }
     }
 
     /// Degrees of freedom of some points, in their order.
-    fn degrees_of_freedom<'p>(&self, points: &'p [u32]) -> impl Iterator<Item = usize> + use<'p> {
+    fn degrees_of_freedom<'p>(
+        &self,
+        points: &'p [u32],
+    ) -> impl Iterator<Item = usize> + use<'p, D, N> {
         let layout = self.layout;
         points.iter().flat_map(move |&point| layout.range(point))
     }
@@ -65,29 +100,20 @@ impl<'a> RigidMotions<'a> {
     /// How many there are.
     fn count(&self) -> usize {
         match self.turn {
-            Turn::Costly => 2,
-            Turn::OfPositions | Turn::OfPointsAlong => 3,
+            Turn::Costly => D,
+            Turn::OfPositions | Turn::OfPointsAlong => N,
         }
     }
 
-    /// How the motions (x, y, rotation) move a degree of freedom, m a m (a rotation: as an angle times the radius).
-    fn row(&self, degree_of_freedom: usize) -> Motion {
+    /// How the motions move a degree of freedom, m a m (a rotation: as an angle times the radius).
+    fn row(&self, degree_of_freedom: usize) -> [f64; N] {
         let position = self.positions[self.layout.point(degree_of_freedom) as usize];
-        let [x, y] = [0, 1].map(|axis| (position[axis] - self.centre[axis]) / self.radius);
-        let [turn_x, turn_y, turn] = match self.turn {
-            Turn::Costly => [0.0; 3],
-            Turn::OfPositions => [-y, x, 0.0],
-            Turn::OfPointsAlong => [-y, x, 1.0],
-        };
-        match self.layout.component(degree_of_freedom) {
-            Component::X => [1.0, 0.0, turn_x],
-            Component::Y => [0.0, 1.0, turn_y],
-            _ => [0.0, 0.0, turn],
-        }
+        let place = std::array::from_fn(|axis| (position[axis] - self.centre[axis]) / self.radius);
+        (self.row)(self.turn, self.layout.component(degree_of_freedom), place)
     }
 
     /// What a motion does to a degree of freedom, m or rad.
-    fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
+    fn value(&self, degree_of_freedom: usize, motion: [f64; N]) -> f64 {
         let value = dot(self.row(degree_of_freedom), motion);
         if self.layout.component(degree_of_freedom).is_rotation() {
             value / self.radius
@@ -97,10 +123,10 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// Orthonormal directions of the motions that the spanned ones leave, translations first.
-    fn left_by(&self, spanned: &[Motion]) -> Vec<Motion> {
+    fn left_by(&self, spanned: &[[f64; N]]) -> Vec<[f64; N]> {
         let mut all = spanned.to_vec();
         for motion in 0..self.count() {
-            let mut unit = [0.0; 3];
+            let mut unit = [0.0; N];
             unit[motion] = 1.0;
             let rest = without(unit, &all);
             let norm = dot(rest, rest).sqrt();
@@ -112,7 +138,7 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
-    fn work(&self, motion: Motion, forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
+    fn work(&self, motion: [f64; N], forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
         forces.fold([0.0; 2], |[work, size], (dof, force)| {
             let is_couple = self.layout.component(dof).is_rotation();
             let force = if is_couple {
@@ -128,7 +154,7 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// What of a degree of freedom the spanned directions do not hold (the directions are orthonormal).
-    fn remainder(&self, spanned: &[Motion], degree_of_freedom: usize) -> Motion {
+    fn remainder(&self, spanned: &[[f64; N]], degree_of_freedom: usize) -> [f64; N] {
         let row = self.row(degree_of_freedom);
         let norm = dot(row, row).sqrt();
         if norm == 0.0 {
@@ -138,7 +164,7 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// Adds the direction that a degree of freedom holds, if there is a new one.
-    fn extend(&self, spanned: &mut Vec<Motion>, degree_of_freedom: usize) {
+    fn extend(&self, spanned: &mut Vec<[f64; N]>, degree_of_freedom: usize) {
         let rest = self.remainder(spanned, degree_of_freedom);
         let norm = dot(rest, rest).sqrt();
         if norm > RANK_TOLERANCE {
@@ -147,7 +173,7 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// Orthonormal directions of the motions that the fixed degrees of freedom of some points hold.
-    fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<Motion> {
+    fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<[f64; N]> {
         let mut spanned = Vec::new();
         for dof in self.degrees_of_freedom(points).filter(|&dof| is_fixed(dof)) {
             self.extend(&mut spanned, dof);
@@ -161,7 +187,7 @@ impl<'a> RigidMotions<'a> {
     /// The degree of freedom that holds most of what the spanned directions do not.
     fn most_independent(
         &self,
-        spanned: &[Motion],
+        spanned: &[[f64; N]],
         candidates: impl Iterator<Item = usize>,
     ) -> Option<usize> {
         let mut best = None;
@@ -175,13 +201,13 @@ impl<'a> RigidMotions<'a> {
         best
     }
 
-    /// Of the motions along x, along y and of rotation those that the spanned directions leave free: translations of the
-    /// whole by 1 m, and a rotation by an angle of 1 rad about the place that they hold, or the middle.
-    fn free(&self, spanned: &[Motion]) -> [Option<Motion>; 3] {
+    /// Of the motions along the axes and the rotations those that the spanned directions leave free: translations of the
+    /// whole by 1 m, and rotations by an angle of 1 rad about the place that they hold, or the middle.
+    fn free(&self, spanned: &[[f64; N]]) -> [Option<[f64; N]>; N] {
         let mut held = spanned.to_vec();
-        let mut free = [None; 3];
-        for axis in 0..2 {
-            let mut unit = [0.0; 3];
+        let mut free = [None; N];
+        for axis in 0..D {
+            let mut unit = [0.0; N];
             unit[axis] = 1.0;
             if spanned
                 .iter()
@@ -191,9 +217,15 @@ impl<'a> RigidMotions<'a> {
                 held.push(unit);
             }
         }
-        let turn = without([0.0, 0.0, 1.0], &held);
-        if held.len() < self.count() && turn[2] > RANK_TOLERANCE {
-            free[2] = Some(turn.map(|value| value / turn[2] * self.radius));
+        for angle in D..N {
+            let mut unit = [0.0; N];
+            unit[angle] = 1.0;
+            let turn = without(unit, &held);
+            if held.len() < self.count() && turn[angle] > RANK_TOLERANCE {
+                free[angle] = Some(turn.map(|value| value / turn[angle] * self.radius));
+                let size = dot(turn, turn).sqrt();
+                held.push(turn.map(|value| value / size));
+            }
         }
         free
     }
@@ -237,7 +269,7 @@ impl<'a> RigidMotions<'a> {
         self.moved(points, &self.left_by(&[]))
     }
 
-    fn moved(&self, points: &[u32], motions: &[Motion]) -> Vec<Vec<f64>> {
+    fn moved(&self, points: &[u32], motions: &[[f64; N]]) -> Vec<Vec<f64>> {
         let shape = |&motion| {
             let dofs = self.degrees_of_freedom(points);
             dofs.map(|dof| self.value(dof, motion)).collect()
@@ -254,8 +286,14 @@ impl<'a> RigidMotions<'a> {
         force: impl Fn(usize) -> f64,
     ) -> Vec<FreeMotion> {
         let spanned = self.spanned_by(points, is_fixed);
-        let free = Component::ALL.into_iter().zip(self.free(&spanned));
-        let free = free.filter_map(|(component, motion)| Some((component, motion?)));
+        // The components of a motion stand in the order of those of a point that turns.
+        let of_motions: &[Component] = if D == 2 {
+            &Component::ALL
+        } else {
+            &Component::IN_SPACE
+        };
+        let free = of_motions.iter().zip(self.free(&spanned));
+        let free = free.filter_map(|(component, motion)| Some((*component, motion?)));
         free.map(|(component, motion)| {
             let forces = self.degrees_of_freedom(points).map(|dof| (dof, force(dof)));
             let [load, size] = self.work(motion, forces);
@@ -278,9 +316,9 @@ impl<'a> RigidMotions<'a> {
 /// A rigid motion that nothing holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeMotion {
-    /// A translation along an axis, or the rotation.
+    /// A translation along an axis, or a rotation.
     pub component: Component,
-    /// Force of the given loads at load factor 1 along the motion, N; for the rotation the moment about the place that is
+    /// Force of the given loads at load factor 1 along the motion, N; for a rotation the moment about the place that is
     /// held, or the middle of the points, N m.
     pub load: f64,
     /// Work of the loads along the motion, relative to the sizes of the loads on the part, 0 to 1.
@@ -295,14 +333,14 @@ impl FreeMotion {
 }
 
 /// What of a vector is orthogonal to some orthonormal directions.
-fn without(vector: Motion, directions: &[Motion]) -> Motion {
+fn without<const N: usize>(vector: [f64; N], directions: &[[f64; N]]) -> [f64; N] {
     directions.iter().fold(vector, |rest, direction| {
         let share = dot(rest, *direction);
-        [0, 1, 2].map(|i| rest[i] - share * direction[i])
+        std::array::from_fn(|i| rest[i] - share * direction[i])
     })
 }
 
-fn dot(one: Motion, other: Motion) -> f64 {
+fn dot<const N: usize>(one: [f64; N], other: [f64; N]) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
 
@@ -319,7 +357,7 @@ mod tests {
             n_points: 4,
             components: &Component::ALL,
         };
-        let motions = RigidMotions::new(layout, &positions, &points, turn);
+        let motions = RigidMotions::in_plane(layout, &positions, &points, turn);
         let can_hold =
             |dof: usize| turn == Turn::OfPointsAlong || !layout.component(dof).is_rotation();
         motions.holds(&points, |dof| fixed.contains(&dof), can_hold)

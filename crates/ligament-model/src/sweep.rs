@@ -6,15 +6,16 @@ use rayon::prelude::*;
 
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements};
+use crate::layout::Component;
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
 /// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
 /// too. Each part adds to forces of its own at all points, so more parts cost memory.
-const PARTS: usize = 4;
+pub(crate) const PARTS: usize = 4;
 
 /// Bonds that make a task worth while.
-const TASK: usize = 2048;
+pub(crate) const TASK: usize = 2048;
 
 /// What a sweep over all bonds gives.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,10 +99,21 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
             .into_par_iter()
             .map(|part| {
                 let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-                Part::new(self, bonds, &deformations, expansion, of_part)
+                Part::of_bonds(self, bonds, &deformations, expansion, of_part)
             })
             .collect();
-        let sums: Vec<PointForces<M>> = (0..self.system.cloud.len())
+        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations)
+    }
+}
+
+impl BondSweep {
+    /// The sweep over the bonds of some parts, between points with these components.
+    pub(crate) fn of_parts<const M: usize>(
+        parts: &[Part<M>],
+        components: &[Component; M],
+        deformations: Deformations,
+    ) -> Self {
+        let sums: Vec<PointForces<M>> = (0..parts[0].forces.len())
             .into_par_iter()
             .with_min_len(TASK)
             .map(|point| {
@@ -110,11 +122,11 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
             })
             .collect();
         let largest = |of_rotations: bool| {
-            let places = (0..M).filter(|&place| E::COMPONENTS[place].is_rotation() == of_rotations);
+            let places = (0..M).filter(|&place| components[place].is_rotation() == of_rotations);
             let sizes = places.flat_map(|place| sums.iter().map(move |forces| forces.size[place]));
             sizes.fold(0.0, f64::max)
         };
-        BondSweep {
+        Self {
             internal: InternalForces {
                 force_scale: largest(false),
                 moment_scale: largest(true),
@@ -130,16 +142,16 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
 }
 
 /// What the bonds of one part give.
-struct Part<const M: usize> {
-    forces: Vec<PointForces<M>>,
-    energy: f64,
-    thermal: f64,
-    expansion_energy: f64,
+pub(crate) struct Part<const M: usize> {
+    pub(crate) forces: Vec<PointForces<M>>,
+    pub(crate) energy: f64,
+    pub(crate) thermal: f64,
+    pub(crate) expansion_energy: f64,
 }
 
 /// The end forces that meet at a point.
 #[derive(Debug, Clone, Copy)]
-struct PointForces<const M: usize> {
+pub(crate) struct PointForces<const M: usize> {
     sum: [f64; M],
     /// Sum of their sizes.
     size: [f64; M],
@@ -151,7 +163,8 @@ impl<const M: usize> PointForces<M> {
         size: [0.0; M],
     };
 
-    fn add(&mut self, end_force: [f64; M]) {
+    #[inline]
+    pub(crate) fn add(&mut self, end_force: [f64; M]) {
         for (component, value) in end_force.into_iter().enumerate() {
             self.sum[component] += value;
             self.size[component] += value.abs();
@@ -167,15 +180,28 @@ impl<const M: usize> PointForces<M> {
 }
 
 impl<const M: usize> Part<M> {
-    fn new<E: Elements<M>>(
+    /// A part without bonds, for so many points.
+    pub(crate) fn new(n_points: usize) -> Self {
+        Self {
+            forces: vec![PointForces::NONE; n_points],
+            energy: 0.0,
+            thermal: 0.0,
+            expansion_energy: 0.0,
+        }
+    }
+
+    fn of_bonds<E: Elements<M>>(
         typed: Typed<'_, E, M>,
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Self {
-        let mut forces = vec![PointForces::NONE; typed.system.cloud.len()];
-        let mut energy = 0.0;
+        let Self {
+            mut forces,
+            mut energy,
+            ..
+        } = Self::new(typed.system.cloud.len());
         for bond in of_part.clone() {
             let Some(element) = typed.left(bonds, bond) else {
                 continue;

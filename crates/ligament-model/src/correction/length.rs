@@ -10,7 +10,7 @@ use crate::cloud::PointCloud;
 /// alpha = 1/2 [exp((l_minA - l)/(l_maxA - l_minA)) + exp((l_minB - l)/(l_maxB - l_minB))]
 ///
 /// with the shortest and longest bond of either end. An end whose bonds all have one length contributes exp(0) = 1.
-pub fn length_factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
+pub fn length_factors<const D: usize>(bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<f64> {
     let ranges: Vec<(f64, f64)> = cloud.over_points(|point| {
         let family = bonds.incidence.at(point).iter();
         let lengths = family.map(|&bond| bonds.length[bond as usize]);

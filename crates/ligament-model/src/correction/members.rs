@@ -10,21 +10,21 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
 /// Points whose sums one thread makes; fixed, so that sums are the same for any number of threads.
-pub(super) const BLOCK: usize = 1024;
+pub(crate) const BLOCK: usize = 1024;
 
 /// The bonds seen from their points: each stands in the family of either end. `rank` is the place of a point on the curve.
-pub(super) struct Members<'a> {
-    bonds: &'a BondSet,
-    cloud: &'a PointCloud,
+pub(crate) struct Members<'a, const D: usize = 2> {
+    bonds: &'a BondSet<D>,
+    cloud: &'a PointCloud<D>,
     /// Index of the first member of the family of each rank, and behind the last family the number of all members.
     starts: Vec<usize>,
     /// Rank of the other end of each member.
-    pub(super) neighbour: Vec<u32>,
+    pub(crate) neighbour: Vec<u32>,
 }
 
-impl<'a> Members<'a> {
+impl<'a, const D: usize> Members<'a, D> {
     /// The members of the families of all points.
-    pub(super) fn new(bonds: &'a BondSet, cloud: &'a PointCloud) -> Self {
+    pub(crate) fn new(bonds: &'a BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
         let mut ranks = vec![0; cloud.len()];
         let mut starts = vec![0];
         let mut size = 0;
@@ -45,18 +45,18 @@ impl<'a> Members<'a> {
     }
 
     /// Number of points.
-    pub(super) fn n_points(&self) -> usize {
+    pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// Members of the family of a rank.
     #[inline(always)]
-    pub(super) fn family(&self, rank: usize) -> std::ops::Range<usize> {
+    pub(crate) fn family(&self, rank: usize) -> std::ops::Range<usize> {
         self.starts[rank]..self.starts[rank + 1]
     }
 
     /// A value of each member, from its point and its bond.
-    pub(super) fn values<T: Clone + Default + Send>(
+    pub(crate) fn values<T: Clone + Default + Send>(
         &self,
         value: impl Fn(u32, u32) -> T + Sync,
     ) -> Vec<T> {
@@ -71,7 +71,7 @@ impl<'a> Members<'a> {
     }
 
     /// Does something with the values of each family, in parallel.
-    pub(super) fn over_blocks<T: Send>(
+    pub(crate) fn over_blocks<T: Send>(
         &self,
         values: &mut [T],
         each: impl Fn(usize, &mut [T]) + Sync,
@@ -90,7 +90,7 @@ impl<'a> Members<'a> {
     }
 
     /// An array over the members, cut into those of the points of each block.
-    pub(super) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
+    pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let mut blocks = Vec::new();
         for first in (0..self.n_points()).step_by(BLOCK) {
             let last = (first + BLOCK).min(self.n_points());
@@ -102,7 +102,7 @@ impl<'a> Members<'a> {
     }
 
     /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
-    pub(super) fn of_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+    pub(crate) fn of_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut of_bonds = vec![T::default(); self.bonds.len()];
         for (rank, &point) in self.cloud.curve.iter().enumerate() {
             // The bonds whose first end is the point follow one another, at the end of its family.

@@ -11,7 +11,7 @@
 pub mod domain;
 mod families;
 pub mod length;
-mod members;
+pub(crate) mod members;
 pub mod partial_volume;
 pub mod patch;
 mod strain_mode;

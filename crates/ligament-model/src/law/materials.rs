@@ -13,8 +13,8 @@ use crate::cloud::PointCloud;
 /// within that half, one along the interface has both halves at its sides. A bond whose ends have no material in common crosses
 /// an interface, and is made of what its softer end is made of: with springs in series the softer one decides. `stiffness` (n_materials)
 /// tells which is softer; of equals it is the first end.
-pub(super) fn of_bond<'a>(
-    cloud: &'a PointCloud,
+pub(super) fn of_bond<'a, const D: usize>(
+    cloud: &'a PointCloud<D>,
     ends: [u32; 2],
     stiffness: &[f64],
 ) -> impl Iterator<Item = (usize, f64)> + 'a {
@@ -44,7 +44,11 @@ pub(super) fn of_bond<'a>(
 /// materials; shape (n_bonds), empty where no bond crosses an interface.
 ///
 /// Half of such a bond in either material, as springs in series, is so much stiffer than all of it in the softer.
-pub(super) fn series_factors(bonds: &BondSet, cloud: &PointCloud, stiffness: &[f64]) -> Vec<f64> {
+pub(super) fn series_factors<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+    stiffness: &[f64],
+) -> Vec<f64> {
     if cloud.n_materials == 1 {
         return Vec::new();
     }

@@ -32,7 +32,7 @@ use crate::element::imaginary::StrainStiffness;
 
 /// Below this |1 - 3 nu| (or |1 - 4 nu| in plane strain) the shear stiffness counts as exactly zero, and with it the
 /// rotational one: what rounding leaves of it would only make the system nearly singular.
-const CENTRAL_FORCE_TOLERANCE: f64 = 1e-9;
+pub(crate) const CENTRAL_FORCE_TOLERANCE: f64 = 1e-9;
 
 /// Stiffness densities of the bonds.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,30 +50,30 @@ pub struct BondStiffness {
 }
 
 /// Densities of one bond.
-struct Densities {
-    axial: f64,
-    shear: f64,
-    rotational: f64,
+pub(crate) struct Densities {
+    pub(crate) axial: f64,
+    pub(crate) shear: f64,
+    pub(crate) rotational: f64,
 }
 
 /// Geometry of a bond as a law needs it.
-struct BondGeometry {
+pub(crate) struct BondGeometry<const D: usize = 2> {
     /// Length l, m.
-    length: f64,
+    pub(crate) length: f64,
     /// Bond horizon H, m.
-    horizon: f64,
-    /// Direction cosines (a, b).
-    direction: [f64; 2],
+    pub(crate) horizon: f64,
+    /// Direction cosines from A to B.
+    pub(crate) direction: [f64; D],
 }
 
 impl BondStiffness {
     /// Densities from `constants` of the materials (n_materials), the first of which tells how stiff they are: a bond has those of
     /// its materials ([`materials::of_bond`]).
-    fn from_constants<const N: usize>(
-        bonds: &BondSet,
-        cloud: &PointCloud,
+    pub(crate) fn from_constants<const D: usize, const N: usize>(
+        bonds: &BondSet<D>,
+        cloud: &PointCloud<D>,
         constants: &[[f64; N]],
-        densities: impl Fn(&[f64; N], &BondGeometry) -> Densities + Sync,
+        densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
     ) -> Self {
         let axial_constants: Vec<f64> = constants.iter().map(|it| it[0]).collect();
         let of_bond = |ends| {

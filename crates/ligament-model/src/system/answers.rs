@@ -197,7 +197,7 @@ impl Bonds for BondSystem {
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
         let (layout, positions) = (self.layout(), &self.cloud.positions);
-        RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
+        RigidMotions::in_plane(layout, positions, points, Turn::OfPointsAlong).shapes(points)
     }
 
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {
@@ -382,7 +382,7 @@ impl Bonds for BondSystem {
 
 impl BondSystem {
     /// The rigid motions of some points that their bonds let be free.
-    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_> {
+    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, 2, 3> {
         let mut bonds = points
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
@@ -393,7 +393,7 @@ impl BondSystem {
             (true, false) => Turn::Costly,
             (false, _) | (true, true) => Turn::OfPositions,
         };
-        RigidMotions::new(self.layout(), &self.cloud.positions, points, turn)
+        RigidMotions::in_plane(self.layout(), &self.cloud.positions, points, turn)
     }
 
     /// Whether a bond resists rotations of its ends, if these can turn.

@@ -1,0 +1,115 @@
+//! What Poisson's ratio means for the stability of bodies in space.
+//!
+//! Above nu = 1/4 the bonds resist shear and rotation with negative stiffnesses: the energy is a maximum in the rotations of the points,
+//! and its minimum over them semidefinite as long as not too much is asked. In space that goes wrong much sooner than in the plane.
+
+use std::fmt;
+
+use super::bbpd::POISSON;
+use super::{ShearForm, bending_constant};
+use crate::material::Isotropic;
+
+/// Poisson's ratio from which irregular free bodies of micropolar bonds lose stability, by the form of the shear stiffness and the
+/// horizon over the spacing (measured on irregular balls of 121 and 661 points: negative eigenvalues beyond one a rotation).
+const UNSTABLE: [(ShearForm, f64, f64); 4] = [
+    (ShearForm::Falling, 3.5, 0.28),
+    (ShearForm::Falling, f64::INFINITY, 0.26),
+    (ShearForm::Constant, 3.5, 0.30),
+    (ShearForm::Constant, f64::INFINITY, 0.28),
+];
+
+/// Hard warning that bonds resist shear with a negative stiffness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NegativeShear {
+    /// Largest Poisson's ratio of a material.
+    pub poisson: f64,
+    /// Poisson's ratio from which bodies of this kind were found to lose their stability; none for bonds without rotations, whose free
+    /// bodies are ill-posed at any above 1/4.
+    pub unstable_from: Option<f64>,
+}
+
+/// The warning that a law with a shear stiffness takes along for some materials; none up to nu = 1/4.
+///
+/// `form` is that of the shear stiffness of bonds between points that turn, none of points that do not; `horizon_factor` the horizon over
+/// the distance of the points.
+pub fn negative_shear(
+    materials: &[Isotropic],
+    form: Option<ShearForm>,
+    horizon_factor: f64,
+) -> Option<NegativeShear> {
+    let negative = materials.iter().filter(|it| bending_constant(it) < 0.0);
+    let poisson = negative.map(|it| it.poisson).reduce(f64::max)?;
+    let suits =
+        |(of, up_to, _): &&(ShearForm, f64, f64)| form == Some(*of) && horizon_factor <= *up_to;
+    Some(NegativeShear {
+        poisson,
+        unstable_from: UNSTABLE.iter().find(suits).map(|(_, _, from)| *from),
+    })
+}
+
+impl NegativeShear {
+    /// Whether bodies of this kind were found to be unstable.
+    pub fn is_past_stability(&self) -> bool {
+        self.unstable_from.is_none_or(|from| self.poisson >= from)
+    }
+}
+
+impl fmt::Display for NegativeShear {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            poisson,
+            unstable_from,
+        } = self;
+        write!(
+            formatter,
+            "Poisson's ratio {poisson} is above {POISSON}: bonds in space then resist shear and rotation with negative stiffnesses, \
+             "
+        )?;
+        match unstable_from {
+            None => write!(
+                formatter,
+                "and without rotations of the points a rigid rotation gives energy away, so that a free body is ill-posed; take \
+                 law = \"nhpd\", or a Poisson's ratio of at most {POISSON}"
+            ),
+            Some(from) if poisson >= from => write!(
+                formatter,
+                "and irregular bodies of this horizon lose their stability from about {from}: the stiffness is checked before the \
+                 first breakage, and results are not to be trusted where it fails; take a constant shear stiffness (stable to about \
+                 0.3 with a horizon_factor up to 3), a smaller horizon_factor or a Poisson's ratio of at most {POISSON}"
+            ),
+            Some(from) => write!(
+                formatter,
+                "which irregular bodies of this horizon bear up to about {from}: the stiffness is checked before the first breakage"
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_come_above_a_quarter() {
+        let of = |poisson: f64, form, factor| {
+            let steel = Isotropic {
+                young: 1.0,
+                poisson: 0.2,
+            };
+            let material = Isotropic {
+                young: 1.0,
+                poisson,
+            };
+            negative_shear(&[steel, material], form, factor)
+        };
+        assert_eq!(of(0.25, Some(ShearForm::Constant), 3.0), None);
+        assert_eq!(of(0.1, None, 3.0), None);
+        let warning = of(0.28, Some(ShearForm::Constant), 2.5).unwrap();
+        assert!(!warning.is_past_stability());
+        assert!(warning.to_string().contains("up to about 0.3:"));
+        let warning = of(0.28, Some(ShearForm::Falling), 3.0).unwrap();
+        assert!(warning.is_past_stability());
+        assert!(of(0.26, None, 3.0).unwrap().is_past_stability());
+    }
+}

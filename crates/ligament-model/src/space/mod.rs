@@ -1,0 +1,31 @@
+//! Bodies in space: what differs there from the plane.
+//!
+//! Points, bonds and horizons are those of [`cloud`](crate::cloud) and [`bonds`](crate::bonds) with three coordinates. A bond in space has a
+//! stretch s and two vectors, the shear gamma and the relative rotation dphi of its ends:
+//!
+//! s = n . du/l, gamma = P du/l - phi x n, dphi = phi_B - phi_A, E = 1/2 Omega alpha V_A V_B (k_n l s^2 + k_t l |gamma|^2 + k_theta |dphi|^2)
+//!
+//! with du = u_B - u_A, the mean rotation phi of the ends, the unit vector n from A to B and P = I - n n^T. Bending and torsion have one
+//! rotational stiffness, so that no bond needs axes of its own. The equations and constants in space are our own, derived in
+//! `docs/space.md`.
+//!
+//! | stage | module |
+//! |---|---|
+//! | micromoduli | [`law`] |
+//! | kinematics of a bond | [`element`] |
+//! | what the equations are made of | [`system`] |
+
+mod answers;
+mod change;
+pub mod element;
+pub mod law;
+mod mass;
+mod product;
+mod rigid_motions;
+pub mod stress;
+mod sweep;
+pub mod system;
+mod vector;
+
+pub use element::SolidElement;
+pub use system::SolidSystem;

@@ -1,0 +1,92 @@
+//! Deformations, internal forces and energies of bonds in space.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::element::SolidKinematics;
+use super::system::Typed;
+use crate::deformation::{Deformations, SpaceDeformation};
+use crate::sweep::{BondSweep, PARTS, Part, TASK};
+use crate::system::BondsLeft;
+use crate::thermal::ThermalStrain;
+
+impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
+    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    pub(super) fn deformations(
+        self,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+    ) -> Deformations {
+        assert_eq!(displacement.len(), M * self.system.cloud.len());
+        let ends = &self.system.bonds.ends;
+        let mut deformations = vec![SpaceDeformation::default(); ends.len()];
+        deformations
+            .par_chunks_mut(TASK)
+            .enumerate()
+            .for_each(|(task, deformations)| {
+                for (bond, deformation) in (task * TASK..).zip(deformations) {
+                    *deformation = self.deformation(bond, displacement);
+                    if !expansion.is_none() {
+                        let thermal = expansion.of_bond_in_space(ends[bond]);
+                        let free = self.whole(bond).deformation_in(thermal);
+                        *deformation = deformation.less(&free);
+                    }
+                }
+            });
+        Deformations::in_space(deformations)
+    }
+
+    /// Forces and energy of bonds with given deformations (n_bonds); they are added up in parts as those in the plane.
+    pub(super) fn forces(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: Deformations,
+        expansion: ThermalStrain<'_>,
+    ) -> BondSweep {
+        let n_bonds = self.system.bonds.len();
+        let parts: Vec<Part<M>> = (0..PARTS)
+            .into_par_iter()
+            .map(|part| {
+                let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+                self.part(bonds, deformations.vectors(), expansion, of_part)
+            })
+            .collect();
+        BondSweep::of_parts(&parts, &B::COMPONENTS, deformations)
+    }
+
+    fn part(
+        self,
+        bonds: BondsLeft<'_>,
+        deformations: &[SpaceDeformation],
+        expansion: ThermalStrain<'_>,
+        of_part: Range<usize>,
+    ) -> Part<M> {
+        let mut part = Part::new(self.system.cloud.len());
+        for bond in of_part.clone() {
+            let Some(element) = self.left(bonds, bond) else {
+                continue;
+            };
+            let deformation = &deformations[bond];
+            part.energy += element.mutual_energy(deformation, deformation);
+            let ends = self.system.bonds.ends[bond];
+            for (point, force) in ends.into_iter().zip(element.end_forces(deformation)) {
+                part.forces[point as usize].add(force);
+            }
+        }
+        if expansion.is_none() {
+            return part;
+        }
+        let at_full_load = expansion.at_full_load();
+        for bond in of_part {
+            let Some(element) = self.left(bonds, bond) else {
+                continue;
+            };
+            let ends = self.system.bonds.ends[bond];
+            let thermal = element.deformation_in(at_full_load.of_bond_in_space(ends));
+            part.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
+            part.expansion_energy += element.mutual_energy(&thermal, &thermal);
+        }
+        part
+    }
+}
