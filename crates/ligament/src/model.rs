@@ -6,10 +6,10 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
-use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
+use ligament_model::correction::{Continuum, Correction, CorrectionReport, StrainMode, energy_ratios};
 use ligament_model::failure::Criteria;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
 
 use crate::body::Body;
@@ -223,7 +223,7 @@ struct Corrected {
     bonds: BondSet,
     stiffness: BondStiffness,
     correction: Correction,
-    energy_ratios: [Vec<f64>; 4],
+    energy_ratios: Vec<EnergyRatio>,
     faces: Faces,
 }
 
@@ -276,12 +276,14 @@ fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
         materials: &materials,
         plane,
     };
-    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
+    let ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
+    let named = StrainMode::ALL.into_iter().zip(ratios);
+    let energy_ratios = named.map(|(strain, ratios)| strain.named(ratios));
     Corrected {
         bonds,
         stiffness,
         correction,
-        energy_ratios,
+        energy_ratios: energy_ratios.collect(),
         faces: Faces::default(),
     }
 }

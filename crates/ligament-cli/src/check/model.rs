@@ -121,10 +121,9 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 
 fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "strain energy of the points over the continuum's")?;
-    let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
-    for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
-        let Spread { min, mean, max } = Spread::over(ratios.iter().copied());
-        entry(out, mode, format!("{min:.4} to {max:.4}, mean {mean:.4}"))?;
+    for ratios in &model.fixed.energy_ratios {
+        let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());
+        entry(out, ratios.strain, format!("{min:.4} to {max:.4}, mean {mean:.4}"))?;
     }
     Ok(())
 }

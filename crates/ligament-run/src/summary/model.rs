@@ -65,7 +65,7 @@ pub struct Spread {
 }
 
 /// The corrections, and how the domain correction went if it is the one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CorrectionSummary {
     /// The factor alpha.
     pub alpha: Word<Alpha>,
@@ -89,8 +89,8 @@ pub struct CorrectionSummary {
     /// Root mean square of what the patch correction leaves of its equations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<f64>,
-    /// Energy ratios over the points for uniaxial x, uniaxial y, biaxial and shear strain.
-    pub energy_ratios: [Spread; 4],
+    /// Energy ratios over the points: in the plane for uniaxial x, uniaxial y, biaxial and shear strain.
+    pub energy_ratios: Vec<Spread>,
 }
 
 /// The first line about a case: its title.
@@ -181,11 +181,9 @@ impl CorrectionSummary {
             largest_residual: domain.map(|it| it.largest_residual),
             newton_steps: patch.map(|it| it.steps),
             left: patch.map(|it| it.left),
-            energy_ratios: model
-                .fixed
-                .energy_ratios
-                .each_ref()
-                .map(|ratios| Spread::over(ratios.iter().copied())),
+            energy_ratios: (model.fixed.energy_ratios.iter())
+                .map(|it| Spread::over(it.at_points.iter().copied()))
+                .collect(),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use ligament_analysis::Component;
 use ligament_model::bonds::precrack::{self, PreCrack};
 use ligament_model::thermal::FreeStrains;
-use ligament_model::{BondSystem, Bonds, LumpedMass, Material, Plane, PointCloud};
+use ligament_model::{BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, PointCloud};
 
 use super::{Section, Setup};
 use crate::error::SetupError;
@@ -34,6 +34,9 @@ pub trait Dimension<const D: usize>: 'static {
 
     /// What is wrong with a vector of zeros.
     const IDLE_VECTOR: &'static str;
+
+    /// Poisson's ratio of bonds that only resist stretch.
+    fn central_poisson(section: &Self::Section) -> f64;
 
     /// Whether a temperature widens the section by what it does across it.
     fn widens(section: &Self::Section) -> bool;
@@ -85,6 +88,10 @@ impl Dimension<2> for Dim {
 
     const IDLE_VECTOR: &'static str =
         "this load does nothing: neither `x` nor `y` is given a value";
+
+    fn central_poisson(Section::Plane { state, .. }: &Section) -> f64 {
+        Isotropic::central_force_poisson(*state)
+    }
 
     fn widens(Section::Plane { state, .. }: &Section) -> bool {
         *state == Plane::Strain
