@@ -11,17 +11,23 @@
 //!
 //! | stage | module |
 //! |---|---|
+//! | points with their volumes | [`cloud`], [`lattice`] |
+//! | bonds across holes | [`hole`] |
 //! | micromoduli | [`law`] |
 //! | kinematics of a bond | [`element`] |
 //! | what the equations are made of | [`system`] |
 
 mod answers;
 mod change;
+pub mod cloud;
 pub mod element;
+pub mod hole;
+pub mod lattice;
 pub mod law;
 mod mass;
 mod product;
 mod rigid_motions;
+pub mod shape;
 pub mod stress;
 mod sweep;
 pub mod system;

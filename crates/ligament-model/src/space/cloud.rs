@@ -1,0 +1,156 @@
+//! Lumping: the nodes of a solid mesh become material points that carry the volume of its cells.
+
+use ligament_mesh::{SolidCell, SolidMesh};
+
+use crate::cloud::{PointCloud, distance, middle_of_bounding_box, search_tree};
+use crate::curve::along_hilbert_curve;
+use crate::horizon::INCLUSION_TOLERANCE;
+
+impl PointCloud<3> {
+    /// Lumps the cells of a solid mesh: a cell's volume is shared among its corners, equally but for pyramids, whose apex takes a
+    /// quarter and whose other corners take 3/16 each.
+    ///
+    /// With these shares, which are the integrals of the shape functions, the middle of the masses stays where that of the cell is,
+    /// if its faces are parallelograms or triangles; and no share depends on how nodes are numbered, as those of the tetrahedra that
+    /// the cell may be split into do.
+    ///
+    /// `material_of_cell` (n_cells) holds the index of each cell's material. A point at an interface takes its share of volume from
+    /// the cells of either side.
+    pub fn from_solid_mesh(mesh: &SolidMesh, material_of_cell: &[u32], n_materials: usize) -> Self {
+        let origin = middle_of_bounding_box(&mesh.positions);
+        let positions: Vec<[f64; 3]> = (mesh.positions.iter())
+            .map(|p| [p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]])
+            .collect();
+        let mut material_volumes = vec![0.0; positions.len() * n_materials];
+        for (cell, &material) in mesh.cells.iter().zip(material_of_cell) {
+            let volume = cell.volume(&positions);
+            for (&corner, share) in cell.corners().iter().zip(shares(cell)) {
+                material_volumes[corner as usize * n_materials + material as usize] +=
+                    share * volume;
+            }
+        }
+        let volumes: Vec<f64> = (material_volumes.chunks(n_materials))
+            .map(|shares| shares.iter().sum())
+            .collect();
+        let shares = material_volumes.iter().enumerate();
+        let material_shares = shares.map(|(k, volume)| volume / volumes[k / n_materials]);
+        let mut cloud = Self {
+            curve: along_hilbert_curve(&positions),
+            material_shares: material_shares.collect(),
+            positions,
+            origin,
+            thickness: 1.0,
+            volumes,
+            spacing: Vec::new(),
+            lattice_cell: None,
+            n_materials,
+        };
+        cloud.spacing = nearest_neighbour_distances(&cloud, &mesh.cells);
+        cloud
+    }
+}
+
+/// Shares of the corners in the volume of a cell.
+fn shares(cell: &SolidCell) -> &'static [f64] {
+    match cell {
+        SolidCell::Tetrahedron(_) => &[0.25; 4],
+        SolidCell::Hexahedron(_) => &[0.125; 8],
+        SolidCell::Prism(_) => &[1.0 / 6.0; 6],
+        SolidCell::Pyramid(_) => &[0.1875, 0.1875, 0.1875, 0.1875, 0.25],
+    }
+}
+
+/// Length of the shortest edge of a cell at each node, shape (n_points), m; infinite at nodes without a cell.
+pub(crate) fn shortest_edges(cloud: &PointCloud<3>, cells: &[SolidCell]) -> Vec<f64> {
+    let mut shortest = vec![f64::INFINITY; cloud.len()];
+    for ends in cells.iter().flat_map(SolidCell::edges) {
+        let [from, to] = ends.map(|end| end as usize);
+        let length = distance(cloud.positions[from], cloud.positions[to]);
+        shortest[from] = length.min(shortest[from]);
+        shortest[to] = length.min(shortest[to]);
+    }
+    shortest
+}
+
+/// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest edge.
+fn nearest_neighbour_distances(cloud: &PointCloud<3>, cells: &[SolidCell]) -> Vec<f64> {
+    let reach = shortest_edges(cloud, cells);
+    let tree = search_tree(&cloud.positions);
+    cloud.over_points(|point| {
+        let position = cloud.positions[point as usize];
+        let reach = reach[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
+        tree.locate_within_distance(position, reach * reach)
+            .filter(|neighbour| neighbour.data != point)
+            .map(|neighbour| distance(position, *neighbour.geom()))
+            .fold(f64::INFINITY, f64::min)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CUBE: [[f64; 3]; 8] = [
+        [10.0, 0.0, 0.0],
+        [12.0, 0.0, 0.0],
+        [12.0, 3.0, 0.0],
+        [10.0, 3.0, 0.0],
+        [10.0, 0.0, 4.0],
+        [12.0, 0.0, 4.0],
+        [12.0, 3.0, 4.0],
+        [10.0, 3.0, 4.0],
+    ];
+
+    fn lumped(cells: Vec<SolidCell>, extra: &[[f64; 3]]) -> PointCloud<3> {
+        let positions: Vec<[f64; 3]> = CUBE.iter().chain(extra).copied().collect();
+        let n_cells = cells.len();
+        let mesh = SolidMesh {
+            node_tags: (1..=positions.len() as u64).collect(),
+            positions,
+            cells,
+            ..SolidMesh::default()
+        };
+        let materials: Vec<u32> = (0..n_cells as u32).collect();
+        PointCloud::from_solid_mesh(&mesh, &materials, n_cells)
+    }
+
+    /// Volume and middle of mass of a brick and of the pyramid on it, by hand; the material of a shared corner is that of both.
+    #[test]
+    fn volumes_keep_the_middle_of_mass() {
+        let brick = SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]);
+        let cloud = lumped(
+            vec![brick, SolidCell::Pyramid([4, 5, 6, 7, 8])],
+            &[[11.0, 1.5, 10.0]],
+        );
+        let expected = [3.0, 3.0, 3.0, 3.0, 5.25, 5.25, 5.25, 5.25, 3.0];
+        assert_eq!(cloud.volumes, expected);
+        let moment = |axis: usize| -> f64 {
+            let terms = cloud.positions.iter().zip(&cloud.volumes);
+            terms
+                .map(|(p, volume)| (p[axis] + cloud.origin[axis]) * volume)
+                .sum()
+        };
+        // 24 at z = 2 and 12 at a quarter of the height of 6 over z = 4.
+        assert!((moment(2) - (24.0 * 2.0 + 12.0 * 5.5)).abs() < 1e-13);
+        assert!((moment(0) - 36.0 * 11.0).abs() < 1e-12);
+        assert_eq!(cloud.shares(4), [3.0 / 5.25, 2.25 / 5.25]);
+        assert_eq!(cloud.shares(0), [1.0, 0.0]);
+        assert_eq!(cloud.spacing[..8], [2.0; 8]);
+        assert_eq!(cloud.spacing[8], (1.0_f64 + 2.25 + 36.0).sqrt());
+    }
+
+    #[test]
+    fn tetrahedra_and_prisms_share_equally() {
+        let cloud = lumped(
+            vec![
+                SolidCell::Prism([0, 1, 2, 4, 5, 6]),
+                SolidCell::Tetrahedron([0, 2, 3, 7]),
+            ],
+            &[],
+        );
+        assert_eq!(cloud.volumes[0], 2.0 + 1.0);
+        assert_eq!(cloud.volumes[1], 2.0);
+        assert_eq!(cloud.volumes[7], 1.0);
+        assert_eq!(cloud.volumes.iter().sum::<f64>(), 16.0);
+    }
+}
