@@ -17,18 +17,21 @@ use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
-use crate::setup::{CorrectionDomain, Setup};
+use crate::setup::{CorrectionDomain, Dim, Dimension, Setup};
 use crate::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning::{self, Warning};
 
-/// The discrete model: all that comes before the first equation.
+/// The discrete model in the plane, or for D = 3 in space: all that comes before the first equation.
 #[derive(Debug)]
-pub struct Model {
+pub struct Model<const D: usize = 2>
+where
+    Dim: Dimension<D>,
+{
     /// Setup that the model was built from.
-    pub setup: Setup,
+    pub setup: Setup<D>,
     /// Points and corrected bonds.
-    pub system: Arc<BondSystem>,
+    pub system: Arc<<Dim as Dimension<D>>::System>,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
     /// Report on the domain correction, where there was one.
@@ -41,13 +44,26 @@ pub struct Model {
     pub warnings: Vec<Warning>,
 }
 
-impl Model {
+impl<const D: usize> Model<D>
+where
+    Dim: Dimension<D>,
+{
     /// Builds the model of a setup, on the threads of the caller.
     ///
     /// # Errors
     ///
     /// If a field of the setup is wrong.
-    pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    pub fn build(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+        Dim::model(setup, watcher)
+    }
+}
+
+impl Model {
+    /// Builds the model of a setup in the plane.
+    pub(crate) fn in_plane(
+        setup: Setup,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
@@ -107,7 +123,12 @@ impl Model {
             criteria: Arc::new(criteria),
         })
     }
+}
 
+impl<const D: usize> Model<D>
+where
+    Dim: Dimension<D>,
+{
     /// Number of pairs of points that would be bonded but for a void of the body between them.
     pub fn across_voids(&self) -> usize {
         self.absent(Absence::Void)
@@ -129,7 +150,7 @@ impl Model {
     }
 
     /// The body.
-    pub fn body(&self) -> &dyn Body {
+    pub fn body(&self) -> &dyn Body<D> {
         &*self.setup.body
     }
 }

@@ -2,26 +2,34 @@
 
 use std::fmt::Debug;
 
-use ligament_mesh::{Cell, Mesh, NodeField};
+use ligament_mesh::{Cell, Mesh, NodeField, SolidMesh};
+use ligament_model::space::lattice::SolidLattice;
 use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
 use crate::error::coordinates;
 
-/// An edge of a group that is none of the outline of the body, on which a pressure could act.
+/// An edge of a group, of a solid a face, that is none of the outline of the body, on which a pressure could act.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "a pressure acts on the outline of the body, but the edge of this group from node {} to node {}, around ({:.6}, {:.6}), {}",
-    .nodes[0], .nodes[1], .middle[0], .middle[1],
-    if *.cells == 0 { "is no edge of a cell" } else { "has cells on both sides" }
+    "a pressure acts on the outline of the body, but the {side} of this group {}, around ({}), {}",
+    from_node_to_node(.nodes), coordinates(.middle),
+    if *.cells == 0 { format!("is no {side} of a cell") } else { "has cells on both sides".to_owned() }
 )]
 pub struct OffOutline {
-    /// Tags of the nodes of the edge.
-    pub nodes: [u64; 2],
-    /// Middle of the edge, m.
-    pub middle: [f64; 2],
-    /// Number of cells that have the edge.
+    /// What it is: `edge` or `face`.
+    pub side: &'static str,
+    /// Tags of its nodes.
+    pub nodes: Vec<u64>,
+    /// Middle, m.
+    pub middle: Vec<f64>,
+    /// Number of cells that have it.
     pub cells: usize,
+}
+
+fn from_node_to_node(nodes: &[u64]) -> String {
+    let nodes: Vec<String> = nodes.iter().map(|node| format!("node {node}")).collect();
+    format!("from {}", nodes.join(" to "))
 }
 
 /// Origin of a body's points.
@@ -31,6 +39,10 @@ pub enum Origin<'a> {
     Mesh(&'a Mesh),
     /// A lattice with a point at the centre of each cell.
     Lattice(&'a Lattice),
+    /// A mesh of solid cells with a point at each node.
+    SolidMesh(&'a SolidMesh),
+    /// A lattice in space with a point at the centre of each cell.
+    SolidLattice(&'a SolidLattice),
     /// Arrays of points.
     Points,
 }

@@ -10,6 +10,8 @@ use ligament_model::{BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, 
 use super::{Section, Setup};
 use crate::error::SetupError;
 use crate::formulation::effective_elasticity;
+use crate::model::Model;
+use crate::stage::StageWatcher;
 
 /// The plane and space: `Dim` is a [`Dimension<2>`](Dimension) and a [`Dimension<3>`](Dimension).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,6 +49,15 @@ pub trait Dimension<const D: usize>: 'static {
     ///
     /// If a field is out of range, missing, or does not go with another.
     fn check(setup: &Setup<D>) -> Result<(), SetupError>
+    where
+        Dim: Dimension<D>;
+
+    /// Builds the model of a setup.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong.
+    fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>
     where
         Dim: Dimension<D>;
 
@@ -99,6 +110,10 @@ impl Dimension<2> for Dim {
 
     fn check(setup: &Setup) -> Result<(), SetupError> {
         setup.check_in_plane()
+    }
+
+    fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
+        Model::in_plane(setup, watcher)
     }
 
     fn cloud(system: &BondSystem) -> &PointCloud {
