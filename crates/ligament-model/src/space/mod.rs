@@ -11,7 +11,7 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | points with their volumes | [`cloud`], [`lattice`] |
+//! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
 //! | bonds across holes | [`hole`] |
 //! | micromoduli | [`law`] |
 //! | kinematics of a bond | [`element`] |
