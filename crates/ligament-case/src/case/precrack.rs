@@ -1,5 +1,6 @@
 //! `[[precrack]]`: cracks and slots that are there from the start.
 
+use std::convert::Infallible;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 use schemars::JsonSchema;
@@ -81,6 +82,10 @@ impl Precrack {
         };
         let ends = self.ends.0;
         Ok(PreCrack { points, ends })
+    }
+
+    pub(super) fn in_space(&self, key: &KeyPath) -> Result<Infallible, KeyFault> {
+        Err(KeyFault::new(key.clone(), "no pre-cracks in space yet"))
     }
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {

@@ -202,6 +202,17 @@ impl Case {
         of_mesh.or(of_lattice).unwrap_or_default()
     }
 
+    /// Whether the body is solid.
+    pub fn is_solid(&self) -> bool {
+        self.mesh.as_ref().is_some_and(|it| it.is_solid)
+    }
+
+    /// The setup of the case on a solid body, whatever body the case names. Tables of temperatures have no rows yet.
+    pub(crate) fn in_space(&self, body: Arc<dyn Body<3>>) -> Result<Setup<3>, KeyFault> {
+        let precracks = each("precrack", &self.precracks, Precrack::in_space)?;
+        self.setup_of(body, (), precracks)
+    }
+
     /// The setup of the case on a body in the plane, whatever body the case names. Tables of temperatures have no rows yet.
     pub(crate) fn in_plane(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
         let of_mesh = self.mesh.as_ref().and_then(|it| it.thickness);

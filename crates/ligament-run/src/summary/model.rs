@@ -1,12 +1,14 @@
 //! The discrete model in numbers and words, whatever is then done with it.
 
-use ligament_model::ElementKind;
+use ligament_model::{Bonds, ElementKind};
 use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::scatter::Scattered;
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
+use ligament::setup::{
+    Alpha, Calibration, Correction, Dim, Dimension, Form, Open, Setup, Surface,
+};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 
@@ -104,16 +106,19 @@ pub fn heading(title: &str) -> &str {
 
 impl ModelSummary {
     /// Collects the numbers.
-    pub fn new(case: &CaseFile, model: &Model) -> Self {
+    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
             formulation: formulation_words(model),
-            points: model.system.cloud.len(),
-            bonds: model.system.bonds.len(),
+            points: model.system.n_points(),
+            bonds: model.system.ends().len(),
             cut_bonds: model.cut_bonds(),
             no_fail_points: model.no_fail_points(),
-            volume: model.system.cloud.volumes.iter().sum(),
+            volume: model.system.volumes().iter().sum(),
             horizon: Spread::over(model.fixed.horizon.iter().copied()),
             family: family(model),
             correction: CorrectionSummary::new(model),
@@ -124,7 +129,10 @@ impl ModelSummary {
 
 impl ScatterSummary {
     /// What varies at random in a model.
-    pub fn new(model: &Model) -> Option<Self> {
+    pub fn new<const D: usize>(model: &Model<D>) -> Option<Self>
+    where
+        Dim: Dimension<D>,
+    {
         let factors = &model.fixed.scatter.as_ref()?.at_points;
         let scatter = model.setup.scatter?;
         let factor = Spread::over(factors.iter().copied());
@@ -152,20 +160,29 @@ impl Spread {
 }
 
 /// Law and corrections of the bonds, in words.
-fn formulation_words(model: &Model) -> String {
+fn formulation_words<const D: usize>(model: &Model<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     format!("{}; {correction}", formulation_line(&model.setup))
 }
 
 /// Numbers of bonds of the points.
-pub fn family(model: &Model) -> Spread {
-    let incidence = &model.system.bonds.incidence;
+pub fn family<const D: usize>(model: &Model<D>) -> Spread
+where
+    Dim: Dimension<D>,
+{
+    let incidence = model.system.incidence();
     Spread::over((0..incidence.n_points() as u32).map(|point| incidence.at(point).len() as f64))
 }
 
 impl CorrectionSummary {
     /// The correction of a model.
-    pub fn new(model: &Model) -> Self {
+    pub fn new<const D: usize>(model: &Model<D>) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         let report = model.correction.as_ref();
         let domain = report.and_then(CorrectionReport::domain);
         let patch = report.and_then(CorrectionReport::patch);
@@ -189,7 +206,10 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line(setup: &Setup) -> String {
+pub fn formulation_line<const D: usize>(setup: &Setup<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     let mut law = setup.law;
     let (name, element) = (law.name(), law.element());
     let Open {
@@ -199,6 +219,8 @@ pub fn formulation_line(setup: &Setup) -> String {
         ..
     } = law.open();
     let unknowns = match element {
+        ElementKind::Beam if D == 3 => "three displacements and three rotations a point",
+        ElementKind::Spring if D == 3 => "three displacements a point",
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
         ElementKind::Imaginary => {
