@@ -230,7 +230,7 @@ impl<'a> Outline<'a> {
 }
 
 /// Whether two lines cross at a point that is an end of neither.
-fn crosses([a, b]: [[f64; 2]; 2], [p, q]: [[f64; 2]; 2], slack: f64) -> bool {
+pub(crate) fn crosses([a, b]: [[f64; 2]; 2], [p, q]: [[f64; 2]; 2], slack: f64) -> bool {
     side(a, b, p, slack) * side(a, b, q, slack) < 0.0
         && side(p, q, a, slack) * side(p, q, b, slack) < 0.0
 }

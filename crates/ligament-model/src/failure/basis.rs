@@ -1,6 +1,7 @@
 //! What the limits of bonds are made from.
 
 use super::crack_energies::Lattice;
+use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Material, Plane};
 use crate::scatter::{Factors, Scattered};
 use crate::system::BondSystem;
@@ -37,27 +38,55 @@ impl Basis<'_> {
             .collect()
     }
 
-    /// Multiplies values of the bonds (n_bonds) by a function of the factor by which a property varies, where it does.
-    pub(super) fn scatter(&self, of: Scattered, values: &mut [f64], share: fn(f64) -> f64) {
-        let Some(factors) = self.scatter.filter(|it| it.of == of) else {
-            return;
-        };
-        for (value, &ends) in values.iter_mut().zip(&self.system.bonds.ends) {
-            *value *= share(factors.of_bond(ends));
-        }
-    }
-
     /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where the
     /// bond never fails, shape (n_bonds).
     pub fn weakest(&self, of_materials: &[f64]) -> Vec<f64> {
-        weakest(self.system, self.no_fail, of_materials)
+        let BondSystem { cloud, bonds, .. } = self.system;
+        weakest(cloud, &bonds.ends, self.no_fail, of_materials)
+    }
+
+    /// What of the body the ends of limits are made from.
+    pub(super) fn ends(&self) -> LimitEnds<'_> {
+        LimitEnds {
+            ends: &self.system.bonds.ends,
+            horizons: &self.system.bonds.horizon,
+            scatter: self.scatter,
+        }
+    }
+}
+
+/// Bonds whose limits are made, in the plane or in space.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LimitEnds<'a> {
+    /// Points of each bond, shape (n_bonds).
+    pub(crate) ends: &'a [[u32; 2]],
+    /// Horizon of each bond, shape (n_bonds), m.
+    pub(crate) horizons: &'a [f64],
+    /// Factors by which a property varies at random, where one does.
+    pub(crate) scatter: Option<&'a Factors>,
+}
+
+impl LimitEnds<'_> {
+    /// Multiplies values of the bonds (n_bonds) by a function of the factor by which a property varies, where it does.
+    pub(crate) fn scatter(self, of: Scattered, values: &mut [f64], share: fn(f64) -> f64) {
+        let Some(factors) = self.scatter.filter(|it| it.of == of) else {
+            return;
+        };
+        for (value, &ends) in values.iter_mut().zip(self.ends) {
+            *value *= share(factors.of_bond(ends));
+        }
     }
 }
 
 /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where an end
 /// is marked in `no_fail` (n_points), shape (n_bonds).
-pub(super) fn weakest(system: &BondSystem, no_fail: &[bool], of_materials: &[f64]) -> Vec<f64> {
-    let materials = weakest_materials(system, of_materials);
+pub(crate) fn weakest<const D: usize>(
+    cloud: &PointCloud<D>,
+    ends: &[[u32; 2]],
+    no_fail: &[bool],
+    of_materials: &[f64],
+) -> Vec<f64> {
+    let materials = weakest_materials(cloud, ends, of_materials);
     let of_bond = |(ends, material): (&[u32; 2], usize)| {
         if ends.iter().any(|end| no_fail[*end as usize]) {
             f64::INFINITY
@@ -65,18 +94,16 @@ pub(super) fn weakest(system: &BondSystem, no_fail: &[bool], of_materials: &[f64
             of_materials[material]
         }
     };
-    system
-        .bonds
-        .ends
-        .iter()
-        .zip(materials)
-        .map(of_bond)
-        .collect()
+    ends.iter().zip(materials).map(of_bond).collect()
 }
 
 /// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond, the first of
 /// equals, shape (n_bonds).
-pub(super) fn weakest_materials(system: &BondSystem, of_materials: &[f64]) -> Vec<usize> {
+pub(super) fn weakest_materials<const D: usize>(
+    cloud: &PointCloud<D>,
+    ends: &[[u32; 2]],
+    of_materials: &[f64],
+) -> Vec<usize> {
     let smaller = |one: usize, other: usize| {
         let is_smaller = of_materials[other] < of_materials[one];
         let is_equal = of_materials[other] == of_materials[one];
@@ -87,16 +114,16 @@ pub(super) fn weakest_materials(system: &BondSystem, of_materials: &[f64]) -> Ve
         }
     };
     let at_point = |point: usize| {
-        let shares = system.cloud.shares(point).iter().enumerate();
+        let shares = cloud.shares(point).iter().enumerate();
         let present = shares
             .filter(|(_, share)| **share > 0.0)
             .map(|(material, _)| material);
         present.reduce(smaller).unwrap_or_default()
     };
-    let at_points: Vec<usize> = (0..system.cloud.len()).map(at_point).collect();
+    let at_points: Vec<usize> = (0..cloud.len()).map(at_point).collect();
     let of_bond = |ends: &[u32; 2]| {
         let [a, b] = ends.map(|end| at_points[end as usize]);
         smaller(a, b)
     };
-    system.bonds.ends.iter().map(of_bond).collect()
+    ends.iter().map(of_bond).collect()
 }

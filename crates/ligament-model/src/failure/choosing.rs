@@ -1,6 +1,6 @@
 //! From choices of criteria to the limits of the bonds.
 
-use super::basis::Basis;
+use super::basis::{Basis, LimitEnds};
 use super::criterion::{Criteria, Criterion};
 use super::fracture_energy;
 use super::kind::{After, Choice};
@@ -25,7 +25,7 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
         for (&measure, mut limits) in kind.measures.iter().zip(limits) {
             // Limits that follow the bonds that are left have the factors of their points.
             if limits.crack_at_points.is_none() {
-                scatter(choice, &mut limits.limit, basis);
+                scatter(choice, &mut limits.limit, basis.ends());
             }
             list.push(Criterion {
                 name: match kind.measures {
@@ -33,7 +33,10 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
                     _ => measure.word(),
                 },
                 measure,
-                after: after(&choice.after, &limits.limit, basis).map_err(at_place)?,
+                after: after(&choice.after, &limits.limit, basis.ends(), &|| {
+                    fracture_energy::critical_stretches(basis)
+                })
+                .map_err(at_place)?,
                 limit: limits.limit,
                 coefficient: limits.coefficient,
                 crack_at_points: limits.crack_at_points,
@@ -44,26 +47,31 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
 }
 
 /// Multiplies limits (n_bonds) by the factor f of what they come from: a strength by f, an energy by sqrt(f).
-fn scatter(choice: &Choice, limits: &mut [f64], basis: &Basis<'_>) {
+pub(crate) fn scatter(choice: &Choice, limits: &mut [f64], bonds: LimitEnds<'_>) {
     let of = choice.limits_from();
     let share = match of {
         Scattered::Strength => |factor: f64| factor,
         Scattered::FractureEnergy => f64::sqrt,
     };
-    basis.scatter(of, limits, share);
+    bonds.scatter(of, limits, share);
 }
 
 /// Behaviour of bonds with these limits (n_bonds) after them. A parameter that is not given makes the lives of the bonds
 /// take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle
-/// bond with that fracture energy.
-fn after(wanted: &After, limits: &[f64], basis: &Basis<'_>) -> Result<AfterLimit, NoLimit> {
+/// bond with that fracture energy, which `brittle` gives (n_bonds).
+pub(crate) fn after(
+    wanted: &After,
+    limits: &[f64],
+    bonds: LimitEnds<'_>,
+    brittle: &dyn Fn() -> Vec<f64>,
+) -> Result<AfterLimit, NoLimit> {
     let law = wanted.law;
     let parameter = match (law.parameter, wanted.parameter) {
         (None, _) => Vec::new(),
         (Some(_), Some(given)) => vec![given; limits.len()],
         (Some(parameter), None) => {
-            let mut brittle = fracture_energy::critical_stretches(basis);
-            basis.scatter(Scattered::FractureEnergy, &mut brittle, f64::sqrt);
+            let mut brittle = brittle();
+            bonds.scatter(Scattered::FractureEnergy, &mut brittle, f64::sqrt);
             let of_bond = |(bond, (&limit, &brittle)): (usize, (&f64, &f64))| {
                 // Bonds that never fail need no end.
                 if limit.is_infinite() || brittle.is_infinite() {
@@ -72,7 +80,7 @@ fn after(wanted: &After, limits: &[f64], basis: &Basis<'_>) -> Result<AfterLimit
                 let energy = (brittle / limit).powi(2);
                 if energy <= parameter.least_energy {
                     return Err(NoLimit::NothingLeft {
-                        horizon: basis.system.bonds.horizon[bond],
+                        horizon: bonds.horizons[bond],
                         limit,
                         brittle,
                         least: parameter.least_energy,

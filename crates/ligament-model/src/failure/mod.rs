@@ -18,8 +18,8 @@
 mod admissible;
 pub mod along_line;
 mod along_line_in_space;
-mod basis;
-mod choosing;
+pub(crate) mod basis;
+pub(crate) mod choosing;
 pub mod crack_at_points;
 pub mod crack_energies;
 pub mod crack_opening;

@@ -50,7 +50,7 @@ pub fn critical_energy(material: &Isotropic, tensile_strength: f64, plane: Plane
 /// marked in `no_fail` (n_points) never breaks: s_0 is infinite.
 pub fn critical_stretches(system: &BondSystem, energies: &[f64], no_fail: &[bool]) -> Vec<f64> {
     (
-        weakest(system, no_fail, energies),
+        weakest(&system.cloud, &system.bonds.ends, no_fail, energies),
         &system.bonds.ends,
         &system.rigidities.axial,
     )

@@ -12,19 +12,25 @@
 //! | stage | module |
 //! |---|---|
 //! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
-//! | bonds across holes | [`hole`] |
+//! | bonds across holes, and out of a mesh | [`hole`], [`outline`] |
 //! | micromoduli | [`law`] |
+//! | factors alpha and Omega | [`correction`] |
+//! | failure criteria with their limits | [`criteria`] |
 //! | kinematics of a bond | [`element`] |
 //! | what the equations are made of | [`system`] |
 
 mod answers;
 mod change;
 pub mod cloud;
+pub mod correction;
+pub mod criteria;
 pub mod element;
 pub mod hole;
 pub mod lattice;
 pub mod law;
 mod mass;
+pub mod outline;
+mod predicates;
 mod product;
 mod rigid_motions;
 pub mod shape;

@@ -1,5 +1,7 @@
 //! Shapes in space: holes of a lattice, and the parts of a body that its sets are.
 
+use super::vector::{dot, minus, norm};
+
 /// A closed region of space.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolidShape {
@@ -79,18 +81,16 @@ impl SolidShape {
     /// Whether a point lies in the shape or on its surface, or no farther than `slack` outside of it (m).
     pub fn contains(&self, point: [f64; 3], slack: f64) -> bool {
         match self {
-            Self::Sphere { centre, radius } => length(minus(point, *centre)) <= radius + slack,
-            Self::OutsideSphere { centre, radius } => {
-                length(minus(point, *centre)) >= radius - slack
-            }
+            Self::Sphere { centre, radius } => norm(minus(point, *centre)) <= radius + slack,
+            Self::OutsideSphere { centre, radius } => norm(minus(point, *centre)) >= radius - slack,
             Self::Cylinder { ends, radius } => {
                 let (along, across) = in_cylinder(*ends, minus(point, ends[0]));
-                let height = length(minus(ends[1], ends[0]));
-                length(across) <= radius + slack && -slack <= along && along <= height + slack
+                let height = norm(minus(ends[1], ends[0]));
+                norm(across) <= radius + slack && -slack <= along && along <= height + slack
             }
             Self::OutsideCylinder { axis, radius } => {
                 let (_, across) = in_cylinder(*axis, minus(point, axis[0]));
-                length(across) >= radius - slack
+                norm(across) >= radius - slack
             }
             Self::Box { lower, upper } => (0..3).all(|axis| {
                 lower[axis] - slack <= point[axis] && point[axis] <= upper[axis] + slack
@@ -109,17 +109,17 @@ impl SolidShape {
             ),
             // A ball is convex, and so is a cylinder: a line leaves them nowhere if its ends do not.
             Self::OutsideSphere { centre, radius } => {
-                let is_out = |p| length(minus(p, *centre)) > radius + slack;
+                let is_out = |p| norm(minus(p, *centre)) > radius + slack;
                 is_out(a) || is_out(b)
             }
             Self::OutsideCylinder { axis, radius } => {
-                let is_out = |p| length(in_cylinder(*axis, minus(p, axis[0])).1) > radius + slack;
+                let is_out = |p| norm(in_cylinder(*axis, minus(p, axis[0])).1) > radius + slack;
                 is_out(a) || is_out(b)
             }
             Self::Cylinder { ends, radius } => {
                 let (start, across) = in_cylinder(*ends, minus(a, ends[0]));
                 let (rise, drift) = in_cylinder(*ends, way);
-                let height = length(minus(ends[1], ends[0]));
+                let height = norm(minus(ends[1], ends[0]));
                 let between = between([slack, height - slack], start, rise);
                 is_open(within_ball(across, drift, radius - slack), between)
             }
@@ -140,7 +140,7 @@ impl SolidShape {
 fn within_ball(start: [f64; 3], way: [f64; 3], radius: f64) -> [f64; 2] {
     let square = dot(way, way);
     if square == 0.0 {
-        let is_in = length(start) < radius;
+        let is_in = norm(start) < radius;
         return if is_in { [0.0, 1.0] } else { [1.0, 0.0] };
     }
     let nearest = -dot(start, way) / square;
@@ -174,21 +174,9 @@ fn is_open([a, b]: [f64; 2], [c, d]: [f64; 2]) -> bool {
 /// The parts of a vector along an axis, m, and across it.
 fn in_cylinder([start, end]: [[f64; 3]; 2], vector: [f64; 3]) -> (f64, [f64; 3]) {
     let axis = minus(end, start);
-    let unit = axis.map(|it| it / length(axis));
+    let unit = axis.map(|it| it / norm(axis));
     let along = dot(vector, unit);
     (along, [0, 1, 2].map(|k| vector[k] - along * unit[k]))
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 #[cfg(test)]

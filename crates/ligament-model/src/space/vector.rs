@@ -16,6 +16,18 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
+/// a - b.
+#[inline(always)]
+pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// The length of a vector.
+#[inline(always)]
+pub(super) fn norm(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
 /// Two unit vectors at right angles to a unit vector n and to each other, right-handed with it: n x t_1 = t_2. The first comes from
 /// the axis to which n is least inclined, the first of equals.
 pub(super) fn tangents(n: [f64; 3]) -> [[f64; 3]; 2] {

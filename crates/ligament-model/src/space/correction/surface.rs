@@ -1,0 +1,38 @@
+//! The surface correction in space by volumes: bonds of points whose families a surface cuts are made stiffer.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::horizon::Horizons;
+
+/// Factors lambda (n_bonds):
+///
+/// lambda_AB = (V0_A + V0_B)/(V(H_A) + V(H_B)), V0 = 4/3 pi h^3, V(H_A) = sum over B of alpha V_B (without A itself)
+///
+/// with the factors alpha (n_bonds), as in the [plane](crate::correction::surface).
+pub fn surface_factors(
+    bonds: &BondSet<3>,
+    cloud: &PointCloud<3>,
+    horizons: &Horizons,
+    length_factor: &[f64],
+) -> Vec<f64> {
+    let volumes: Vec<[f64; 2]> = cloud.over_points(|point| {
+        let family = bonds.incidence.at(point).iter();
+        let present = family.map(|&bond| {
+            length_factor[bond as usize] * cloud.volumes[bonds.neighbour(bond, point) as usize]
+        });
+        let radius = horizons.radius[point as usize];
+        [4.0 / 3.0 * PI * radius.powi(3), present.sum()]
+    });
+    bonds
+        .ends
+        .par_iter()
+        .map(|ends| {
+            let [a, b] = ends.map(|end| volumes[end as usize]);
+            (a[0] + b[0]) / (a[1] + b[1])
+        })
+        .collect()
+}

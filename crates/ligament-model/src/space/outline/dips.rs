@@ -1,0 +1,172 @@
+//! Dips of a triangulated outline below a round surface.
+//!
+//! Of four nodes of a convex surface in two triangles, the edge between the triangles may be either diagonal of the four. Along one of
+//! them the triangles bulge, along the other they dip, by the difference of the sagittas: no less part of the body, as its surface
+//! goes through all four. A dip is filled by the tetrahedron of the four nodes; the edge becomes the other diagonal. Re-entrant edges
+//! of the body itself are no dips: they turn by more, or the outline around them is not convex.
+
+use std::collections::{BTreeSet, HashMap};
+
+use crate::space::predicates::above;
+use crate::space::vector::{cross, dot, minus, norm};
+
+/// Cosine of the largest angle between two triangles of a round surface, 45 degrees.
+const ROUND: f64 = 0.707;
+
+/// Height of a node over a triangle, as a part of the size of the triangle, that counts as none.
+const FLATNESS: f64 = 1e-9;
+
+/// The triangles of an outline (counter-clockwise seen from outside) once its dips are filled, and the tetrahedra that fill them.
+pub(super) fn filled(
+    triangles: Vec<[u32; 3]>,
+    positions: &[[f64; 3]],
+) -> (Vec<[u32; 3]>, Vec<[u32; 4]>) {
+    let mut skin = Skin::new(triangles, positions);
+    let mut filling = Vec::new();
+    // Every filling adds to the volume of the body: there is an end. The bound is for surfaces that are none.
+    let mut left = 8 * skin.triangles.len();
+    let mut open: BTreeSet<[u32; 2]> = skin.edges.keys().copied().collect();
+    open.retain(|edge| skin.dip(*edge).is_some());
+    while let Some(edge) = open.pop_first() {
+        let Some(dip) = skin.dip(edge) else {
+            continue;
+        };
+        if left == 0 {
+            break;
+        }
+        left -= 1;
+        let [p, q, r, s] = dip.nodes;
+        filling.push(dip.nodes);
+        skin.turn(dip);
+        open.extend([[p, r], [p, s], [q, r], [q, s]].map(ascending));
+    }
+    (skin.triangles, filling)
+}
+
+/// Two triangles (p, q, r) and (q, p, s) with the outside between them.
+struct Dip {
+    nodes: [u32; 4],
+    /// Numbers of the triangles.
+    triangles: [usize; 2],
+}
+
+/// Triangles with the edges between them.
+struct Skin<'a> {
+    positions: &'a [[f64; 3]],
+    triangles: Vec<[u32; 3]>,
+    /// Triangles at each edge.
+    edges: HashMap<[u32; 2], Vec<usize>>,
+}
+
+impl<'a> Skin<'a> {
+    fn new(triangles: Vec<[u32; 3]>, positions: &'a [[f64; 3]]) -> Self {
+        let mut edges: HashMap<[u32; 2], Vec<usize>> = HashMap::with_capacity(2 * triangles.len());
+        for (number, nodes) in triangles.iter().enumerate() {
+            for edge in edges_of(*nodes) {
+                edges.entry(edge).or_default().push(number);
+            }
+        }
+        Self {
+            positions,
+            triangles,
+            edges,
+        }
+    }
+
+    fn at(&self, node: u32) -> [f64; 3] {
+        self.positions[node as usize]
+    }
+
+    /// The two triangles at an edge, as (p, q, r) and (q, p, s); none where there are others.
+    fn pair(&self, edge: [u32; 2]) -> Option<Dip> {
+        let &[one, other] = self.edges.get(&edge)?.as_slice() else {
+            return None;
+        };
+        let [p, q, r] = from_edge(self.triangles[one], edge)?;
+        let [from, to, s] = from_edge(self.triangles[other], edge)?;
+        ([from, to] == [q, p]).then_some(Dip {
+            nodes: [p, q, r, s],
+            triangles: [one, other],
+        })
+    }
+
+    /// The dip at an edge; none where there is none.
+    fn dip(&self, edge: [u32; 2]) -> Option<Dip> {
+        let pair = self.pair(edge)?;
+        let [p, q, r, s] = pair.nodes;
+        let normals = [[p, q, r], [q, p, s]].map(|nodes| self.normal(nodes));
+        let is_round =
+            |one: [f64; 3], other: [f64; 3]| dot(one, other) > ROUND * norm(one) * norm(other);
+        let height = above(self.at(p), self.at(q), self.at(r), self.at(s));
+        let is_dip = height > FLATNESS * norm(normals[0]) * norm(minus(self.at(s), self.at(p)));
+        if !is_dip
+            || !is_round(normals[0], normals[1])
+            || self.edges.contains_key(&ascending([r, s]))
+        {
+            return None;
+        }
+        let mean = [0, 1, 2].map(|axis| normals[0][axis] + normals[1][axis]);
+        let turned = [[r, p, s], [s, q, r]].map(|nodes| self.normal(nodes));
+        let around = [[p, r], [p, s], [q, r], [q, s]].map(|edge| 0.5 * self.bend(ascending(edge)));
+        let is_convex = self.bend(edge) + around.iter().sum::<f64>() > 0.0;
+        (is_convex && turned.iter().all(|it| is_round(*it, mean))).then_some(pair)
+    }
+
+    /// The length of an edge times the angle between its triangles, positive where the body is convex: a part of the integral of the
+    /// mean curvature (D. Cohen-Steiner and J.-M. Morvan, Restricted Delaunay triangulations and normal cycle, 2003). Nothing at edges
+    /// of the body itself, where the surface is not round.
+    fn bend(&self, edge: [u32; 2]) -> f64 {
+        let Some(pair) = self.pair(edge) else {
+            return 0.0;
+        };
+        let [p, q, r, s] = pair.nodes;
+        let [one, other] = [[p, q, r], [q, p, s]].map(|nodes| self.normal(nodes));
+        let cosine = dot(one, other) / (norm(one) * norm(other));
+        if cosine <= ROUND {
+            return 0.0;
+        }
+        let sine = dot(cross(one, other), minus(self.at(q), self.at(p)));
+        let length = norm(minus(self.at(q), self.at(p)));
+        let angle = (sine / (length * norm(one) * norm(other))).atan2(cosine);
+        angle * length
+    }
+
+    fn normal(&self, [a, b, c]: [u32; 3]) -> [f64; 3] {
+        cross(minus(self.at(b), self.at(a)), minus(self.at(c), self.at(a)))
+    }
+
+    /// Puts the other diagonal in the place of the edge of a dip.
+    fn turn(&mut self, dip: Dip) {
+        let [p, q, r, s] = dip.nodes;
+        for number in dip.triangles {
+            for edge in edges_of(self.triangles[number]) {
+                if let Some(at_edge) = self.edges.get_mut(&edge) {
+                    at_edge.retain(|it| *it != number);
+                }
+            }
+        }
+        self.edges.remove(&ascending([p, q]));
+        for (number, nodes) in dip.triangles.into_iter().zip([[r, p, s], [s, q, r]]) {
+            self.triangles[number] = nodes;
+            for edge in edges_of(nodes) {
+                self.edges.entry(edge).or_default().push(number);
+            }
+        }
+    }
+}
+
+/// The corners of a triangle from those of an edge on.
+fn from_edge(nodes: [u32; 3], edge: [u32; 2]) -> Option<[u32; 3]> {
+    let turns = (0..3).map(|k| [nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3]]);
+    turns
+        .into_iter()
+        .find(|turned| ascending([turned[0], turned[1]]) == edge)
+}
+
+fn edges_of([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]].map(ascending)
+}
+
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
