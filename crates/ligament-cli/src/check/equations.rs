@@ -10,21 +10,26 @@ use ligament_analysis::stiffness::Stiffness;
 
 use super::entry::{entry, megabytes};
 use ligament::Setup;
+use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
 use ligament_run::memory;
 use ligament_run::model::Model;
 
 /// Writes the size of the equations and the choice of the solver.
-pub(super) fn write(
+pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model,
+    model: &Model<D>,
     stiffness: &Stiffness,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
-    let bytes = memory::of_equations(&model.system, stiffness);
+    let bytes = memory::of_equations(&*model.system, stiffness);
     writeln!(out, "equations")?;
     entry(out, "unknowns", stiffness.unknowns().len())?;
     let entries = format!("{matrix} in the matrix, {factor} in the factor");
@@ -33,7 +38,7 @@ pub(super) fn write(
     if let Some(there) = memory::allowed(case) {
         entry(out, "memory there is", megabytes(there as f64))?;
     }
-    if let Err(too_large) = memory::foresee(case, &model.system, stiffness) {
+    if let Err(too_large) = memory::foresee(case, &*model.system, stiffness) {
         writeln!(out, "warning: {too_large}")?;
     }
     write_choice(out, &model.setup, stiffness.choice())?;
@@ -44,7 +49,14 @@ pub(super) fn write(
     Ok(())
 }
 
-fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &SolverChoice) -> io::Result<()> {
+fn write_choice<const D: usize>(
+    out: &mut dyn Write,
+    setup: &Setup<D>,
+    choice: &SolverChoice,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     if choice.unsymmetric {
         return entry(
             out,
@@ -79,11 +91,14 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &SolverChoice) -> io
     entry(out, "threads", rayon::current_num_threads())
 }
 
-fn ordering_reason(model: &Model) -> String {
+fn ordering_reason<const D: usize>(model: &Model<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     if model.setup.solver.ordering.is_some() {
         return "as the case says".to_owned();
     }
-    let side = if model.system.cloud.len() < POINTS_FOR_DISSECTION {
+    let side = if model.system.n_points() < POINTS_FOR_DISSECTION {
         "minimum degree, because there are fewer"
     } else {
         "nested dissection, because there are not fewer"
