@@ -110,6 +110,16 @@ fn meshes_with_the_domain_correction() {
     }
 }
 
+/// Products without a matrix, sums of chunks and the coarse space, along both ways.
+#[test]
+fn conjugate_gradients() {
+    for case in ["brazilian-disk/case.toml", "exact-path/case.toml"] {
+        let summary = assert_same_path(case, 30, &[DISK, "solver.method=iterative"]);
+        let solver = &summary["solver"];
+        assert!(solver["iterations"].as_u64().unwrap() > 300 && solver["method"] == "iterative");
+    }
+}
+
 #[test]
 fn the_patch_correction() {
     let settings = [DISK, "correction.surface=patch"];

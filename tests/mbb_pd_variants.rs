@@ -328,6 +328,6 @@ fn variants_are_elastic_and_run() {
         let folder = TempDir::new().unwrap();
         let case = bench::case(STRETCHED, &[setting]);
         let summary = bench::run_program(&case, &folder.path().join("out"));
-        assert_eq!(summary.solver.factorisation, factorisation);
+        assert_eq!(summary.solver.factor.unwrap().factorisation, factorisation);
     }
 }

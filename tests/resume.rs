@@ -200,6 +200,23 @@ fn load_steps_go_on_to_the_same_bits() {
     assert_resumes("square", &Bench::new(SQUARE, &[]), 11);
 }
 
+/// Conjugate gradients, whose preconditioner is of bonds that broke since: along both ways, to parts that come loose, with bonds that
+/// soften and faces that close.
+#[test]
+fn conjugate_gradients_go_on_to_the_same_bits() {
+    const CG: &str = "solver.method=iterative";
+    assert_resumes("cg, exact path", &Bench::new(DISK, &[EVENT, COARSE, CG]), 9);
+    assert_resumes("cg, load steps", &disk(&[CG]), 5);
+    assert_resumes("cg, square", &Bench::new(SQUARE, &[CG]), 11);
+    let soft = "fracture={ steps = 20, criterion = [{ kind = \"strength\", after = \"exponential\" }], stop = { bonds = 60 } }";
+    assert_resumes(
+        "cg, soft",
+        &disk(&[CG, soft, "material.fracture_energy=200.0"]),
+        5,
+    );
+    assert_resumes("cg, closing", &disk(&[CG, "model.closing=true"]), 9);
+}
+
 /// A lattice plate with a notch, which is pulled, or cooled between clamps.
 const PLATE: &str = r#"
 lattice = { cells = [12, 12], spacing = 0.002, set = { bottom = { bottom = 1 }, top = { top = 1 }, left = { left = 1 } } }

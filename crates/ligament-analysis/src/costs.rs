@@ -7,12 +7,14 @@ use crate::serial;
 /// What the equations have cost so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Costs {
-    /// Factorisations.
+    /// Factorisations; where the solver iterates, of its coarse space.
     pub factorisations: usize,
     /// Changes of a factor in place.
     pub changes: usize,
-    /// Solves with a factor, those after a change included.
+    /// Solves, those after a change of a factor included.
     pub solves: usize,
+    /// Iterations of the solves, where the solver iterates.
+    pub iterations: usize,
     /// Time in numbering, pattern and symbolic analysis.
     pub analysis: Duration,
     /// Time in assembly.
@@ -35,6 +37,7 @@ serial!(Costs {
     factorisations,
     changes,
     solves,
+    iterations,
     analysis,
     assembly,
     factorisation,

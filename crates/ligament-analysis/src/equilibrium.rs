@@ -1,11 +1,13 @@
 //! Equilibrium of the intact bonds, kept up while they break.
 
+mod accuracy;
 mod active_set;
 mod controlled;
 mod curvature;
 mod dissipating;
 mod equations;
 mod external;
+mod iterate;
 mod line_search;
 mod newton;
 mod precedents;
@@ -129,17 +131,17 @@ impl Equilibrium {
 
     /// The unknowns.
     pub fn unknowns(&self) -> &Unknowns {
-        self.equations.stiffness.unknowns()
+        &self.equations.unknowns
     }
 
-    /// Numbering, pattern and symbolic factor of the stiffness.
-    pub fn stiffness(&self) -> &Stiffness {
-        &self.equations.stiffness
+    /// Numbering, pattern and symbolic factor of the stiffness; none where the solver has no matrix.
+    pub fn stiffness(&self) -> Option<&Stiffness> {
+        self.equations.stiffness.as_deref()
     }
 
     /// The choice of the solver.
     pub fn choice(&self) -> &SolverChoice {
-        self.equations.stiffness.choice()
+        &self.equations.choice
     }
 
     /// The connected parts of the body.
@@ -161,12 +163,13 @@ impl Equilibrium {
     /// Inertia of the stiffness and of its rotation block for the bonds of a state that was balanced; none where the solver
     /// does not know it.
     pub fn stability(&self, state: &State) -> Result<Option<Stability>, SetupError> {
-        let Some(inertia) = self.equations.solver.inertia() else {
+        let inertia = self.equations.solver.inertia();
+        let Some((inertia, stiffness)) = inertia.zip(self.equations.stiffness.as_ref()) else {
             return Ok(None);
         };
         Ok(Some(Stability {
             negative: inertia.negative,
-            expected: self.equations.stiffness.negative_rotations(state)?,
+            expected: stiffness.negative_rotations(state)?,
         }))
     }
 
@@ -182,12 +185,12 @@ impl Equilibrium {
     pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Breakage {
         let Equations {
             problem,
-            stiffness,
+            unknowns,
             contact,
             costs,
             ..
         } = &mut self.equations;
-        let (system, loads, unknowns) = (&*problem.system, &problem.loads, stiffness.unknowns());
+        let (system, loads) = (&*problem.system, &problem.loads);
         let expansion = loads.thermal_strain(state.load_factor);
         let mut breakage = Breakage::new(system, expansion, state, bonds);
         let start = Instant::now();

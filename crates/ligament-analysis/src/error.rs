@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
 use crate::history::ObserverError;
+use crate::solver::Unfit;
 
 /// What stops an analysis with an error.
 #[derive(Debug, Error)]
@@ -15,6 +16,11 @@ pub enum SetupError {
     /// The symbolic analysis failed.
     #[error(transparent)]
     Analysis(#[from] FactorError),
+    /// Conjugate gradients were asked for where they cannot solve the equations.
+    #[error(
+        "conjugate gradients cannot solve these equations: {0}; let solver.method be \"direct\" or \"auto\""
+    )]
+    NotIterative(Unfit),
     /// The exact path was asked for with bonds that soften.
     #[error(
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"

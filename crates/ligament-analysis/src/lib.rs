@@ -38,6 +38,7 @@ pub mod supports;
 mod tangent;
 pub mod unbalanced;
 pub mod unknowns;
+mod vectors;
 
 pub use balanced::{Attempt, Balanced};
 pub use equilibrium::Equilibrium;

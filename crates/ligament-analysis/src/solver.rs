@@ -1,15 +1,24 @@
 //! Settings of the solver of the equations, and what is chosen where they are left open.
 
+use std::fmt::{self, Display, Formatter};
+
 use ligament_linalg::Elimination;
 pub use ligament_linalg::FactorKind;
 use ligament_model::Bonds;
+use thiserror::Error;
 
 use crate::dissection;
+use crate::error::SetupError;
 use crate::unknowns::Unknowns;
 
 /// How the equations are solved; what is left open is chosen for the problem.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {
+    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can.
+    pub method: Option<Method>,
+    /// Force that conjugate gradients leave out of balance after a breakage, relative to the forces that may act at a point. Load steps
+    /// without a breakage go to the 1e-10 of a factor.
+    pub tolerance: f64,
     /// Factorisation; open: L L^T where every shear stiffness is positive, L D L^T otherwise.
     pub factorisation: Option<FactorKind>,
     /// Order of elimination; open: nested dissection from [`POINTS_FOR_DISSECTION`] on, minimum degree below.
@@ -21,6 +30,66 @@ pub struct SolverSettings {
     /// A factor that was changed in place depends on all its changes; a run that is resumed replays those since the last
     /// time it was made anew.
     pub rebuild_every: usize,
+}
+
+/// A way to solve the equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// With a factor of the matrix.
+    Direct,
+    /// By conjugate gradients, without a matrix.
+    Iterative,
+}
+
+/// Why a method was chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// It was named.
+    Named,
+    /// Something was named that only a factor has: the word for it.
+    NamedForFactor(&'static str),
+    /// Conjugate gradients cannot solve these equations.
+    Unfit(Unfit),
+    /// There are fewer points than this, or not fewer.
+    Points(usize),
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named => f.write_str("as the case says"),
+            Self::NamedForFactor(word) => write!(f, "the case says what solver.{word} is to be"),
+            Self::Unfit(unfit) => unfit.fmt(f),
+            Self::Points(limit) => write!(
+                f,
+                "a factor costs less below {limit} points, and more from there on"
+            ),
+        }
+    }
+}
+
+/// Why conjugate gradients cannot solve the equations of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Unfit {
+    /// Some bond has a negative stiffness.
+    #[error(
+        "some bonds have a negative stiffness, so that the stiffness of the body may be indefinite"
+    )]
+    Indefinite,
+    /// The forces are not those of an energy.
+    #[error(
+        "the forces of the bonds are not those of an energy, so that the stiffness is not symmetric"
+    )]
+    WithoutEnergy,
+    /// The forces are not linear in the displacements.
+    #[error("the forces of the bonds are not linear in the displacements")]
+    NotLinear,
+    /// Something was named that only a factor has.
+    #[error("solver.{0} is about a factor, of which there is none")]
+    NamedForFactor(&'static str),
+    /// The analysis needs a factor.
+    #[error("natural modes are counted by the signs of the pivots of a factor")]
+    Modes,
 }
 
 /// An order of elimination.
@@ -42,8 +111,28 @@ pub enum Update {
 }
 
 /// What was chosen to solve the equations of a problem.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SolverChoice {
+    /// A factor of the matrix.
+    Direct(DirectChoice),
+    /// Conjugate gradients, without a matrix.
+    Iterative(IterativeChoice),
+}
+
+/// What was chosen for conjugate gradients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IterativeChoice {
+    /// Why it is these.
+    pub reason: Reason,
+    /// Force left out of balance after a breakage, see [`SolverSettings::tolerance`].
+    pub tolerance: f64,
+}
+
+/// What was chosen for a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SolverChoice {
+pub struct DirectChoice {
+    /// Why it is a factor.
+    pub reason: Reason,
     /// Factorisation.
     pub factorisation: FactorKind,
     /// Whether the stiffness has no symmetry, and is factorised as L U instead.
@@ -61,6 +150,8 @@ pub struct SolverChoice {
 impl Default for SolverSettings {
     fn default() -> Self {
         Self {
+            method: None,
+            tolerance: 1e-8,
             factorisation: None,
             ordering: None,
             update: None,
@@ -72,6 +163,74 @@ impl Default for SolverSettings {
 /// From so many points on nested dissection leaves less fill than minimum degree (measured on disks: 20 % more
 /// multiplications at 3,000 points, 3 % less at 10,000, 17 % less at 40,000).
 pub const POINTS_FOR_DISSECTION: usize = 10_000;
+
+/// Bonds whose measures are so many tolerances of conjugate gradients apart, relatively, count as tied at least: closer ones may come in
+/// any order.
+pub const TIED: f64 = 100.0;
+
+/// Points from which on conjugate gradients are taken, in a body with so many axes.
+pub fn points_for_iteration(n_axes: usize) -> usize {
+    if n_axes > 2 { 5_000 } else { 200_000 }
+}
+
+impl SolverSettings {
+    /// The method for the equations of some bonds, and why it is this one.
+    ///
+    /// # Errors
+    ///
+    /// If conjugate gradients were named and cannot solve them.
+    pub fn chosen_method(&self, system: &dyn Bonds) -> Result<(Method, Reason), SetupError> {
+        match self.method {
+            Some(Method::Direct) => Ok((Method::Direct, Reason::Named)),
+            Some(Method::Iterative) => match self.unfit(system) {
+                Some(unfit) => Err(SetupError::NotIterative(unfit)),
+                None => Ok((Method::Iterative, Reason::Named)),
+            },
+            None => Ok(self.suitable_method(system)),
+        }
+    }
+
+    fn suitable_method(&self, system: &dyn Bonds) -> (Method, Reason) {
+        let displacements = system.components().iter().filter(|it| !it.is_rotation());
+        let limit = points_for_iteration(displacements.count());
+        let is_large = system.n_points() >= limit;
+        match self.unfit(system).filter(|_| is_large) {
+            Some(Unfit::NamedForFactor(word)) => (Method::Direct, Reason::NamedForFactor(word)),
+            Some(unfit) => (Method::Direct, Reason::Unfit(unfit)),
+            None if is_large => (Method::Iterative, Reason::Points(limit)),
+            None => (Method::Direct, Reason::Points(limit)),
+        }
+    }
+
+    fn unfit(&self, system: &dyn Bonds) -> Option<Unfit> {
+        let named = [
+            (self.factorisation.is_some(), "factorisation"),
+            (self.ordering.is_some(), "ordering"),
+            (self.update.is_some(), "update"),
+        ];
+        if !system.has_energy() {
+            return Some(Unfit::WithoutEnergy);
+        }
+        if !system.is_linear() {
+            return Some(Unfit::NotLinear);
+        }
+        if system.some_negative() {
+            return Some(Unfit::Indefinite);
+        }
+        let named = named.into_iter().find(|(is_named, _)| *is_named);
+        named.map(|(_, word)| Unfit::NamedForFactor(word))
+    }
+}
+
+impl SolverChoice {
+    /// The tolerance of ties for one that was asked for, see [`TIED`].
+    pub fn tie_tolerance(&self, asked: f64) -> f64 {
+        match self {
+            Self::Direct(_) => asked,
+            Self::Iterative(choice) => asked.max(TIED * choice.tolerance),
+        }
+    }
+}
 
 impl Ordering {
     /// The ordering that is taken for so many points unless one is named.

@@ -8,32 +8,33 @@ use ligament_model::{Bonds, BondsLeft};
 
 use crate::assembly;
 use crate::error::SetupError;
-use crate::solver::{Ordering, SolverChoice, SolverSettings, Update};
+use crate::solver::{DirectChoice, Ordering, Reason, SolverSettings, Update};
 use crate::state::State;
 use crate::unknowns::Unknowns;
 
-/// Numbering, pattern and symbolic factor of the stiffness of a bond system, and the choice of a solver for it.
+/// Numbering, pattern and symbolic factor of the stiffness of a bond system, and what was chosen for its factor.
 ///
 /// Breakages change values, never the pattern: all of this holds for any state of the bonds.
 pub struct Stiffness {
     system: Arc<dyn Bonds>,
-    unknowns: Unknowns,
+    unknowns: Arc<Unknowns>,
     pattern: Arc<Pattern>,
     symbolic: Arc<Symbolic>,
-    choice: SolverChoice,
+    choice: DirectChoice,
     analysis: Duration,
 }
 
 impl Stiffness {
-    /// Analyses the pattern for some unknowns; nothing is factorised yet.
+    /// Analyses the pattern for some unknowns, with the reason for a factor; nothing is factorised yet.
     ///
     /// # Errors
     ///
     /// If the factor is too large.
     pub(crate) fn new(
         system: &Arc<dyn Bonds>,
-        unknowns: Unknowns,
+        unknowns: Arc<Unknowns>,
         settings: SolverSettings,
+        reason: Reason,
     ) -> Result<Self, SetupError> {
         let start = Instant::now();
         let pattern = Arc::new(assembly::pattern(&**system, &unknowns)?);
@@ -50,7 +51,8 @@ impl Stiffness {
         };
         Ok(Self {
             pattern,
-            choice: SolverChoice {
+            choice: DirectChoice {
+                reason,
                 factorisation: settings.factorisation.unwrap_or(suitable),
                 unsymmetric: !system.has_energy(),
                 ordering,
@@ -80,8 +82,8 @@ impl Stiffness {
         &self.symbolic
     }
 
-    /// The choice of the solver.
-    pub fn choice(&self) -> &SolverChoice {
+    /// What was chosen for the factor.
+    pub fn choice(&self) -> &DirectChoice {
         &self.choice
     }
 

@@ -1,7 +1,9 @@
 //! Solvers of the equations of an equilibrium, kept up while bonds break.
 
 pub(crate) mod direct;
+pub(crate) mod iterative;
 mod making;
+pub(crate) mod solving;
 mod terms;
 pub(crate) mod unsymmetric;
 
@@ -13,6 +15,23 @@ use crate::costs::Costs;
 use crate::state::State;
 use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
+
+/// Share of its diagonal that a hold adds where faces close: enough to make a loose part definite, and so little that faces which
+/// close carry the part in one more iteration. What it adds stands in the tangent alone, never in the forces.
+const SOFT_HOLD: f64 = 1e-6;
+
+/// The force that a solver which iterates may leave out of balance; an exact one leaves rounding.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Left {
+    /// Share of the norm of the force.
+    Share(f64),
+    /// Sizes at the unknowns, shape (n_unknowns), N and N m.
+    AtMost(Vec<f64>),
+}
+
+/// A stiffness that is not definite, where a solver needs one that is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Indefinite;
 
 /// A solver of K du = f with the tangent stiffness K of a state.
 ///
@@ -44,7 +63,20 @@ pub(crate) trait TangentSolver {
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError>;
 
     /// The correction for forces that nothing balances, zero where the state is held. The solver must be ready.
-    fn solve(&mut self, state: &State, force: Vec<f64>, costs: &mut Costs) -> Vec<f64>;
+    ///
+    /// # Errors
+    ///
+    /// If the solver needs a definite stiffness, and met a motion that costs no energy.
+    fn solve(
+        &mut self,
+        state: &State,
+        force: Vec<f64>,
+        left: Left,
+        costs: &mut Costs,
+    ) -> Result<Vec<f64>, Indefinite>;
+
+    /// Residual, relative to the forces that may act, up to which a solver that iterates goes after a breakage; none of an exact one.
+    fn tolerance(&self) -> Option<f64>;
 
     /// Whether the solver's form of K went through changes, and with them through rounding.
     fn is_changed(&self) -> bool;

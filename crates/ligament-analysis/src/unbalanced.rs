@@ -67,6 +67,8 @@ pub enum Unbalanced {
         /// Place of the pivot.
         place: Place,
     },
+    /// Conjugate gradients met a motion that costs no energy.
+    NegativeCurvature,
     /// The energy of the motions is negative: the stored one, unless the temperature changes.
     NegativeEnergy {
         /// The energy of the motions, J.
@@ -143,6 +145,9 @@ impl Unbalanced {
                  (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\"",
                 place.words(name)
             ),
+            Self::NegativeCurvature => "the stiffness is not positive definite, as conjugate gradients need: some motion costs no energy; let \
+                                        solver.method be \"direct\", which tells where"
+                .to_owned(),
             Self::NegativeEnergy { energy } => {
                 format!("the stiffness lost stability: negative strain energy {energy:.3e} J")
             }

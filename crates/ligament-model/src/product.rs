@@ -55,9 +55,8 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
             for bond in of_part {
                 if let Some(element) = self.left(bonds, bond) {
                     element.forces(&element.deformation(motions), |point, force| {
-                        for (sum, value) in sums[point as usize].iter_mut().zip(force) {
-                            *sum += value;
-                        }
+                        let sum = &mut sums[point as usize];
+                        *sum = std::array::from_fn(|place| sum[place] + force[place]);
                     });
                 }
             }

@@ -34,6 +34,10 @@ const MOST_OVER_BONDS: usize = 40;
 /// horizon factor 3, took 7.4, 8.2 and 9.0 times as many.
 const UNSYMMETRIC: usize = 10;
 
+/// Bytes of a degree of freedom where equations are solved without a matrix: some twenty vectors, the blocks of the points, and the
+/// coarse space with its factor.
+const WITHOUT_MATRIX: usize = 500;
+
 /// What the program itself takes, bytes.
 const PROGRAM: u64 = 10_000_000;
 
@@ -64,8 +68,12 @@ fn gigabytes(bytes: u64) -> f64 {
     bytes as f64 / 1e9
 }
 
-/// Estimated bytes of the equations of a system and of what stands around them.
-pub fn of_equations(system: &dyn Bonds, stiffness: &Stiffness) -> usize {
+/// Estimated bytes of the equations of a system and of what stands around them; without a stiffness they are solved without a matrix.
+pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize {
+    let Some(stiffness) = stiffness else {
+        let unknowns = system.layout().n_degrees_of_freedom();
+        return WITHOUT_MATRIX * unknowns + BOND * system.ends().len();
+    };
     let symbolic = stiffness.symbolic();
     let (matrix, factor) = (symbolic.pattern().n_entries(), symbolic.n_factor_values());
     let factor = times_of_factor(stiffness.choice().unsymmetric) * factor;
@@ -164,7 +172,7 @@ pub fn foresee_equations(
 pub fn foresee(
     case: &CaseFile,
     system: &dyn Bonds,
-    stiffness: &Stiffness,
+    stiffness: Option<&Stiffness>,
 ) -> Result<(), TooLarge> {
     compare(
         case,

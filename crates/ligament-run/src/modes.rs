@@ -31,7 +31,7 @@ where
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
-    memory::foresee(case, &*model.system, analysis.stiffness())?;
+    memory::foresee(case, &*model.system, Some(analysis.stiffness()))?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 

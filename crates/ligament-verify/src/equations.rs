@@ -1,5 +1,6 @@
 //! How large the equations of a model are: what its work goes with, on every machine.
 
+use anyhow::Context;
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament::{Loading, Model};
 use ligament_analysis::Equilibrium;
@@ -28,6 +29,7 @@ impl Equations {
         let problem = loading.problem(&model.system, &model.criteria);
         let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
         let stiffness = equilibrium.stiffness();
+        let stiffness = stiffness.context("the equations are solved without a matrix")?;
         let symbolic = stiffness.symbolic();
         Ok(Self {
             unknowns: stiffness.unknowns().len() as f64,

@@ -155,7 +155,9 @@ impl Before {
 
 impl<'a> Following<'a> {
     fn new(path: Path<'a>, settings: &EventSettings, growth: Vec<f64>) -> Self {
-        let (loads, tie_tolerance) = (&*path.problem.loads, settings.tie_tolerance);
+        let loads = &*path.problem.loads;
+        let choice = path.equilibrium.choice();
+        let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
         let way: Box<dyn Way> = match loads.course() {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
             None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),

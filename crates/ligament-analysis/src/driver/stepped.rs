@@ -257,8 +257,13 @@ impl Stepping<'_> {
 
     fn next_to_break(&mut self, balanced: &Balanced) -> Vec<u32> {
         let start = Instant::now();
+        let BreakingRule { tie_tolerance, .. } = self.settings.rule;
+        let rule = BreakingRule {
+            tie_tolerance: self.path.equilibrium.choice().tie_tolerance(tie_tolerance),
+            ..self.settings.rule
+        };
         let next = next_to_break(
-            &self.settings.rule,
+            &rule,
             &balanced.deformations,
             &self.path.criteria(balanced),
             &self.path.state.intact,

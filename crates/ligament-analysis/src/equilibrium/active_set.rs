@@ -5,8 +5,8 @@
 //! stiffness of the pairs that are closed now; where that goes too far, because other pairs close on the way, the step ends where
 //! the energy is lowest along it. So the energy falls from iteration to iteration and no set of closed pairs comes back.
 
-use super::equations::{Equations, Iterate};
-use super::residual::RESIDUAL_TOLERANCE;
+use super::equations::Equations;
+use super::iterate::Iterate;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::contact;
@@ -38,6 +38,8 @@ pub(super) fn balance(
 ) -> Result<Attempt, ObserverError> {
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
+    let sought = equations.sought(breakage);
+    let is_exact = equations.solver.tolerance().is_none();
     let mut iterations = usize::from(equations.follow(state, breakage));
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
@@ -48,12 +50,8 @@ pub(super) fn balance(
         }
         let is_over = iterations == ITERATION_LIMIT;
         // One more iteration takes off what the soft holds of loose parts leave.
-        let falls = residual.relative < FALLS * before;
-        let tolerance = if falls && !is_over {
-            REFINED
-        } else {
-            RESIDUAL_TOLERANCE
-        };
+        let falls = is_exact && residual.relative < FALLS * before;
+        let tolerance = if falls && !is_over { REFINED } else { sought };
         before = residual.relative;
         let is_small = equations.is_small(&residual, tolerance);
         // What a hold carries, faces that close may carry in the end.
@@ -64,7 +62,7 @@ pub(super) fn balance(
         if is_over || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
-        let correction = match equations.correction(state, &iterate, &mut mechanisms) {
+        let correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
             Ok(correction) => correction,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };

@@ -1,8 +1,8 @@
 //! Equilibrium of bonds that are whole or broken at a value of a motion, by Newton-Raphson with the load factor as an unknown
 //! ([`Target`]).
 
-use super::equations::{Equations, Iterate};
-use super::residual::RESIDUAL_TOLERANCE;
+use super::equations::Equations;
+use super::iterate::Iterate;
 use super::target::Target;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
@@ -26,6 +26,11 @@ pub(super) fn balance(
 ) -> Result<Attempt, ObserverError> {
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
+    let sought = equations.sought(breakage);
+    let largest = equations
+        .solver
+        .tolerance()
+        .map_or(LARGEST_RESIDUAL, |_| sought);
     let mut previous_energy = f64::NAN;
     let mut iterations = usize::from(equations.follow(state, breakage));
     loop {
@@ -34,8 +39,8 @@ pub(super) fn balance(
         if iterations > 0 {
             observer.iteration(iterations, residual.relative, energy)?;
         }
-        let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE)
-            || equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
+        let is_small = equations.is_small(&residual, sought)
+            || equations.energy_settled(previous_energy, &iterate, largest);
         if is_small && target.is_met(&state.displacement) {
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
@@ -46,7 +51,8 @@ pub(super) fn balance(
         if equations.solver.is_changed() && iterations >= 2 {
             equations.solver.forget();
         }
-        if let Err(unbalanced) = correct(equations, state, &iterate, target, &mut mechanisms) {
+        let corrected = correct(equations, state, &iterate, target, sought, &mut mechanisms);
+        if let Err(unbalanced) = corrected {
             return Ok(Attempt::Unbalanced(unbalanced));
         }
         previous_energy = energy;
@@ -60,9 +66,10 @@ fn correct(
     state: &mut State,
     iterate: &Iterate,
     target: &Target,
+    sought: f64,
     mechanisms: &mut Vec<u32>,
 ) -> Result<(), Unbalanced> {
-    let mut correction = equations.correction(state, iterate, mechanisms)?;
+    let mut correction = equations.correction(state, iterate, sought, mechanisms)?;
     let growth = equations.growth(state, &*target.rate)?;
     let moved = equations.at_degrees_of_freedom(&correction);
     let change = target.load_change(&state.displacement, &moved, &growth)?;

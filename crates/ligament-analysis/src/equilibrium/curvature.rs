@@ -2,6 +2,8 @@
 //! algorithm 7.4).
 
 use crate::serial;
+use crate::unbalanced::Unbalanced;
+use crate::vectors::dot;
 
 /// Steps that are kept.
 const DEPTH: usize = 20;
@@ -31,8 +33,8 @@ impl Curvature {
     pub(super) fn correction(
         &self,
         force: &[f64],
-        solve: impl FnOnce(Vec<f64>) -> Vec<f64>,
-    ) -> Vec<f64> {
+        solve: impl FnOnce(Vec<f64>) -> Result<Vec<f64>, Unbalanced>,
+    ) -> Result<Vec<f64>, Unbalanced> {
         let mut force = force.to_vec();
         let mut shares = Vec::with_capacity(self.pairs.len());
         for pair in &self.pairs {
@@ -40,12 +42,12 @@ impl Curvature {
             add(&mut force, -share, &pair.change);
             shares.push(share);
         }
-        let mut correction = solve(force);
+        let mut correction = solve(force)?;
         for (pair, share) in self.pairs.iter().zip(shares).rev() {
             let given = dot(&pair.change, &correction) / pair.work;
             add(&mut correction, share - given, &pair.step);
         }
-        correction
+        Ok(correction)
     }
 
     /// Takes in a step and what it changed of the force out of balance (n_unknowns). A step along which the body gave way is left
@@ -68,20 +70,6 @@ impl Curvature {
     pub(super) fn forget(&mut self) {
         self.pairs.clear();
     }
-}
-
-/// The scalar product of two arrays of the same shape, by sums of every eighth product: one after the other, additions would wait for each
-/// other.
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
-    let ((ones, rest), (others, of_rest)) = (one.as_chunks::<8>(), other.as_chunks::<8>());
-    let mut sums = [0.0; 8];
-    for (one, other) in ones.iter().zip(others) {
-        for ((sum, a), b) in sums.iter_mut().zip(one).zip(other) {
-            *sum += a * b;
-        }
-    }
-    let rest = rest.iter().zip(of_rest).map(|(a, b)| a * b);
-    sums.into_iter().chain(rest).sum()
 }
 
 fn add(to: &mut [f64], factor: f64, values: &[f64]) {
@@ -109,8 +97,8 @@ mod tests {
         let (mut u, mut force) = (vec![0.0; 3], vec![1.0, -2.0, 0.7]);
         for step in 0..3 {
             assert!(dot(&force, &force) > 1e-4, "too early: {step}");
-            let correction =
-                curvature.correction(&force, |it| vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
+            let near = |it: Vec<f64>| Ok(vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
+            let correction = curvature.correction(&force, near).expect("a solution");
             let change = times_stiffness(&correction);
             let part = dot(&force, &correction) / dot(&correction, &change);
             let scaled = |values: Vec<f64>| values.into_iter().map(|it| part * it).collect();
@@ -132,10 +120,10 @@ mod tests {
     fn a_step_along_which_the_body_gave_way_is_left_out() {
         let mut curvature = Curvature::default();
         curvature.learn(vec![1.0, 0.0], vec![-1.0, 0.5]);
-        assert_eq!(curvature.correction(&[3.0, 4.0], |it| it), [3.0, 4.0]);
+        assert_eq!(curvature.correction(&[3.0, 4.0], Ok), Ok(vec![3.0, 4.0]));
         curvature.learn(vec![1.0, 0.0], vec![2.0, 0.0]);
-        assert_eq!(curvature.correction(&[3.0, 4.0], |it| it), [1.5, 4.0]);
+        assert_eq!(curvature.correction(&[3.0, 4.0], Ok), Ok(vec![1.5, 4.0]));
         curvature.forget();
-        assert_eq!(curvature.correction(&[3.0, 4.0], |it| it), [3.0, 4.0]);
+        assert_eq!(curvature.correction(&[3.0, 4.0], Ok), Ok(vec![3.0, 4.0]));
     }
 }

@@ -4,11 +4,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::FactorKind;
-use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
 
+use super::iterate::Iterate;
 use super::precedents::Precedents;
-use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
+use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -19,11 +19,11 @@ use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
 use crate::serial::Serial;
+use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
-use crate::tangent::TangentSolver;
-use crate::tangent::direct::DirectSolver;
-use crate::tangent::unsymmetric::UnsymmetricSolver;
+use crate::tangent::solving::Solving;
+use crate::tangent::{Indefinite, Left, TangentSolver};
 use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 
@@ -31,47 +31,22 @@ use crate::unknowns::{Layout, Unknowns};
 /// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
 
-/// A state on its way to equilibrium, as the bonds see it.
-pub(super) struct Iterate {
-    deformations: Deformations,
-    internal: InternalForces,
-    pub(super) stored_energy: f64,
-    energy_floor: f64,
-    pub(super) residual: Residual,
-    pub(super) extents: Extents,
-    negative_energy: Option<f64>,
-    /// Gaps of the pairs across cracks, shape (n_pairs), m.
-    pub(super) gaps: Vec<f64>,
-    pub(super) closed: Vec<ClosedPair>,
-}
-
-impl Iterate {
-    /// The iterate as an equilibrium that took some iterations and met some mechanisms.
-    pub(super) fn balanced(self, iterations: usize, mechanisms: Vec<u32>) -> Balanced {
-        Balanced {
-            deformations: self.deformations,
-            internal: self.internal,
-            stored_energy: self.stored_energy,
-            energy_floor: self.energy_floor,
-            residual: self.residual.relative,
-            iterations,
-            negative_energy: self.negative_energy,
-            mechanisms,
-            closed: self.closed,
-        }
-    }
-}
+/// Share of the tolerance of a solver that iterates that it may leave of the force along whose solution a run goes on.
+const LINE: f64 = 0.1;
 
 /// The equations of a problem and their solver.
 pub(super) struct Equations {
     pub(super) problem: Problem,
-    pub(super) stiffness: Arc<Stiffness>,
+    pub(super) unknowns: Arc<Unknowns>,
+    /// None where the solver has no matrix.
+    pub(super) stiffness: Option<Arc<Stiffness>>,
+    pub(super) choice: SolverChoice,
     pub(super) solver: Box<dyn TangentSolver>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
-    local_stiffness: LocalStiffness,
+    pub(super) local_stiffness: LocalStiffness,
     /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
-    loaded: Vec<u32>,
+    pub(super) loaded: Vec<u32>,
     /// Largest forces and moments that met at a point so far: a body that is unloaded keeps their rounding.
     pub(super) largest_extents: Extents,
     /// Largest stiffness of a point against displacements, N/m.
@@ -88,13 +63,13 @@ impl Equations {
     pub(super) fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
-        let unknowns = unknowns.restrained_by(loads.restraints());
-        let stiffness = Arc::new(Stiffness::new(system, unknowns, problem.solver)?);
-        let solver: Box<dyn TangentSolver> = if stiffness.choice().unsymmetric {
-            Box::new(UnsymmetricSolver::new(stiffness.clone()))
-        } else {
-            Box::new(DirectSolver::new(stiffness.clone()))
-        };
+        let unknowns = Arc::new(unknowns.restrained_by(loads.restraints()));
+        let Solving {
+            stiffness,
+            choice,
+            solver,
+        } = Solving::new(system, &unknowns, problem.solver)?;
+        let analysis = stiffness.as_ref().map(|it| it.analysis_time());
         let of_bonds = LocalStiffness::new(&**system);
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
@@ -110,11 +85,13 @@ impl Equations {
             contact: Contact::default(),
             precedents: Precedents::default(),
             costs: Costs {
-                analysis: stiffness.analysis_time(),
+                analysis: analysis.unwrap_or_default(),
                 ..Costs::default()
             },
             problem: problem.clone(),
+            unknowns,
             stiffness,
+            choice,
             solver,
         })
     }
@@ -132,7 +109,9 @@ impl Equations {
             costs,
             solver,
             problem,
+            unknowns: _,
             stiffness: _,
+            choice: _,
             energy_tolerance: _,
             local_stiffness: _,
             loaded: _,
@@ -158,7 +137,7 @@ impl Equations {
         let costs = Serial::read(from)?;
         self.solver.restore(from)?;
         if self.problem.criteria.soften() {
-            self.precedents = Precedents::restored(from, self.stiffness.unknowns())?;
+            self.precedents = Precedents::restored(from, &self.unknowns)?;
         }
         self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
@@ -168,11 +147,11 @@ impl Equations {
 
     /// Degree of freedom of each unknown, ascending.
     pub(super) fn degrees_of_freedom(&self) -> &[u32] {
-        self.stiffness.unknowns().degrees_of_freedom()
+        self.unknowns.degrees_of_freedom()
     }
 
     fn layout(&self) -> Layout {
-        self.stiffness.unknowns().layout()
+        self.unknowns.layout()
     }
 
     /// Gives a state the prescribed motions of its load factor.
@@ -257,17 +236,19 @@ impl Equations {
         residual.relative <= if is_guess { 0.0 } else { tolerance }
     }
 
-    /// The correction K du = F - K u of an iterate (NHPD eqs 19 and 20), shape (n_unknowns); adds mechanisms that the
-    /// factorisation met.
+    /// The correction K du = F - K u of an iterate (NHPD eqs 19 and 20) on the way to a relative residual that is sought, shape
+    /// (n_unknowns); adds mechanisms that the solver met.
     pub(super) fn correction(
         &mut self,
         state: &mut State,
         iterate: &Iterate,
+        sought: f64,
         mechanisms: &mut Vec<u32>,
     ) -> Result<Vec<f64>, Unbalanced> {
         mechanisms.extend(self.make_ready(state, iterate)?);
         let force = self.out_of_balance(state, iterate);
-        Ok(self.solve(state, force))
+        let left = self.left(state, iterate, sought);
+        self.solve(state, force, left)
     }
 
     /// F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns).
@@ -277,8 +258,14 @@ impl Equations {
 
     /// The displacements K^-1 f for forces f (n_unknowns), shape (n_unknowns), with the stiffness K that the solver was
     /// [made ready](Self::make_ready) with.
-    pub(super) fn solve(&mut self, state: &State, force: Vec<f64>) -> Vec<f64> {
-        self.solver.solve(state, force, &mut self.costs)
+    pub(super) fn solve(
+        &mut self,
+        state: &State,
+        force: Vec<f64>,
+        left: Left,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        let solution = self.solver.solve(state, force, left, &mut self.costs);
+        solution.map_err(|Indefinite| Unbalanced::NegativeCurvature)
     }
 
     /// Deformations, forces, residual and energy of a state.
@@ -358,7 +345,8 @@ impl Equations {
     ) -> Result<Vec<f64>, Unbalanced> {
         self.prepare_solver(state)?;
         let (mut growth, force) = self.rate(state, loads);
-        let solution = self.solver.solve(state, force, &mut self.costs);
+        let share = LINE * self.solver.tolerance().unwrap_or_default();
+        let solution = self.solve(state, force, Left::Share(share))?;
         for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
             growth[dof as usize] = value;
         }
@@ -396,44 +384,24 @@ impl Equations {
     }
 
     /// External less internal forces at the unknowns, shape (n_unknowns).
-    fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
+    pub(super) fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
         let (dofs, displacement) = (self.degrees_of_freedom(), &state.displacement);
         let loads = &self.problem.loads;
         loads.external_less(state.load_factor, displacement, internal, dofs)
     }
 
-    /// F - K u relative to what may act at each degree of freedom, and what of it rests on holds.
-    fn residual(
-        &self,
-        state: &State,
-        internal: &InternalForces,
-        extents: Extents,
-        displacement: f64,
-    ) -> Residual {
-        let (loads, unknowns) = (&self.problem.loads, self.stiffness.unknowns());
-        let given = loads.forces(state.load_factor, &self.loaded);
-        let given = || self.loaded.iter().copied().zip(given.iter().copied());
-        let largest = self.largest_extents;
-        let scales = (self.local_stiffness).scales(extents, largest, given(), displacement);
-        let out_of_balance = self.external_less(state, internal);
-        let of_unknowns = (self.degrees_of_freedom().iter().copied()).zip(out_of_balance);
-        // No bond resists these: what loads them is carried by nothing.
-        let is_known = |dof: usize| unknowns.number(dof).is_none();
-        let of_others = given().filter(|(dof, _)| is_known(*dof as usize));
-        scales.residual(of_unknowns.chain(of_others), |dof| {
-            state.held[dof] || is_known(dof)
-        })
-    }
-
-    fn largest_displacement(&self, state: &State) -> f64 {
+    pub(super) fn largest_displacement(&self, state: &State) -> f64 {
         let displacements = self.layout().displacements(&state.displacement);
         displacements.fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
-    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom).
+    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
+    /// iterates, what its tolerance makes of it.
     pub(super) fn rounding(&self, state: &State) -> Vec<f64> {
         let displacement = self.largest_displacement(state);
-        self.local_stiffness.rounding(displacement)
+        let tolerance = self.solver.tolerance();
+        let times = tolerance.map_or(1.0, |it| (it / RESIDUAL_TOLERANCE).max(1.0));
+        self.local_stiffness.rounding(times * displacement)
     }
 
     /// The larger of the largest force at a point in a state, N, and what counts of the one before.
@@ -481,7 +449,8 @@ impl Equations {
     fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
         let dof = self.degrees_of_freedom()[unknown] as usize;
         let place = self.place(dof);
-        let is_llt = self.stiffness.choice().factorisation == FactorKind::Llt;
+        let stiffness = self.stiffness.as_ref();
+        let is_llt = stiffness.is_some_and(|it| it.choice().factorisation == FactorKind::Llt);
         if is_llt && self.problem.system.some_negative() {
             Unbalanced::NotPositiveDefinite { place }
         } else {

@@ -1,7 +1,6 @@
 //! Equilibrium of bonds that are whole or broken: Newton-Raphson (NHPD eqs 19 to 21).
 
 use super::equations::Equations;
-use super::residual::RESIDUAL_TOLERANCE;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
@@ -20,7 +19,8 @@ const ITERATION_LIMIT: usize = 25;
 /// Brings a state into equilibrium at its load factor.
 ///
 /// The bonds are linear: one solution gets there, and the residual tells. A breakage that the solver can follow brings its own.
-/// NHPD's energy rule (eq. 21) ends the iteration as well, with a residual below 1e-6.
+/// NHPD's energy rule (eq. 21) ends the iteration as well, with a residual below 1e-6; not where the solver iterates itself, and the
+/// residual tells how far it went.
 pub(super) fn balance(
     equations: &mut Equations,
     state: &mut State,
@@ -29,6 +29,8 @@ pub(super) fn balance(
 ) -> Result<Attempt, ObserverError> {
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
+    let sought = equations.sought(breakage);
+    let is_exact = equations.solver.tolerance().is_none();
     let mut previous_energy = f64::NAN;
     let mut iterations = usize::from(equations.follow(state, breakage));
     loop {
@@ -41,10 +43,11 @@ pub(super) fn balance(
         let tolerance = if is_changed && iterations == 1 {
             REFINEMENT_TOLERANCE
         } else {
-            RESIDUAL_TOLERANCE
+            sought
         };
+        let may_settle = is_exact && !is_changed;
         let energy_settled =
-            !is_changed && equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
+            may_settle && equations.energy_settled(previous_energy, &iterate, LARGEST_RESIDUAL);
         if equations.is_small(&residual, tolerance) || energy_settled {
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
@@ -56,7 +59,7 @@ pub(super) fn balance(
         if is_changed && iterations >= 2 {
             equations.solver.forget();
         }
-        match equations.correction(state, &iterate, &mut mechanisms) {
+        match equations.correction(state, &iterate, sought, &mut mechanisms) {
             Ok(correction) => equations.add_correction(state, 1.0, &correction),
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         }

@@ -1,7 +1,8 @@
 //! Equilibrium of bonds that soften: a quasi-Newton iteration from their secant stiffness.
 
-use super::curvature::{Curvature, dot};
-use super::equations::{Equations, Iterate};
+use super::curvature::Curvature;
+use super::equations::Equations;
+use super::iterate::Iterate;
 use super::line_search;
 use super::precedents::Precedents;
 use super::residual::RESIDUAL_TOLERANCE;
@@ -10,7 +11,9 @@ use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
+use crate::tangent::Left;
 use crate::unbalanced::Unbalanced;
+use crate::vectors::dot;
 
 /// A residual above this is no equilibrium whatever the energies say: what is left at thousands of points adds up in the balance of
 /// the external forces, and the falling stiffness of softening bonds magnifies it.
@@ -23,6 +26,9 @@ const LARGEST_FOLLOWING: f64 = 2e-9;
 /// Residual up to which a state that goes on as before begins the iteration at the value of a motion, where no residual without it tells
 /// what it is worth.
 const LARGEST_AHEAD: f64 = 0.2;
+
+/// Share of a force that a solver which iterates may leave: what the steps have shown of the stiffness counts on one stiffness.
+const SOLVED: f64 = 1e-6;
 
 /// Iterations after which a solve is given up.
 const ITERATION_LIMIT: usize = 1000;
@@ -188,12 +194,14 @@ fn correction(
     curvature: &Curvature,
     target: Option<&Target>,
 ) -> Result<Correction, Unbalanced> {
-    let mut step = curvature.correction(force, |it| equations.solve(state, it));
+    let mut solve = |it| equations.solve(state, it, Left::Share(SOLVED));
+    let mut step = curvature.correction(force, &mut solve)?;
     let mut force = force.to_vec();
     let mut load_change = 0.0;
     if let Some(target) = target {
         let (mut growth, rate) = equations.rate(state, &*target.rate);
-        let grown = curvature.correction(&rate, |it| equations.solve(state, it));
+        let solve = |it| equations.solve(state, it, Left::Share(SOLVED));
+        let grown = curvature.correction(&rate, solve)?;
         for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
             growth[dof as usize] = *value;
         }

@@ -1,5 +1,6 @@
 //! The search for the lowest modes.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{
@@ -12,6 +13,8 @@ use super::participation::Moving;
 use super::{ModalError, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, rigid, shape};
 use crate::balanced::Stability;
 use crate::costs::Costs;
+use crate::error::SetupError;
+use crate::solver::{Method, Reason, Unfit};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
@@ -83,7 +86,13 @@ impl ModalAnalysis {
         if massive.is_empty() {
             return Err(ModalError::NothingMoves);
         }
-        let stiffness = Stiffness::new(&problem.system, unknowns, problem.solver)?;
+        let reason = match problem.solver.method {
+            Some(Method::Iterative) => return Err(SetupError::NotIterative(Unfit::Modes).into()),
+            Some(Method::Direct) => Reason::Named,
+            None => Reason::Unfit(Unfit::Modes),
+        };
+        let unknowns = Arc::new(unknowns);
+        let stiffness = Stiffness::new(&problem.system, unknowns, problem.solver, reason)?;
         Ok(Self {
             problem: problem.clone(),
             settings,

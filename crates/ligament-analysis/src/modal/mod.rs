@@ -23,7 +23,7 @@ use thiserror::Error;
 use crate::balanced::Stability;
 use crate::costs::Costs;
 use crate::error::SetupError;
-use crate::solver::{SolverChoice, SolverSettings};
+use crate::solver::{DirectChoice, SolverSettings};
 use crate::supports::Supports;
 
 pub use analysis::ModalAnalysis;
@@ -74,7 +74,7 @@ pub struct ModalOutcome {
     /// What the equations cost.
     pub costs: Costs,
     /// Solver that was chosen for the equations.
-    pub solver: SolverChoice,
+    pub solver: DirectChoice,
 }
 
 /// Something that a user should know of the modes.

@@ -9,22 +9,18 @@ use ligament_linalg::{
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
 
-use super::TangentSolver;
 use super::making::Making;
 use super::terms::{Coupled, due_bonds};
+use super::{Indefinite, Left, SOFT_HOLD, TangentSolver};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;
 use crate::costs::Costs;
 use crate::serial::Serial;
-use crate::solver::{SolverChoice, Update};
+use crate::solver::{DirectChoice, Update};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use ligament_model::thermal::ThermalStrain;
-
-/// Share of its diagonal that a hold adds where faces close: enough to make a loose part definite, and so little that faces which
-/// close carry the part in one more iteration. What it adds stands in the tangent alone, never in the forces.
-const SOFT_HOLD: f64 = 1e-6;
 
 /// A direct solver for symmetric stiffnesses.
 pub(crate) struct DirectSolver {
@@ -58,7 +54,8 @@ impl DirectSolver {
 
     fn coupled(&self) -> Coupled<'_> {
         Coupled {
-            stiffness: &self.stiffness,
+            system: self.stiffness.system(),
+            unknowns: self.stiffness.unknowns(),
             cut_off: &self.making.held,
             hold_share: self.hold_share(),
         }
@@ -85,7 +82,8 @@ impl DirectSolver {
         }
         let cut_off = vec![false; state.held.len()];
         let coupled = Coupled {
-            stiffness: &self.stiffness,
+            system: self.stiffness.system(),
+            unknowns: self.stiffness.unknowns(),
             cut_off: &cut_off,
             hold_share: self.hold_share(),
         };
@@ -117,7 +115,7 @@ impl DirectSolver {
 
     /// Forgets the factor where `n_elements` changes are too many for a change in place, or it is time to make it anew.
     fn forget_unless_in_place(&mut self, n_elements: usize) {
-        let SolverChoice {
+        let DirectChoice {
             update,
             rebuild_every,
             most_bonds_in_place,
@@ -260,7 +258,13 @@ impl TangentSolver for DirectSolver {
         Ok(vanishing)
     }
 
-    fn solve(&mut self, state: &State, mut force: Vec<f64>, costs: &mut Costs) -> Vec<f64> {
+    fn solve(
+        &mut self,
+        state: &State,
+        mut force: Vec<f64>,
+        _: Left,
+        costs: &mut Costs,
+    ) -> Result<Vec<f64>, Indefinite> {
         let start = Instant::now();
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
         for (value, &dof) in force.iter_mut().zip(dofs) {
@@ -274,7 +278,11 @@ impl TangentSolver for DirectSolver {
         self.keep_held(state, &mut force);
         costs.solves += 1;
         costs.solve += start.elapsed();
-        force
+        Ok(force)
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        None
     }
 
     fn is_changed(&self) -> bool {
@@ -308,7 +316,7 @@ impl TangentSolver for DirectSolver {
         self.making = Serial::read(from)?;
         self.remaining = Serial::read(from)?;
         self.closed = Serial::read(from)?;
-        if !self.making.fits(&self.stiffness) {
+        if !(self.making).fits(self.stiffness.system(), self.stiffness.unknowns()) {
             return Err(CheckpointError::OtherModel);
         }
         let factor = self.making.factor(&self.stiffness);

@@ -7,13 +7,14 @@
 use std::sync::Arc;
 
 use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
-use ligament_model::BondsLeft;
 use ligament_model::element::Remaining;
+use ligament_model::{Bonds, BondsLeft};
 
 use crate::serial;
 use crate::serial::{Damaged, Serial};
 use crate::state::State;
 use crate::stiffness::Stiffness;
+use crate::unknowns::Unknowns;
 
 /// Bonds and holds that a factor was made of, and all changes since.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,11 +22,11 @@ pub(super) struct Making {
     /// Whether each bond was unbroken, shape (n_bonds).
     pub(super) intact: Vec<bool>,
     /// What was left of softening bonds, shape (n_bonds); empty where none softened.
-    remaining: Vec<Remaining>,
+    pub(super) remaining: Vec<Remaining>,
     /// Degrees of freedom that were held, and so are cut off from the others, shape (n_degrees_of_freedom).
     pub(super) held: Vec<bool>,
     /// Terms beside those of the bonds: of pairs that were closed, and of what was held without being cut off.
-    beside: Vec<RankOne>,
+    pub(super) beside: Vec<RankOne>,
     /// Changes in place, in their order.
     pub(super) changes: Vec<Vec<RankOne>>,
 }
@@ -51,7 +52,7 @@ impl Making {
     }
 
     /// The bonds that the factor was made of.
-    fn bonds(&self) -> BondsLeft<'_> {
+    pub(super) fn bonds(&self) -> BondsLeft<'_> {
         BondsLeft {
             intact: &self.intact,
             remaining: &self.remaining,
@@ -59,14 +60,14 @@ impl Making {
     }
 
     /// Whether all is of a body with these unknowns.
-    pub(super) fn fits(&self, stiffness: &Stiffness) -> bool {
-        let n_bonds = stiffness.system().ends().len();
-        let n_unknowns = stiffness.unknowns().len();
+    pub(super) fn fits(&self, system: &dyn Bonds, unknowns: &Unknowns) -> bool {
+        let n_bonds = system.ends().len();
+        let n_unknowns = unknowns.len();
         let terms = self.changes.iter().flatten().chain(&self.beside);
         let entries = terms.flat_map(|it| &it.entries);
         self.intact.len() == n_bonds
             && (self.remaining.is_empty() || self.remaining.len() == n_bonds)
-            && self.held.len() == stiffness.unknowns().layout().n_degrees_of_freedom()
+            && self.held.len() == unknowns.layout().n_degrees_of_freedom()
             && entries
                 .into_iter()
                 .all(|(unknown, _)| *unknown < n_unknowns)

@@ -1,6 +1,7 @@
 //! Terms of rank one by which breakages, holds and softening change a factor.
 
 use ligament_linalg::RankOne;
+use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::{Remaining, Term};
 use rayon::prelude::*;
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 use crate::breakage::Breakage;
 use crate::contact;
 use crate::state::State;
-use crate::stiffness::Stiffness;
+use crate::unknowns::Unknowns;
 
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
@@ -20,7 +21,8 @@ const SECANT_TOLERANCE: f64 = 0.6;
 /// The unknowns that a factor couples with others.
 #[derive(Clone, Copy)]
 pub(super) struct Coupled<'a> {
-    pub(super) stiffness: &'a Stiffness,
+    pub(super) system: &'a dyn Bonds,
+    pub(super) unknowns: &'a Unknowns,
     /// Degrees of freedom that are cut off from the others, shape (n_degrees_of_freedom).
     pub(super) cut_off: &'a [bool],
     /// What a hold adds to the diagonal, as a share of it.
@@ -30,7 +32,7 @@ pub(super) struct Coupled<'a> {
 impl Coupled<'_> {
     /// Number of the unknown at a degree of freedom.
     pub(super) fn number(self, dof: usize) -> Option<usize> {
-        let number = self.stiffness.unknowns().number(dof);
+        let number = self.unknowns.number(dof);
         number.filter(|_| !self.cut_off[dof])
     }
 
@@ -52,7 +54,7 @@ impl Coupled<'_> {
         in_factor: &mut [Remaining],
         state: &State,
     ) -> Vec<RankOne> {
-        let system = self.stiffness.system();
+        let system = self.system;
         let mut terms = Vec::new();
         for &bond in due {
             let remaining = state.softening.remaining[bond];
@@ -99,9 +101,9 @@ impl Coupled<'_> {
 
     /// Diagonal entry of the matrix with all bonds.
     fn whole_diagonal(self, dof: usize) -> f64 {
-        let system = self.stiffness.system();
+        let system = self.system;
         let whole = vec![true; system.ends().len()];
-        let point = self.stiffness.unknowns().layout().point(dof);
+        let point = self.unknowns.layout().point(dof);
         let elements = system.elements_at_points().at(point).iter();
         elements
             .flat_map(|&bond| system.terms(&whole, bond as usize, &Remaining::WHOLE))

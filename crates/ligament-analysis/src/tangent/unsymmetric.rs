@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
 
-use super::TangentSolver;
 use super::making::Making;
+use super::{Indefinite, Left, TangentSolver};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -89,7 +89,13 @@ impl TangentSolver for UnsymmetricSolver {
         Ok(Vec::new())
     }
 
-    fn solve(&mut self, state: &State, mut force: Vec<f64>, costs: &mut Costs) -> Vec<f64> {
+    fn solve(
+        &mut self,
+        state: &State,
+        mut force: Vec<f64>,
+        _: Left,
+        costs: &mut Costs,
+    ) -> Result<Vec<f64>, Indefinite> {
         let start = Instant::now();
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
         for (value, &dof) in force.iter_mut().zip(dofs) {
@@ -102,7 +108,11 @@ impl TangentSolver for UnsymmetricSolver {
         }
         costs.solves += 1;
         costs.solve += start.elapsed();
-        force
+        Ok(force)
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        None
     }
 
     fn is_changed(&self) -> bool {
@@ -125,7 +135,7 @@ impl TangentSolver for UnsymmetricSolver {
         let Some(making) = Option::<Making>::read(from)? else {
             return Ok(());
         };
-        if !making.fits(&self.stiffness) {
+        if !making.fits(self.stiffness.system(), self.stiffness.unknowns()) {
             return Err(CheckpointError::OtherModel);
         }
         let factor = Lu::factorise(&self.matrix(&making));

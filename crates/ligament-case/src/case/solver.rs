@@ -8,7 +8,7 @@ use serde::de::{MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::word::Word;
-use ligament_analysis::solver::{FactorKind, Ordering, SolverSettings, Update};
+use ligament_analysis::solver::{FactorKind, Method, Ordering, SolverSettings, Update};
 
 /// Threads at most: with thousands of them waking up takes the time of the work, and the program seems to hang.
 pub const MOST_THREADS: u32 = 1024;
@@ -17,6 +17,14 @@ pub const MOST_THREADS: u32 = 1024;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
+    /// How the equations are solved: with a factor of the matrix or without a matrix.
+    #[serde(skip_serializing_if = "is_open")]
+    pub method: Word<Option<Method>>,
+    /// Force that the iteration leaves out of balance after a breakage, relative to the forces that may act at a point: 1e-8. Bonds that
+    /// are nearer to each other than a hundred times this, relatively, break together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-10, max = 1e-3))]
+    pub tolerance: Option<f64>,
     /// The factorisation of the stiffness.
     pub factorisation: Word<Option<FactorKind>>,
     /// The order of elimination.
@@ -39,12 +47,18 @@ impl Solver {
         let default = SolverSettings::default();
         let rebuild_every = self.rebuild_every.map(|bonds| bonds as usize);
         SolverSettings {
+            method: self.method.0,
+            tolerance: self.tolerance.unwrap_or(default.tolerance),
             factorisation: self.factorisation.0,
             ordering: self.ordering.0,
             update: self.update.0,
             rebuild_every: rebuild_every.unwrap_or(default.rebuild_every),
         }
     }
+}
+
+fn is_open(method: &Word<Option<Method>>) -> bool {
+    method.0.is_none()
 }
 
 /// Reads a table, or the word `auto`.

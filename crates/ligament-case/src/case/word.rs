@@ -11,7 +11,7 @@ use ligament_analysis::Component;
 use ligament_analysis::breaking::BreakingOrder;
 use ligament_analysis::modal::Rotations;
 use ligament_analysis::probe::{PointField, StressComponent};
-use ligament_analysis::solver::{FactorKind, Ordering, Update};
+use ligament_analysis::solver::{FactorKind, Method, Ordering, Update};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
 use ligament_model::correction::StopRule;
@@ -154,6 +154,12 @@ worded! { Ends:
 worded! { BreakingOrder:
     [Self::Excess] "excess" "Bonds with the largest excess of stretch over critical stretch (the paper's).";
     [Self::Ratio] "ratio" "Bonds with the largest ratio of stretch to critical stretch.";
+}
+
+worded! { Option<Method>:
+    [None] "auto" "`direct` in the plane up to 200,000 points and in space up to 5,000, and where the iteration cannot; `iterative` beyond.";
+    [Some(Method::Direct)] "direct" "With a factor of the matrix.";
+    [Some(Method::Iterative)] "iterative" "By conjugate gradients without a matrix, for positive definite stiffness.";
 }
 
 worded! { Option<FactorKind>:

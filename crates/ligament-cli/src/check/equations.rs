@@ -3,8 +3,10 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
+use ligament_analysis::Equilibrium;
 use ligament_analysis::solver::{
-    FactorKind, Ordering, POINTS_FOR_DISSECTION, SolverChoice, Update,
+    DirectChoice, FactorKind, IterativeChoice, Ordering, POINTS_FOR_DISSECTION, SolverChoice, TIED,
+    Update,
 };
 use ligament_analysis::stiffness::Stiffness;
 
@@ -21,6 +23,25 @@ pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
     model: &Model<D>,
+    equilibrium: &Equilibrium,
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    match (equilibrium.stiffness(), equilibrium.choice()) {
+        (Some(stiffness), _) => write_with_matrix(out, case, model, stiffness),
+        (None, SolverChoice::Iterative(choice)) => {
+            write_iteration(out, case, model, (equilibrium.unknowns().len(), choice))
+        }
+        (None, SolverChoice::Direct(_)) => Ok(()),
+    }
+}
+
+/// Writes the size of equations with a matrix and what was chosen for its factor.
+pub(super) fn write_with_matrix<const D: usize>(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    model: &Model<D>,
     stiffness: &Stiffness,
 ) -> anyhow::Result<()>
 where
@@ -29,19 +50,14 @@ where
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
-    let bytes = memory::of_equations(&*model.system, stiffness);
     writeln!(out, "equations")?;
     entry(out, "unknowns", stiffness.unknowns().len())?;
     let entries = format!("{matrix} in the matrix, {factor} in the factor");
     entry(out, "entries", entries)?;
-    entry(out, "estimated memory", megabytes(bytes as f64))?;
-    if let Some(there) = memory::allowed(case) {
-        entry(out, "memory there is", megabytes(there as f64))?;
-    }
-    if let Err(too_large) = memory::foresee(case, &*model.system, stiffness) {
-        writeln!(out, "warning: {too_large}")?;
-    }
-    write_choice(out, &model.setup, stiffness.choice())?;
+    write_memory(out, case, model, Some(stiffness))?;
+    let choice = stiffness.choice();
+    entry(out, "method", format!("with a factor: {}", choice.reason))?;
+    write_choice(out, &model.setup, choice)?;
     entry(out, "ordering", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
         write_ordering(out, stiffness, ordering)?;
@@ -49,10 +65,54 @@ where
     Ok(())
 }
 
+/// Writes the number of unknowns without a matrix and what was chosen for the iteration.
+fn write_iteration<const D: usize>(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    model: &Model<D>,
+    (unknowns, choice): (usize, &IterativeChoice),
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let IterativeChoice { reason, tolerance } = choice;
+    writeln!(out, "equations")?;
+    entry(out, "unknowns", unknowns)?;
+    write_memory(out, case, model, None)?;
+    let method = format!("conjugate gradients without a matrix: {reason}");
+    entry(out, "method", method)?;
+    let tied = TIED * tolerance;
+    let left = format!(
+        "{tolerance:e} of the forces after a breakage; bonds within {tied:e} break together"
+    );
+    entry(out, "left out of balance", left)?;
+    Ok(entry(out, "threads", rayon::current_num_threads())?)
+}
+
+fn write_memory<const D: usize>(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    model: &Model<D>,
+    stiffness: Option<&Stiffness>,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let bytes = memory::of_equations(&*model.system, stiffness);
+    entry(out, "estimated memory", megabytes(bytes as f64))?;
+    if let Some(there) = memory::allowed(case) {
+        entry(out, "memory there is", megabytes(there as f64))?;
+    }
+    match memory::foresee(case, &*model.system, stiffness) {
+        Ok(()) => Ok(()),
+        Err(too_large) => writeln!(out, "warning: {too_large}"),
+    }
+}
+
 fn write_choice<const D: usize>(
     out: &mut dyn Write,
     setup: &Setup<D>,
-    choice: &SolverChoice,
+    choice: &DirectChoice,
 ) -> io::Result<()>
 where
     Dim: Dimension<D>,

@@ -53,7 +53,7 @@ where
     write_loading(out, &model.setup)?;
     write_room(out, case, model)?;
     if let Some(equilibrium) = &equilibrium {
-        equations::write(out, case, model, equilibrium.stiffness())?;
+        equations::write(out, case, model, equilibrium)?;
     }
     Ok(())
 }

@@ -58,7 +58,8 @@ where
             Rotations::Massless => "without inertia",
         };
         entry(out, "rotations", format!("{what}, {why}"))?;
-        equations::write(out, case, model, analysis.stiffness())?;
+        let stiffness = analysis.stiffness();
+        equations::write_with_matrix(out, case, model, stiffness)?;
     }
     Ok(())
 }

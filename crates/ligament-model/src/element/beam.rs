@@ -46,7 +46,7 @@ impl PairKinematics<3> for BeamBond {
     ///
     /// s = [a (u_xB - u_xA) + b (u_yB - u_yA)]/l,
     /// gamma = [-b (u_xB - u_xA) + a (u_yB - u_yA)]/l - (theta_A + theta_B)/2, theta_rel = theta_B - theta_A.
-    #[inline]
+    #[inline(always)]
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         let without_rotations = self.springs.deformation(end_a, end_b);
         BondDeformation::new([

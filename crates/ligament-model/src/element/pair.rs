@@ -118,6 +118,7 @@ impl<const M: usize, B: PairKinematics<M>> Element<M> for Pair<B> {
         add(self.ends[1], at_b);
     }
 
+    #[inline(always)]
     fn end_forces(&self, deformation: &BondDeformation) -> Option<[[f64; M]; 2]> {
         Some(self.bond.end_forces(deformation))
     }

@@ -51,7 +51,7 @@ impl PairKinematics<2> for SpringBond {
     /// Deformation for the displacements of the ends A and B:
     ///
     /// s = [a (u_xB - u_xA) + b (u_yB - u_yA)]/l, gamma = [-b (u_xB - u_xA) + a (u_yB - u_yA)]/l.
-    #[inline]
+    #[inline(always)]
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation {
         let [a, b] = self.direction;
         let (du_x, du_y) = (end_b[0] - end_a[0], end_b[1] - end_a[1]);

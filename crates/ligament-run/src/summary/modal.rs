@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
+use ligament_analysis::solver::SolverChoice;
 use ligament_output::quantity::{four_digits, quantity};
 use serde::Serialize;
 
@@ -101,7 +102,7 @@ impl ModalSummary {
                 .collect(),
             modes,
             stability: outcome.stability.map(StabilitySummary::from),
-            solver: SolverSummary::new(&outcome.costs, &outcome.solver),
+            solver: SolverSummary::new(&outcome.costs, &SolverChoice::Direct(outcome.solver)),
             provenance,
             stages: stages.to_vec(),
             warnings,

@@ -1,21 +1,28 @@
 //! The solver of a run and its work.
 
 use ligament_analysis::costs::Costs;
-use ligament_analysis::solver::{FactorKind, Ordering, SolverChoice, Update};
-use serde::Serialize;
+use ligament_analysis::solver;
+use ligament_analysis::solver::{
+    DirectChoice, FactorKind, IterativeChoice, Ordering, SolverChoice, Update,
+};
+use serde::{Serialize, Serializer};
 
 /// The solver and its work.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SolverSummary {
-    /// Factorisation: `llt`, `ldlt` or, of forces without an energy, `lu`.
-    pub factorisation: &'static str,
-    /// Order of elimination: `nested-dissection` or `minimum-degree`.
-    pub ordering: &'static str,
-    /// What happened to the factor when bonds broke: `incremental` or `refactor`.
-    pub update: &'static str,
+    /// `direct` or `iterative`.
+    pub method: &'static str,
+    /// Why it was this one.
+    pub reason: Reason,
+    /// What was chosen for a factor.
+    #[serde(flatten)]
+    pub factor: Option<FactorSummary>,
+    /// What was chosen for conjugate gradients.
+    #[serde(flatten)]
+    pub iteration: Option<IterationSummary>,
     /// Threads.
     pub threads: usize,
-    /// Factorisations.
+    /// Factorisations; of the coarse space where the method is iterative.
     pub factorisations: usize,
     /// Changes of a factor in place.
     pub changes: usize,
@@ -39,9 +46,28 @@ pub struct SolverSummary {
     pub connectivity_seconds: f64,
 }
 
-impl SolverSummary {
-    /// What was chosen, and what it cost.
-    pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
+/// What was chosen for a factor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FactorSummary {
+    /// Factorisation: `llt`, `ldlt` or, of forces without an energy, `lu`.
+    pub factorisation: &'static str,
+    /// Order of elimination: `nested-dissection` or `minimum-degree`.
+    pub ordering: &'static str,
+    /// What happened to the factor when bonds broke: `incremental` or `refactor`.
+    pub update: &'static str,
+}
+
+/// What was chosen for conjugate gradients, and what they took.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct IterationSummary {
+    /// Force left out of balance after a breakage, relative to the forces that may act at a point.
+    pub tolerance: f64,
+    /// Iterations of all solves.
+    pub iterations: usize,
+}
+
+impl FactorSummary {
+    fn new(choice: &DirectChoice) -> Self {
         Self {
             factorisation: match choice.factorisation {
                 _ if choice.unsymmetric => "lu",
@@ -56,6 +82,39 @@ impl SolverSummary {
                 Update::Incremental => "incremental",
                 Update::Refactor => "refactor",
             },
+        }
+    }
+}
+
+/// Why a method was chosen, as words.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reason(solver::Reason);
+
+impl Serialize for Reason {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&self.0)
+    }
+}
+
+impl SolverSummary {
+    /// What was chosen, and what it cost.
+    pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
+        let (method, reason, factor, iteration) = match choice {
+            SolverChoice::Direct(it) => ("direct", it.reason, Some(FactorSummary::new(it)), None),
+            &SolverChoice::Iterative(IterativeChoice { reason, tolerance }) => {
+                let iterations = costs.iterations;
+                let iteration = IterationSummary {
+                    tolerance,
+                    iterations,
+                };
+                ("iterative", reason, None, Some(iteration))
+            }
+        };
+        Self {
+            method,
+            reason: Reason(reason),
+            factor,
+            iteration,
             threads: rayon::current_num_threads(),
             factorisations: costs.factorisations,
             changes: costs.changes,

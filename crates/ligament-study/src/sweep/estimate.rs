@@ -29,6 +29,7 @@ impl Estimates {
             &given.precracks,
             &given.supports,
             given.solver.ordering,
+            given.solver.method,
         ));
         // What cannot be written as text is not shared.
         let Ok(key) = key else {
@@ -59,7 +60,7 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
         Analysis::Modal(settings) => {
             let vibration = Vibration::new(&model.setup, system)?;
             let analysis = ModalAnalysis::new(&vibration.problem(system), settings)?;
-            memory::of_equations(&**system, analysis.stiffness())
+            memory::of_equations(&**system, Some(analysis.stiffness()))
         }
         _ => {
             let loading = Loading::new(&model.setup, system)?;

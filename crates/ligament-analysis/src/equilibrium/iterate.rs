@@ -1,0 +1,39 @@
+//! A state on its way to equilibrium.
+
+use ligament_model::contact::ClosedPair;
+use ligament_model::deformation::Deformations;
+
+use super::residual::{Extents, Residual};
+use crate::balanced::Balanced;
+use crate::internal::InternalForces;
+
+/// A state on its way to equilibrium, as the bonds see it.
+pub(super) struct Iterate {
+    pub(super) deformations: Deformations,
+    pub(super) internal: InternalForces,
+    pub(super) stored_energy: f64,
+    pub(super) energy_floor: f64,
+    pub(super) residual: Residual,
+    pub(super) extents: Extents,
+    pub(super) negative_energy: Option<f64>,
+    /// Gaps of the pairs across cracks, shape (n_pairs), m.
+    pub(super) gaps: Vec<f64>,
+    pub(super) closed: Vec<ClosedPair>,
+}
+
+impl Iterate {
+    /// The iterate as an equilibrium that took some iterations and met some mechanisms.
+    pub(super) fn balanced(self, iterations: usize, mechanisms: Vec<u32>) -> Balanced {
+        Balanced {
+            deformations: self.deformations,
+            internal: self.internal,
+            stored_energy: self.stored_energy,
+            energy_floor: self.energy_floor,
+            residual: self.residual.relative,
+            iterations,
+            negative_energy: self.negative_energy,
+            mechanisms,
+            closed: self.closed,
+        }
+    }
+}

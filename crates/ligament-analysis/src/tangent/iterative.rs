@@ -1,0 +1,364 @@
+//! Iterative solution without a matrix: conjugate gradients with block Jacobi and the rigid motions of aggregates.
+//!
+//! The stiffness is always that of the bonds as they are; what is made and kept is the preconditioner. The blocks of points are
+//! made anew where bonds broke. The coarse space is made anew where a part came loose, and where the iterations beyond what it
+//! took when it was new have cost as much as that.
+
+mod aggregates;
+mod coarse;
+mod conjugate;
+mod operator;
+mod point_blocks;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Instant;
+
+use ligament_linalg::{FactorError, Inertia};
+use ligament_model::contact::ClosedPair;
+use ligament_model::element::{Remaining, Term};
+use ligament_model::thermal::ThermalStrain;
+use ligament_model::{Bonds, BondsLeft};
+
+use self::coarse::Coarse;
+use self::conjugate::{Found, Limit, TwoLevels};
+use self::operator::Operator;
+use self::point_blocks::PointBlocks;
+use super::making::Making;
+use super::terms::{Coupled, due_bonds};
+use super::{Indefinite, Left, SOFT_HOLD, TangentSolver};
+use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
+use crate::contact;
+use crate::costs::Costs;
+use crate::serial::Serial;
+use crate::state::State;
+use crate::unknowns::Unknowns;
+use crate::vectors::dot_of_chunks;
+
+/// Points of an aggregate at most.
+const LARGEST_AGGREGATE: usize = 40;
+
+/// Iterations that cost as much as a new coarse space.
+const RENEWAL: f64 = 40.0;
+
+/// A solver that iterates, for symmetric and definite stiffnesses of linear bonds.
+pub(crate) struct IterativeSolver {
+    system: Arc<dyn Bonds>,
+    unknowns: Arc<Unknowns>,
+    tolerance: f64,
+    levels: Option<TwoLevels>,
+    /// What the coarse space was made of.
+    coarse_of: Making,
+    /// What the blocks of the points were made of.
+    blocks_of: Making,
+    /// Points whose blocks are out of date.
+    stale: BTreeSet<u32>,
+    /// Whether the coarse space is to be made anew.
+    is_due: bool,
+    /// Iterations a decade with the coarse space as it was new.
+    pace: Option<f64>,
+    /// Iterations beyond that since.
+    excess: f64,
+    /// Pairs across cracks that are closed.
+    closed: Vec<ClosedPair>,
+}
+
+/// Everything of a body that the equations are made of, at one moment.
+struct Moment {
+    free: Vec<bool>,
+    beside: Vec<Term>,
+}
+
+impl IterativeSolver {
+    /// A solver without a preconditioner yet, for forces left out of balance relative to those that may act.
+    pub(crate) fn new(system: Arc<dyn Bonds>, unknowns: Arc<Unknowns>, tolerance: f64) -> Self {
+        Self {
+            system,
+            unknowns,
+            tolerance,
+            levels: None,
+            coarse_of: Making::default(),
+            blocks_of: Making::default(),
+            stale: BTreeSet::new(),
+            is_due: true,
+            pace: None,
+            excess: 0.0,
+            closed: Vec::new(),
+        }
+    }
+
+    /// What a state is made of.
+    fn made_of(&self, state: &State) -> Making {
+        if !self.system.faces_close() {
+            return Making::begun(state, state.held.clone(), Vec::new());
+        }
+        let cut_off = vec![false; state.held.len()];
+        let coupled = Coupled {
+            system: &*self.system,
+            unknowns: &self.unknowns,
+            cut_off: &cut_off,
+            hold_share: SOFT_HOLD,
+        };
+        let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
+        let mut beside = coupled.of_holds(held);
+        beside.extend(coupled.of_contact(&self.closed, 1.0));
+        Making::begun(state, cut_off, beside)
+    }
+
+    fn moment(&self, making: &Making) -> Moment {
+        let dofs = self.unknowns.degrees_of_freedom();
+        let mut free = vec![false; making.held.len()];
+        for &dof in dofs {
+            free[dof as usize] = !making.held[dof as usize];
+        }
+        let at_dofs = |(unknown, value): &(usize, f64)| (dofs[*unknown] as usize, *value);
+        let beside = making.beside.iter();
+        let beside = beside.map(|it| (it.weight, it.entries.iter().map(at_dofs).collect()));
+        Moment {
+            free,
+            beside: beside.collect(),
+        }
+    }
+
+    fn operator<'a>(&'a self, moment: &'a Moment, bonds: BondsLeft<'a>) -> Operator<'a> {
+        Operator {
+            system: &*self.system,
+            unknowns: &self.unknowns,
+            bonds,
+            free: &moment.free,
+            beside: &moment.beside,
+        }
+    }
+
+    /// Both levels anew; or the degrees of freedom that nothing resists.
+    fn levels_of(&self, making: &Making) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
+        let moment = self.moment(making);
+        let operator = self.operator(&moment, making.bonds());
+        let (blocks, loose) = PointBlocks::new(&operator);
+        if !loose.is_empty() {
+            return Ok(Err(loose));
+        }
+        let coarse = Coarse::new(&operator, blocks.diagonal(), LARGEST_AGGREGATE)?;
+        Ok(Ok(TwoLevels { blocks, coarse }))
+    }
+
+    /// Brings the blocks up to date; gives the degrees of freedom that nothing resists.
+    fn renew_blocks(&mut self, making: Making) -> Vec<usize> {
+        let newly_held = (making.held.iter().zip(&self.blocks_of.held))
+            .enumerate()
+            .filter(|(_, (now, before))| now != before);
+        let layout = self.unknowns.layout();
+        let of_holds = newly_held.map(|(dof, _)| layout.point(dof));
+        self.stale.extend(of_holds);
+        if self.stale.is_empty() {
+            return Vec::new();
+        }
+        let stale = std::mem::take(&mut self.stale);
+        let Some(mut levels) = self.levels.take() else {
+            return Vec::new();
+        };
+        let moment = self.moment(&making);
+        let operator = self.operator(&moment, making.bonds());
+        // Of softening bonds the two ends must have been met at the same moment.
+        let loose = if making.remaining.is_empty() {
+            levels.blocks.renew(&operator, stale.iter().copied())
+        } else {
+            let (blocks, loose) = PointBlocks::new(&operator);
+            levels.blocks = blocks;
+            loose
+        };
+        self.levels = Some(levels);
+        self.blocks_of = making;
+        if !loose.is_empty() {
+            self.stale = stale;
+        }
+        loose
+    }
+
+    /// Learns from a solution whether the coarse space is worn out.
+    fn judge(&mut self, found: &Found) {
+        if found.iterations == 0 || !found.decades.is_finite() || found.decades <= 0.0 {
+            return;
+        }
+        let iterations = found.iterations as f64;
+        match self.pace {
+            None => self.pace = Some(iterations / found.decades),
+            Some(pace) => self.excess += (iterations - pace * found.decades).max(0.0),
+        }
+        self.is_due |= self.excess > RENEWAL;
+    }
+
+    /// Numbers of the unknowns at degrees of freedom.
+    fn numbers(&self, dofs: Vec<usize>) -> Vec<usize> {
+        let dofs = dofs.into_iter();
+        dofs.filter_map(|dof| self.unknowns.number(dof)).collect()
+    }
+
+    fn stale_at(&mut self, dofs: impl Iterator<Item = usize>) {
+        let layout = self.unknowns.layout();
+        self.stale.extend(dofs.map(|dof| layout.point(dof)));
+    }
+}
+
+impl TangentSolver for IterativeSolver {
+    fn follow(
+        &mut self,
+        breakage: &Breakage,
+        _: &State,
+        _: ThermalStrain<'_>,
+        _: &mut Costs,
+    ) -> Option<Vec<f64>> {
+        let terms = breakage.lost_terms().chain(breakage.gained_terms());
+        let entries = terms.flat_map(|(_, entries)| entries);
+        let dofs: BTreeSet<usize> = entries.map(|(dof, _)| dof).collect();
+        self.stale_at(dofs.into_iter());
+        // The rigid motions of a part that came loose are among the softest of all.
+        self.is_due |= !breakage.holds.is_empty();
+        None
+    }
+
+    fn weaken(&mut self, state: &State, _: &mut Costs) {
+        let n_bonds = state.softening.remaining.len();
+        let mut in_blocks = self.blocks_of.remaining.clone();
+        in_blocks.resize(n_bonds, Remaining::WHOLE);
+        let due = due_bonds(&in_blocks, state);
+        let ends = self.system.ends();
+        let of_due = due.into_iter().flat_map(|bond| ends[bond]);
+        self.stale.extend(of_due);
+    }
+
+    fn close(&mut self, closed: &[ClosedPair], _: &mut Costs) {
+        let (opened, newly_closed) = contact::changes(&self.closed, closed);
+        let changed = opened.iter().chain(&newly_closed);
+        let ends: Vec<u32> = changed.flat_map(|it| it.pair.ends).collect();
+        self.stale.extend(ends);
+        self.closed = closed.to_vec();
+    }
+
+    fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
+        let start = Instant::now();
+        let making = self.made_of(state);
+        if !self.is_due && self.levels.is_some() {
+            let loose = self.renew_blocks(making);
+            costs.change += start.elapsed();
+            return Ok(self.numbers(loose));
+        }
+        match self.levels_of(&making)? {
+            Err(loose) => return Ok(self.numbers(loose)),
+            Ok(levels) => self.levels = Some(levels),
+        }
+        self.coarse_of = making.clone();
+        self.blocks_of = making;
+        self.stale.clear();
+        (self.is_due, self.pace, self.excess) = (false, None, 0.0);
+        costs.factorisations += 1;
+        costs.factorisation += start.elapsed();
+        Ok(Vec::new())
+    }
+
+    fn solve(
+        &mut self,
+        state: &State,
+        force: Vec<f64>,
+        left: Left,
+        costs: &mut Costs,
+    ) -> Result<Vec<f64>, Indefinite> {
+        let start = Instant::now();
+        let Some(mut levels) = self.levels.take() else {
+            return Err(Indefinite);
+        };
+        let dofs = self.unknowns.degrees_of_freedom();
+        let moment = self.moment(&self.blocks_of);
+        let at_dofs = |values: &[f64], other: f64| {
+            let mut all = vec![other; moment.free.len()];
+            for (&dof, value) in dofs.iter().zip(values) {
+                if moment.free[dof as usize] {
+                    all[dof as usize] = *value;
+                }
+            }
+            all
+        };
+        let force = at_dofs(&force, 0.0);
+        let limit = match left {
+            Left::Share(share) => Limit::Norm(share * dot_of_chunks(&force, &force).sqrt()),
+            Left::AtMost(sizes) => Limit::Sizes(at_dofs(&sizes, f64::INFINITY)),
+        };
+        let operator = self.operator(&moment, state.bonds());
+        let found = conjugate::solve(&operator, &mut levels, force, &limit);
+        let solution = dofs.iter().map(|&dof| found.motions[dof as usize]);
+        let solution = solution.collect();
+        self.levels = Some(levels);
+        self.judge(&found);
+        costs.solves += 1;
+        costs.iterations += found.iterations;
+        costs.solve += start.elapsed();
+        if found.is_definite {
+            Ok(solution)
+        } else {
+            Err(Indefinite)
+        }
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.tolerance)
+    }
+
+    fn is_changed(&self) -> bool {
+        false
+    }
+
+    fn forget(&mut self) {
+        self.is_due = true;
+    }
+
+    fn inertia(&self) -> Option<Inertia> {
+        None
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        self.levels.is_some().write(out);
+        self.is_due.write(out);
+        self.pace.write(out);
+        self.excess.write(out);
+        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
+        self.closed.write(out);
+        if self.levels.is_some() {
+            self.coarse_of.write(out);
+            self.blocks_of.write(out);
+        }
+    }
+
+    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        let has_levels = bool::read(from)?;
+        self.is_due = Serial::read(from)?;
+        self.pace = Serial::read(from)?;
+        self.excess = Serial::read(from)?;
+        let stale: Vec<u32> = Serial::read(from)?;
+        self.closed = Serial::read(from)?;
+        self.stale = stale.into_iter().collect();
+        if !has_levels {
+            return Ok(());
+        }
+        self.coarse_of = Serial::read(from)?;
+        self.blocks_of = Serial::read(from)?;
+        let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
+        let n_points = self.system.n_points();
+        let mut stale = self.stale.iter();
+        if !fits(&self.coarse_of)
+            || !fits(&self.blocks_of)
+            || stale.any(|it| *it as usize >= n_points)
+        {
+            return Err(CheckpointError::OtherModel);
+        }
+        let levels = self.levels_of(&self.coarse_of);
+        let Ok(Ok(mut levels)) = levels else {
+            return Err(CheckpointError::OtherArithmetic);
+        };
+        let moment = self.moment(&self.blocks_of);
+        let operator = self.operator(&moment, self.blocks_of.bonds());
+        levels.blocks = PointBlocks::new(&operator).0;
+        self.levels = Some(levels);
+        Ok(())
+    }
+}

@@ -1,0 +1,73 @@
+//! Aggregates: a body in small connected parts, whose rigid motions are the coarse space.
+
+use ligament_model::Bonds;
+
+/// The parts of a body, each with a few dozen points.
+pub(super) struct Aggregates {
+    /// Points of each part.
+    pub(super) points: Vec<Vec<u32>>,
+    /// Part of each point, shape (n_points).
+    pub(super) of_point: Vec<u32>,
+}
+
+impl Aggregates {
+    /// Parts of at most `largest` points by recursive bisection of the coordinates, split where the bonds that are intact (n_bonds) do
+    /// not connect them within themselves.
+    pub(super) fn new(system: &dyn Bonds, intact: &[bool], largest: usize) -> Self {
+        let n_points = system.n_points();
+        let mut parts = Self {
+            points: Vec::new(),
+            of_point: vec![0; n_points],
+        };
+        let mut all: Vec<u32> = (0..n_points as u32).collect();
+        let mut boxes: Vec<&mut [u32]> = vec![&mut all];
+        while let Some(points) = boxes.pop() {
+            if points.len() > largest {
+                let middle = points.len() / 2;
+                system.halve(points);
+                let (lower, upper) = points.split_at_mut(middle);
+                boxes.extend([upper, lower]);
+            } else if !points.is_empty() {
+                points.sort_unstable();
+                parts.add_connected(system, intact, points);
+            }
+        }
+        parts
+    }
+
+    /// Number of parts.
+    pub(super) fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Adds the connected parts of some points (ascending), in the order of their first points.
+    fn add_connected(&mut self, system: &dyn Bonds, intact: &[bool], points: &[u32]) {
+        const OPEN: u32 = u32::MAX;
+        for &point in points {
+            self.of_point[point as usize] = OPEN;
+        }
+        let topology = system.topology();
+        for &start in points {
+            if self.of_point[start as usize] != OPEN {
+                continue;
+            }
+            let number = self.points.len() as u32;
+            self.of_point[start as usize] = number;
+            let mut part = vec![start];
+            let mut next = 0;
+            while let Some(&point) = part.get(next) {
+                next += 1;
+                for &bond in topology.incidence.at(point) {
+                    let neighbour = topology.neighbour(bond, point);
+                    let is_open = self.of_point[neighbour as usize] == OPEN;
+                    if is_open && intact[bond as usize] {
+                        self.of_point[neighbour as usize] = number;
+                        part.push(neighbour);
+                    }
+                }
+            }
+            part.sort_unstable();
+            self.points.push(part);
+        }
+    }
+}

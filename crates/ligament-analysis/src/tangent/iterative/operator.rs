@@ -1,0 +1,57 @@
+//! The tangent stiffness of a state as a product: bonds, restraints and closed pairs, without a matrix.
+
+use ligament_model::element::Term;
+use ligament_model::{Bonds, BondsLeft};
+
+use crate::unknowns::Unknowns;
+
+/// The tangent stiffness between the degrees of freedom that are free.
+pub(super) struct Operator<'a> {
+    pub(super) system: &'a dyn Bonds,
+    pub(super) unknowns: &'a Unknowns,
+    /// The bonds that are left.
+    pub(super) bonds: BondsLeft<'a>,
+    /// Whether each degree of freedom is free, shape (n_degrees_of_freedom).
+    pub(super) free: &'a [bool],
+    /// Terms beside those of bonds and restraints, at free degrees of freedom.
+    pub(super) beside: &'a [Term],
+}
+
+impl Operator<'_> {
+    /// The product with motions that are zero where they are not free, shape (n_degrees_of_freedom) both; zero there as well.
+    pub(super) fn multiply(&self, motions: &[f64], forces: &mut [f64]) {
+        self.system.multiply(self.bonds, motions, forces);
+        self.unknowns.restraints().add_forces(motions, forces);
+        for (weight, entries) in self.beside {
+            let moved: f64 = entries.iter().map(|(dof, it)| it * motions[*dof]).sum();
+            for (dof, value) in entries {
+                forces[*dof] += weight * moved * value;
+            }
+        }
+        for (force, free) in forces.iter_mut().zip(self.free) {
+            if !free {
+                *force = 0.0;
+            }
+        }
+    }
+
+    /// The points of smaller number that something couples with a point, ascending.
+    pub(super) fn lower_points(&self, point: u32) -> Vec<u32> {
+        let coupled = self.system.coupled_points();
+        let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
+        restraints.lower_points(layout, coupled, point as usize)
+    }
+
+    /// Adds up the blocks in the columns of a point at the rows of its `lower` points and of itself, without the terms beside, shape
+    /// (n_lower + 1, components, components); what is not free counts as well.
+    pub(super) fn add_blocks(&self, point: u32, lower: &[u32], blocks: &mut [f64]) {
+        self.system.add_blocks(self.bonds, point, lower, blocks);
+        let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
+        restraints.add_blocks(layout, point, lower, blocks);
+    }
+
+    /// Number of components of the motion of a point.
+    pub(super) fn n_components(&self) -> usize {
+        self.unknowns.layout().components.len()
+    }
+}

@@ -1,0 +1,173 @@
+//! Block Jacobi: the inverses of the stiffnesses of the points by themselves.
+
+use ligament_linalg::VANISHING_PIVOT;
+use rayon::prelude::*;
+
+use super::operator::Operator;
+
+/// Points that make a task worth while.
+const TASK: usize = 512;
+
+/// The inverse of the stiffness of each point against its neighbours where they are.
+pub(super) struct PointBlocks {
+    n_components: usize,
+    /// Symmetric inverses, zero in the rows and columns of what is not free, shape (n_points, components, components).
+    inverses: Vec<f64>,
+    /// Stiffness of each degree of freedom by itself, 1 where it is not free or has none, shape (n_degrees_of_freedom).
+    diagonal: Vec<f64>,
+}
+
+impl PointBlocks {
+    /// The blocks of all points, and the degrees of freedom that nothing resists.
+    pub(super) fn new(operator: &Operator<'_>) -> (Self, Vec<usize>) {
+        let n_components = operator.n_components();
+        let n_points = operator.system.n_points();
+        let mut blocks = Self {
+            n_components,
+            inverses: vec![0.0; n_points * n_components * n_components],
+            diagonal: vec![1.0; n_points * n_components],
+        };
+        let beside = of_points_beside(operator);
+        let size = n_components * n_components;
+        let loose: Vec<Vec<usize>> = (blocks.inverses.par_chunks_mut(size))
+            .zip(blocks.diagonal.par_chunks_mut(n_components))
+            .enumerate()
+            .with_min_len(TASK)
+            .map(|(point, (inverse, diagonal))| {
+                invert(operator, point as u32, &beside, inverse, diagonal)
+            })
+            .collect();
+        (blocks, loose.concat())
+    }
+
+    /// Makes the blocks of some points anew; gives their degrees of freedom that nothing resists.
+    pub(super) fn renew(
+        &mut self,
+        operator: &Operator<'_>,
+        points: impl Iterator<Item = u32>,
+    ) -> Vec<usize> {
+        let beside = of_points_beside(operator);
+        let (n, mut loose) = (self.n_components, Vec::new());
+        for point in points {
+            let place = point as usize;
+            let inverse = &mut self.inverses[n * n * place..n * n * (place + 1)];
+            let diagonal = &mut self.diagonal[n * place..n * (place + 1)];
+            loose.extend(invert(operator, point, &beside, inverse, diagonal));
+        }
+        loose
+    }
+
+    /// Stiffness of each degree of freedom by itself, 1 where it is not free or has none, shape (n_degrees_of_freedom).
+    pub(super) fn diagonal(&self) -> &[f64] {
+        &self.diagonal
+    }
+
+    /// The product of the inverses with the forces of a range of points from a first one on, shape (n, components) both.
+    pub(super) fn apply(&self, first: usize, forces: &[f64], motions: &mut [f64]) {
+        match self.n_components {
+            2 => self.apply_to::<2>(first, forces, motions),
+            3 => self.apply_to::<3>(first, forces, motions),
+            6 => self.apply_to::<6>(first, forces, motions),
+            n => unreachable!("no point has {n} components"),
+        }
+    }
+
+    fn apply_to<const M: usize>(&self, first: usize, forces: &[f64], motions: &mut [f64]) {
+        let inverses = self.inverses[M * M * first..].as_chunks::<M>().0;
+        let (forces, motions) = (forces.as_chunks::<M>().0, motions.as_chunks_mut::<M>().0);
+        for ((inverse, force), motion) in inverses.chunks_exact(M).zip(forces).zip(motions) {
+            for (value, row) in motion.iter_mut().zip(inverse) {
+                *value = (0..M).map(|place| row[place] * force[place]).sum();
+            }
+        }
+    }
+}
+
+/// Terms beside, by the points that they act on: few.
+fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<(u32, f64, &'a [(usize, f64)])> {
+    let layout = operator.unknowns.layout();
+    let mut of_points = Vec::new();
+    for (weight, entries) in operator.beside {
+        let mut points: Vec<u32> = entries.iter().map(|(dof, _)| layout.point(*dof)).collect();
+        points.sort_unstable();
+        points.dedup();
+        of_points.extend((points.into_iter()).map(|point| (point, *weight, entries.as_slice())));
+    }
+    of_points.sort_by_key(|(point, ..)| *point);
+    of_points
+}
+
+/// Inverts the block of a point; gives its degrees of freedom that nothing resists.
+fn invert(
+    operator: &Operator<'_>,
+    point: u32,
+    beside: &[(u32, f64, &[(usize, f64)])],
+    inverse: &mut [f64],
+    diagonal: &mut [f64],
+) -> Vec<usize> {
+    let n = operator.n_components();
+    let dofs = operator.unknowns.layout().range(point);
+    let mut block = vec![0.0; n * n];
+    operator.add_blocks(point, &[], &mut block);
+    let from = beside.partition_point(|it| it.0 < point);
+    for (_, weight, entries) in beside[from..].iter().take_while(|it| it.0 == point) {
+        let own = || entries.iter().filter(|(dof, _)| dofs.contains(dof));
+        for (row, one) in own() {
+            for (column, other) in own() {
+                block[(row - dofs.start) * n + column - dofs.start] += weight * one * other;
+            }
+        }
+    }
+    let free: Vec<usize> = (0..n)
+        .filter(|&place| operator.free[dofs.start + place])
+        .collect();
+    for (place, value) in diagonal.iter_mut().enumerate() {
+        let own = block[place * (n + 1)];
+        *value = if free.contains(&place) && own > 0.0 {
+            own
+        } else {
+            1.0
+        };
+    }
+    inverse.fill(0.0);
+    let vanishing = invert_among(&free, n, &block, inverse);
+    vanishing.into_iter().map(|it| dofs.start + it).collect()
+}
+
+/// Inverts the rows and columns `free` of a symmetric block (n, n); gives those whose pivots vanish or are negative, if any, and then
+/// no inverse.
+fn invert_among(free: &[usize], n: usize, block: &[f64], inverse: &mut [f64]) -> Option<usize> {
+    let size = free.len();
+    let at = |row: usize, column: usize| block[free[row] * n + free[column]];
+    let mut lower = vec![0.0; size * size];
+    for column in 0..size {
+        for row in column..size {
+            let known: f64 = (0..column)
+                .map(|k| lower[row * size + k] * lower[column * size + k])
+                .sum();
+            let rest = at(row, column) - known;
+            if row > column {
+                lower[row * size + column] = rest / lower[column * size + column];
+            } else if rest > VANISHING_PIVOT * at(row, row).abs() {
+                lower[row * size + row] = rest.sqrt();
+            } else {
+                return Some(free[column]);
+            }
+        }
+    }
+    for unit in 0..size {
+        let mut x = vec![0.0; size];
+        for row in unit..size {
+            let known: f64 = (unit..row).map(|k| lower[row * size + k] * x[k]).sum();
+            x[row] = (f64::from(u8::from(row == unit)) - known) / lower[row * size + row];
+        }
+        for row in (0..size).rev() {
+            let known: f64 = (row + 1..size).map(|k| lower[k * size + row] * x[k]).sum();
+            x[row] = (x[row] - known) / lower[row * size + row];
+        }
+        for (row, value) in x.into_iter().enumerate() {
+            inverse[free[row] * n + free[unit]] = value;
+        }
+    }
+    None
+}

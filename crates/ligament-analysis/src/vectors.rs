@@ -1,0 +1,27 @@
+//! Arithmetic on long arrays whose bits depend on nothing but the arrays: sums go in a fixed order, whatever the number of threads.
+
+use rayon::prelude::*;
+
+/// Entries that are added up by one thread in one go.
+pub(crate) const CHUNK: usize = 4096;
+
+/// The scalar product of two arrays of the same shape, by sums of every eighth product: one after the other, additions would wait for each
+/// other.
+pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
+    let ((ones, rest), (others, of_rest)) = (one.as_chunks::<8>(), other.as_chunks::<8>());
+    let mut sums = [0.0; 8];
+    for (one, other) in ones.iter().zip(others) {
+        for ((sum, a), b) in sums.iter_mut().zip(one).zip(other) {
+            *sum += a * b;
+        }
+    }
+    let rest = rest.iter().zip(of_rest).map(|(a, b)| a * b);
+    sums.into_iter().chain(rest).sum()
+}
+
+/// The scalar product of two arrays of the same shape, of chunks on all threads.
+pub(crate) fn dot_of_chunks(one: &[f64], other: &[f64]) -> f64 {
+    let chunks = one.par_chunks(CHUNK).zip(other.par_chunks(CHUNK));
+    let sums: Vec<f64> = chunks.map(|(one, other)| dot(one, other)).collect();
+    sums.iter().sum()
+}
