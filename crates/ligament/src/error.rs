@@ -308,8 +308,8 @@ pub enum Fault {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
-     (direction {:.2}, {:.2}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
-     a horizon factor of 3", places[0], places[1], along[0], along[1]
+     (direction {}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
+     a horizon factor of 3", places[0], places[1], direction(along)
 )]
 pub struct Torn {
     /// Number of parts by the bonds.
@@ -319,13 +319,18 @@ pub struct Torn {
     /// Ends of a side of a cell that lie in two parts, in words.
     pub places: [String; 2],
     /// Direction of the side, without sign.
-    pub along: [f64; 2],
+    pub along: Vec<f64>,
     /// Length of the side, m.
     pub length: f64,
     /// Horizon of its ends, m.
     pub horizon: f64,
     /// The horizon that the side needs, in words.
     pub remedy: String,
+}
+
+fn direction(cosines: &[f64]) -> String {
+    let cosines = cosines.iter().map(|it| format!("{it:.2}"));
+    cosines.collect::<Vec<_>>().join(", ")
 }
 
 /// Coordinates as errors show them.

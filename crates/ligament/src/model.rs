@@ -227,7 +227,11 @@ fn with_cut(mut absent: Vec<AbsentBond>, bonds: &BondSet, is_cut: &[bool]) -> Ve
 }
 
 /// The bonds for which `is_absent` (n_bonds) is true, as what is none.
-fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<AbsentBond> {
+pub(crate) fn absent_bonds<const D: usize>(
+    bonds: &BondSet<D>,
+    is_absent: &[bool],
+    absence: Absence,
+) -> Vec<AbsentBond> {
     (bonds.ends.iter().zip(&bonds.horizon))
         .zip(is_absent)
         .filter(|(_, is_absent)| **is_absent)

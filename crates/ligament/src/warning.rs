@@ -3,6 +3,7 @@
 use ligament_model::correction::{CorrectionReport, DomainReport, patch};
 use ligament_model::failure::Measure;
 use ligament_model::failure::softening::linear;
+use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::{ElementKind, FixedFields, Isotropic};
 use thiserror::Error;
 
@@ -157,6 +158,9 @@ pub enum Warning {
         /// Whether bonds resist rotations too.
         turns: bool,
     },
+    /// A Poisson's ratio that makes shear stiffness negative in space.
+    #[error("{0}")]
+    NegativeShearInSpace(NegativeShear),
     /// A criterion that takes the rotation of the body for sliding.
     #[error(
         "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so that where the body turns its rotation counts \
@@ -372,11 +376,7 @@ where
         ElementKind::Spring => false,
         ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => return None,
     };
-    (poisson > limit).then_some(Warning::NegativeShear {
-        poisson,
-        limit,
-        turns,
-    })
+    (poisson > limit).then(|| Dim::negative_shear(setup, poisson, turns))
 }
 
 fn poisson_and_limit<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> (f64, f64)

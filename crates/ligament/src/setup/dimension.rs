@@ -12,6 +12,7 @@ use crate::error::SetupError;
 use crate::formulation::effective_elasticity;
 use crate::model::Model;
 use crate::stage::StageWatcher;
+use crate::warning::Warning;
 
 /// The plane and space: `Dim` is a [`Dimension<2>`](Dimension) and a [`Dimension<3>`](Dimension).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +40,11 @@ pub trait Dimension<const D: usize>: 'static {
 
     /// Poisson's ratio of bonds that only resist stretch.
     fn central_poisson(section: &Self::Section) -> f64;
+
+    /// The warning of a Poisson's ratio above that of central forces; `turns` tells whether points turn.
+    fn negative_shear(setup: &Setup<D>, poisson: f64, turns: bool) -> Warning
+    where
+        Dim: Dimension<D>;
 
     /// Whether a temperature widens the section by what it does across it.
     fn widens(section: &Self::Section) -> bool;
@@ -102,6 +108,14 @@ impl Dimension<2> for Dim {
 
     fn central_poisson(Section::Plane { state, .. }: &Section) -> f64 {
         Isotropic::central_force_poisson(*state)
+    }
+
+    fn negative_shear(setup: &Setup, poisson: f64, turns: bool) -> Warning {
+        Warning::NegativeShear {
+            poisson,
+            limit: Self::central_poisson(&setup.section),
+            turns,
+        }
     }
 
     fn widens(Section::Plane { state, .. }: &Section) -> bool {

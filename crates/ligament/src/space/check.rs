@@ -6,7 +6,7 @@ use ligament_model::Elasticity;
 use ligament_model::law::rotational::RotationalScale;
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Alpha, Law, Reading, Setup};
+use crate::setup::{Action, Law, Reading, Setup, Surface};
 
 type Checked = Result<(), SetupError>;
 
@@ -25,9 +25,9 @@ impl Setup<3> {
             let reason = "faces that close are known in the plane alone so far: leave `closing` out";
             return contradiction(Field::whole("closing"), reason);
         }
-        if self.correction.alpha == Alpha::PartialVolume {
-            let reason = "cells that the horizon cuts are known in the plane alone: take `Alpha::None` or `Alpha::Length`";
-            return contradiction(Field::whole("correction").part("alpha"), reason);
+        if let Surface::Patch(_) = self.correction.surface {
+            let reason = "the patch correction is one of the plane so far: take `Surface::Domain`, `Surface::Volume` or `Surface::None`";
+            return contradiction(Field::whole("correction").part("surface"), reason);
         }
         Ok(())
     }

@@ -2,14 +2,20 @@
 
 use ligament_analysis::Component;
 use ligament_model::space::law::bbpd;
+use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::thermal::FreeStrains;
 use ligament_model::{Bonds, LumpedMass, Material, PointCloud};
 use ligament_model::space::SolidSystem;
 
 use crate::error::SetupError;
 use crate::model::Model;
-use crate::setup::{Dim, Dimension, Setup};
+use super::formulation::shear_form;
+use crate::setup::{Dim, Dimension, Horizon, Setup};
 use crate::stage::StageWatcher;
+use crate::warning::Warning;
+
+/// Horizon over the distance of points that most cases take.
+const USUAL_FACTOR: f64 = 3.0;
 
 impl Dimension<3> for Dim {
     type PreCrack = std::convert::Infallible;
@@ -28,6 +34,19 @@ impl Dimension<3> for Dim {
 
     fn central_poisson((): &()) -> f64 {
         bbpd::POISSON
+    }
+
+    fn negative_shear(setup: &Setup<3>, poisson: f64, _: bool) -> Warning {
+        let horizon_factor = match setup.horizon {
+            Horizon::Factor(factor) => factor,
+            // A horizon of one length has no factor: it is taken for the usual one.
+            Horizon::Length(_) => USUAL_FACTOR,
+        };
+        Warning::NegativeShearInSpace(NegativeShear::new(
+            poisson,
+            shear_form(&setup.law),
+            horizon_factor,
+        ))
     }
 
     fn widens((): &()) -> bool {

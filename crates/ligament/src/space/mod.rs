@@ -4,3 +4,4 @@ mod check;
 mod dimension;
 mod formulation;
 mod model;
+mod soundness;
