@@ -113,7 +113,7 @@ impl Dimension<2> for Dim {
     fn negative_shear(setup: &Setup, poisson: f64, turns: bool) -> Warning {
         Warning::NegativeShear {
             poisson,
-            limit: Self::central_poisson(&setup.section),
+            limit: <Dim as Dimension<2>>::central_poisson(&setup.section),
             turns,
         }
     }
