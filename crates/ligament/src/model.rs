@@ -6,7 +6,9 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
-use ligament_model::correction::{Continuum, Correction, CorrectionReport, StrainMode, energy_ratios};
+use ligament_model::correction::{
+    Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
+};
 use ligament_model::failure::Criteria;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,

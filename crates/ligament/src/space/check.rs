@@ -22,7 +22,8 @@ impl Setup<3> {
             }
         }
         if self.closing {
-            let reason = "faces that close are known in the plane alone so far: leave `closing` out";
+            let reason =
+                "faces that close are known in the plane alone so far: leave `closing` out";
             return contradiction(Field::whole("closing"), reason);
         }
         if let Surface::Patch(_) = self.correction.surface {
@@ -35,7 +36,11 @@ impl Setup<3> {
     fn check_law(&self) -> Checked {
         let law = Field::whole("law");
         match self.law {
-            Law::Nhpd | Law::Bbpd { .. } | Law::Pds { .. } | Law::Mppd { .. } | Law::MppdBeam { .. } => {}
+            Law::Nhpd
+            | Law::Bbpd { .. }
+            | Law::Pds { .. }
+            | Law::Mppd { .. }
+            | Law::MppdBeam { .. } => {}
             Law::BbpdConical { .. } | Law::Orthotropic { .. } | Law::MbbPd { .. } => {
                 let reason = format!(
                     "\"{}\" is a law of the plane: solids take \"nhpd\", \"mppd\", \"mppd-beam\", \"pds\" or \"bbpd\"",
@@ -55,7 +60,8 @@ impl Setup<3> {
 
     /// Points of a solid turn about three axes.
     fn check_motions(&self) -> Checked {
-        let reason = "a solid turns about three axes: give `rotation_x`, `rotation_y` or `rotation_z`";
+        let reason =
+            "a solid turns about three axes: give `rotation_x`, `rotation_y` or `rotation_z`";
         for (index, support) in self.supports.iter().enumerate() {
             let springs = support.stiffness.components.rotation.is_some();
             if springs || support.held.contains(&Component::Rotation) {

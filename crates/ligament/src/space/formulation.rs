@@ -162,9 +162,9 @@ pub(super) fn criteria(
         let field = Field::element("criteria", place);
         match reason {
             NoSolidLimit::NoLimit(no_limit) => field.error(Fault::NoLimit(no_limit)),
-            NoSolidLimit::PlaneOnly(reason) => {
-                field.part("kind").error(Fault::Contradiction(reason.to_string().into()))
-            }
+            NoSolidLimit::PlaneOnly(reason) => field
+                .part("kind")
+                .error(Fault::Contradiction(reason.to_string().into())),
         }
     })
 }
