@@ -12,6 +12,8 @@ pub mod meshes;
 pub mod modal;
 pub mod numbers;
 pub mod problems;
+pub mod solid_run;
+pub mod solids;
 pub mod table;
 pub mod trusses;
 

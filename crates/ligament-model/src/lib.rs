@@ -42,6 +42,7 @@ pub mod scatter;
 pub mod shape;
 pub mod space;
 pub mod stress;
+pub mod surfaces;
 pub mod sweep;
 pub mod system;
 pub mod thermal;

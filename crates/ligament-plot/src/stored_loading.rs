@@ -26,7 +26,7 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     let control = case.get("fracture").and_then(|it| it.get("control"));
     let first = case.get("load").and_then(|loads| loads.get(0));
     let given = |key: &str| first.and_then(|load| load.get(key));
-    let moves = |motion: &toml::Value| motion.get("x").or(motion.get("y")).is_some();
+    let moves = |motion: &toml::Value| ["x", "y", "z"].iter().any(|it| motion.get(it).is_some());
     let turns = given("displacement").is_some_and(|motion| !moves(motion));
     let units = if first.is_none() {
         Units::TEMPERATURE

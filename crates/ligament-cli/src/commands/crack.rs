@@ -6,8 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
-use ligament_output::results::steps::StepChoice;
-use ligament_output::results::{CRACK_FILES, write_cracks};
+use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
+use ligament_output::results::steps::{StepChoice, StepName};
+use ligament_output::results::{
+    CRACK_FILES, SURFACE_FILES, write_cracks, write_series, write_surface,
+};
 
 use crate::terminal;
 
@@ -18,7 +21,11 @@ Examples:
 
 Writes crack.csv and crack.vtu (the lines of the step), crack_tips.csv (the tips over the load) and crack_growth.csv (length,
 area and energy release rate over the load) into the folder. A crack runs along the faces between the cells of points
-whose bond broke; what is nearer than a horizon is one crack, and what stays shorter is none.";
+whose bond broke; what is nearer than a horizon is one crack, and what stays shorter is none.
+
+Of a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, opened.vtu has the cells of
+a mesh opened along it, and crack_growth.csv its area over the load. --step all writes the surface and the opened cells of all
+stored steps, crack.pvd and opened.pvd.";
 
 /// `ligament crack`.
 #[derive(Debug, Args)]
@@ -26,7 +33,7 @@ pub struct CrackArgs {
     /// The folder with the results of a run
     #[arg(value_name = "RESULT")]
     pub results: PathBuf,
-    /// Step of the lines: a number, first (breakage), peak or last
+    /// Step of the crack: a number, first (breakage), peak or last; of a solid also all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
 }
@@ -34,6 +41,9 @@ pub struct CrackArgs {
 impl CrackArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
+        if has_solid(&self.results)? {
+            return self.surface();
+        }
         anyhow::ensure!(
             self.step != StepChoice::All,
             "the lines are those of one step; tips and lengths of all steps are in {} and {}",
@@ -69,6 +79,75 @@ impl CrackArgs {
             out,
             "{} in {}",
             CRACK_FILES.join(", "),
+            self.results.display()
+        )?)
+    }
+}
+
+/// Parts of a surface that are told one by one.
+const TOLD: usize = 10;
+
+impl CrackArgs {
+    /// The crack of a solid.
+    fn surface(self) -> anyhow::Result<()> {
+        let cracks = SolidCracks::open(&self.results)?;
+        let mut out = terminal::stdout();
+        let choice = match self.step {
+            StepChoice::All => {
+                let count = write_series(&self.results, &cracks)?;
+                writeln!(out, "{count} steps in crack.pvd and opened.pvd")?;
+                StepChoice::One(StepName::Last)
+            }
+            one => one,
+        };
+        let steps = choice.steps(&self.results, &cracks.steps())?;
+        let step = steps.first().map_or(0, |it| it.step);
+        let surface = write_surface(&self.results, &cracks, step)?;
+        let parts = surface.parts();
+        let (area, count) = (quantity(surface.area(), "m^2"), parts.len());
+        writeln!(
+            out,
+            "step {step}: crack surface of {area} in {count} part(s)"
+        )?;
+        if let Some(plane) = surface.best_plane() {
+            let [x, y, z] = plane.normal.map(|it| format!("{it:.3}"));
+            let away = quantity(plane.largest_distance, "m");
+            writeln!(
+                out,
+                "  best plane with the normal ({x}, {y}, {z}): the surface is {away} from it at most"
+            )?;
+        }
+        for (number, part) in (1..).zip(&parts).take(TOLD) {
+            let [low, high] = part.extent;
+            let sides = [0, 1, 2].map(|axis| quantity(high[axis] - low[axis], "m"));
+            let precrack = match part.precrack > 0.0 {
+                true => format!(", with {} of a pre-crack", quantity(part.precrack, "m^2")),
+                false => String::new(),
+            };
+            let area = quantity(part.area, "m^2");
+            writeln!(
+                out,
+                "  {number:<3} {area}, extent {}{precrack}",
+                sides.join(" x ")
+            )?;
+        }
+        if count > TOLD {
+            let rest = parts[TOLD..].iter().map(|it| it.area).sum::<f64>();
+            writeln!(
+                out,
+                "  and {} smaller parts of {} together",
+                count - TOLD,
+                quantity(rest, "m^2")
+            )?;
+        }
+        let names = SURFACE_FILES
+            .into_iter()
+            .filter(|it| self.results.join(it).is_file());
+        let names: Vec<&str> = names.collect();
+        Ok(writeln!(
+            out,
+            "{} in {}",
+            names.join(", "),
             self.results.display()
         )?)
     }

@@ -17,35 +17,74 @@ pub enum SolidCell {
     Pyramid([u32; 5]),
 }
 
-/// Places of the corners of each face among those of its cell, counter-clockwise seen from outside; three or four count.
-type FaceTable = &'static [&'static [usize]];
+/// Places of the corners of each face among those of its cell, counter-clockwise seen from outside: first those of triangles, then
+/// those of quadrangles.
+type Faces = (&'static [[usize; 3]], &'static [[usize; 4]]);
 
-const TETRAHEDRON: FaceTable = &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]];
-const HEXAHEDRON: FaceTable = &[
-    &[0, 3, 2, 1],
-    &[4, 5, 6, 7],
-    &[0, 1, 5, 4],
-    &[1, 2, 6, 5],
-    &[2, 3, 7, 6],
-    &[3, 0, 4, 7],
+const FACES_OF_TETRAHEDRON: Faces = (&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], &[]);
+const FACES_OF_HEXAHEDRON: Faces = (
+    &[],
+    &[
+        [0, 3, 2, 1],
+        [4, 5, 6, 7],
+        [0, 1, 5, 4],
+        [1, 2, 6, 5],
+        [2, 3, 7, 6],
+        [3, 0, 4, 7],
+    ],
+);
+const FACES_OF_PRISM: Faces = (
+    &[[0, 2, 1], [3, 4, 5]],
+    &[[0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
+);
+const FACES_OF_PYRAMID: Faces = (
+    &[[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+    &[[0, 3, 2, 1]],
+);
+
+/// Places of the ends of each edge among the corners of its cell.
+type Edges = &'static [[usize; 2]];
+
+const EDGES_OF_TETRAHEDRON: Edges = &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+const EDGES_OF_HEXAHEDRON: Edges = &[
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [4, 5],
+    [5, 6],
+    [6, 7],
+    [7, 4],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
 ];
-const PRISM: FaceTable = &[
-    &[0, 2, 1],
-    &[3, 4, 5],
-    &[0, 1, 4, 3],
-    &[1, 2, 5, 4],
-    &[2, 0, 3, 5],
+const EDGES_OF_PRISM: Edges = &[
+    [0, 1],
+    [1, 2],
+    [2, 0],
+    [3, 4],
+    [4, 5],
+    [5, 3],
+    [0, 3],
+    [1, 4],
+    [2, 5],
 ];
-const PYRAMID: FaceTable = &[
-    &[0, 3, 2, 1],
-    &[0, 1, 4],
-    &[1, 2, 4],
-    &[2, 3, 4],
-    &[3, 0, 4],
+const EDGES_OF_PYRAMID: Edges = &[
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [0, 4],
+    [1, 4],
+    [2, 4],
+    [3, 4],
 ];
 
 impl SolidCell {
     /// The corner nodes of the cell.
+    #[inline]
     pub fn corners(&self) -> &[u32] {
         match self {
             SolidCell::Tetrahedron(corners) => corners,
@@ -76,38 +115,41 @@ impl SolidCell {
         }
     }
 
-    fn face_table(&self) -> FaceTable {
-        match self {
-            SolidCell::Tetrahedron(_) => TETRAHEDRON,
-            SolidCell::Hexahedron(_) => HEXAHEDRON,
-            SolidCell::Prism(_) => PRISM,
-            SolidCell::Pyramid(_) => PYRAMID,
-        }
-    }
-
     /// The faces of the cell, their corners counter-clockwise seen from outside.
-    pub fn faces(&self) -> impl ExactSizeIterator<Item = Cell> + use<> {
+    #[inline]
+    pub fn faces(&self) -> impl Iterator<Item = Cell> + use<> {
         let cell = *self;
-        (0..self.face_table().len()).map(move |place| cell.face(place))
-    }
-
-    /// The face at a place among those of the cell.
-    pub(crate) fn face(&self, place: usize) -> Cell {
-        let (corners, places) = (self.corners(), self.face_table()[place]);
-        match *places {
-            [a, b, c, d] => Cell::Quadrangle([a, b, c, d].map(|place| corners[place])),
-            _ => Cell::Triangle([0, 1, 2].map(|place| corners[places[place]])),
-        }
+        let (triangles, quadrangles) = match self {
+            SolidCell::Tetrahedron(_) => FACES_OF_TETRAHEDRON,
+            SolidCell::Hexahedron(_) => FACES_OF_HEXAHEDRON,
+            SolidCell::Prism(_) => FACES_OF_PRISM,
+            SolidCell::Pyramid(_) => FACES_OF_PYRAMID,
+        };
+        let triangles = triangles.iter().map(move |places| {
+            let corners = cell.corners();
+            Cell::Triangle(places.map(|place| corners[place]))
+        });
+        let quadrangles = quadrangles.iter().map(move |places| {
+            let corners = cell.corners();
+            Cell::Quadrangle(places.map(|place| corners[place]))
+        });
+        triangles.chain(quadrangles)
     }
 
     /// The edges of the cell, each once, from the lower to the higher node.
+    #[inline]
     pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
-        // Every edge bounds two faces, which go along it in opposite directions.
-        let sides = |face: Cell| {
-            let n = face.corners().len();
-            (0..n).map(move |k| [face.corners()[k], face.corners()[(k + 1) % n]])
+        let cell = *self;
+        let edges = match self {
+            SolidCell::Tetrahedron(_) => EDGES_OF_TETRAHEDRON,
+            SolidCell::Hexahedron(_) => EDGES_OF_HEXAHEDRON,
+            SolidCell::Prism(_) => EDGES_OF_PRISM,
+            SolidCell::Pyramid(_) => EDGES_OF_PYRAMID,
         };
-        self.faces().flat_map(sides).filter(|[a, b]| a < b)
+        edges.iter().map(move |places| {
+            let [a, b] = places.map(|place| cell.corners()[place]);
+            [a.min(b), a.max(b)]
+        })
     }
 
     /// The volume of the cell with the nodes at `positions`, m³; negative where it is turned inside out.
@@ -119,6 +161,10 @@ impl SolidCell {
     /// If a corner is no index into `positions`.
     pub fn volume(&self, positions: &[[f64; 3]]) -> f64 {
         // Differences keep the digits of a cell far from the origin.
+        if let SolidCell::Tetrahedron(corners) = self {
+            let [o, a, b, c] = corners.map(|node| positions[node as usize]);
+            return determinant(difference(a, o), difference(b, o), difference(c, o)) / 6.0;
+        }
         let origin = positions[self.corners()[0] as usize];
         let at = |node: u32| difference(positions[node as usize], origin);
         let over = |a, b, c| determinant(at(a), at(b), at(c));

@@ -22,10 +22,6 @@ pub struct Side {
     pub cell: u32,
 }
 
-/// What tells faces of one lowest node apart: the other corners from the one beside it that has the lower number to that which
-/// has the higher, with none for the last of a triangle; and whether the face goes through them in this order.
-type Key = ([u32; 3], bool);
-
 impl<'a> Faces<'a> {
     /// The faces of cells on `n_nodes` nodes.
     ///
@@ -34,8 +30,10 @@ impl<'a> Faces<'a> {
     /// If a corner is no index below `n_nodes`, or there are more than 2^32 cells.
     pub fn new(cells: &'a [SolidCell], n_nodes: usize) -> Self {
         let mut offsets = vec![0; n_nodes + 1];
-        for node in cells.iter().flat_map(lowest_nodes) {
-            offsets[node as usize + 1] += 1;
+        for cell in cells {
+            for face in cell.faces() {
+                offsets[lowest(&face) as usize + 1] += 1;
+            }
         }
         for node in 0..n_nodes {
             offsets[node + 1] += offsets[node];
@@ -43,8 +41,8 @@ impl<'a> Faces<'a> {
         let mut next = offsets.clone();
         let mut entries = vec![(0, 0); offsets[n_nodes]];
         for (number, cell) in (0..).zip(cells) {
-            for (place, node) in (0..).zip(lowest_nodes(cell)) {
-                let free = &mut next[node as usize];
+            for (place, face) in (0..).zip(cell.faces()) {
+                let free = &mut next[lowest(&face) as usize];
                 entries[*free] = (number, place);
                 *free += 1;
             }
@@ -59,18 +57,19 @@ impl<'a> Faces<'a> {
     /// The sides of cells that are this face, whatever the order of its corners around it, by the number of their cells: none, one
     /// on the outline, two inside.
     pub fn sides_at(&self, face: &Cell) -> Vec<Side> {
-        let lowest = face.corners().iter().copied().min().unwrap_or_default();
-        let (wanted, _) = key(face);
-        let sides = self.sides_of(lowest);
-        sides.filter(|side| key(&side.face).0 == wanted).collect()
+        let wanted = around(face) >> ORIENTATION;
+        let sides = self.sides_of(lowest(face));
+        sides
+            .filter(|side| around(&side.face) >> ORIENTATION == wanted)
+            .collect()
     }
 
     /// The faces that one cell has alone, by their lowest node.
     pub fn outer(&self) -> Vec<Side> {
         let mut outer = Vec::new();
-        self.for_each(|sides| {
-            if let [(_, side)] = sides {
-                outer.push(*side);
+        self.for_each(|keys, sides| {
+            if let [key] = keys {
+                outer.push(sides[place(*key)]);
             }
         });
         outer
@@ -78,12 +77,14 @@ impl<'a> Faces<'a> {
 
     /// The first two cells found on the same side of a common face: one of them covers some of the other.
     pub(crate) fn first_overlap(&self) -> Option<[u32; 2]> {
-        let mut found: Option<[u32; 2]> = None;
-        self.for_each(|sides| {
+        let mut found = None;
+        self.for_each(|keys, sides| {
             // Neighbours go around their common face in opposite directions.
-            let alike = sides.windows(2).find(|pair| pair[0].0 == pair[1].0);
+            let mut pairs = keys.windows(2);
+            let alike = pairs.find(|pair| pair[0] >> PLACE == pair[1] >> PLACE);
             if let (Some(pair), None) = (alike, found) {
-                found = Some([pair[0].1.cell, pair[1].1.cell]);
+                let cells = [pair[0], pair[1]].map(|key| sides[place(key)].cell);
+                found = Some([cells[0].min(cells[1]), cells[0].max(cells[1])]);
             }
         });
         found
@@ -91,50 +92,73 @@ impl<'a> Faces<'a> {
 
     fn sides_of(&self, lowest: u32) -> impl Iterator<Item = Side> + '_ {
         let range = self.offsets[lowest as usize]..self.offsets[lowest as usize + 1];
-        self.entries[range].iter().map(|&(cell, place)| Side {
-            face: self.cells[cell as usize].face(place as usize),
-            cell,
+        let sides = self.entries[range].iter();
+        sides.filter_map(|&(cell, place)| {
+            let face = self.cells[cell as usize].faces().nth(place as usize)?;
+            Some(Side { face, cell })
         })
     }
 
-    /// Calls a function with the sides at each face, in the order of the lowest nodes.
-    fn for_each(&self, mut call: impl FnMut(&[(Key, Side)])) {
-        let mut sides: Vec<(Key, Side)> = Vec::new();
+    /// Calls a function with the sides at each lowest node, in order, and the keys of those of one face.
+    fn for_each(&self, mut call: impl FnMut(&[u128], &[Side])) {
+        let (mut sides, mut keys) = (Vec::new(), Vec::new());
         for lowest in 0..self.offsets.len() as u32 - 1 {
             sides.clear();
-            sides.extend(self.sides_of(lowest).map(|side| (key(&side.face), side)));
-            sides.sort_unstable_by_key(|(key, side)| (*key, side.cell));
-            for at_face in sides.chunk_by(|one, other| one.0.0 == other.0.0) {
-                call(at_face);
+            sides.extend(self.sides_of(lowest));
+            keys.clear();
+            let numbered = (0..).zip(&sides);
+            keys.extend(
+                numbered.map(|(place, side): (u128, &Side)| around(&side.face) << PLACE | place),
+            );
+            keys.sort_unstable();
+            for at_face in
+                keys.chunk_by(|a, b| a >> (PLACE + ORIENTATION) == b >> (PLACE + ORIENTATION))
+            {
+                call(at_face, &sides);
             }
         }
     }
 }
 
-fn lowest_nodes(cell: &SolidCell) -> impl Iterator<Item = u32> {
-    let lowest = |face: Cell| face.corners().iter().copied().min().unwrap_or_default();
-    cell.faces().map(lowest)
+/// Bits of a key for the orientation of a face.
+const ORIENTATION: u32 = 1;
+
+/// Bits of a key for the place of a side among those at a node: nodes with more cells than this make no mesh.
+const PLACE: u32 = 31;
+
+fn place(key: u128) -> usize {
+    (key & ((1 << PLACE) - 1)) as usize
 }
 
-fn key(face: &Cell) -> Key {
-    let ordered = |first: u32, middle: u32, last: u32| match first < last {
-        true => ([first, middle, last], true),
-        false => ([last, middle, first], false),
+fn lowest(face: &Cell) -> u32 {
+    match *face {
+        Cell::Triangle([a, b, c]) => a.min(b).min(c),
+        Cell::Quadrangle([a, b, c, d]) => a.min(b).min(c).min(d),
+    }
+}
+
+/// What tells faces of one lowest node apart: the other corners from the one beside it that has the lower number to that which has
+/// the higher, zero for the one between them of a triangle, 32 bits each; and a bit for whether the face goes through them in this
+/// order.
+fn around(face: &Cell) -> u128 {
+    let ordered = |first: u32, middle: u32, last: u32| {
+        let (low, high) = (first.min(last), first.max(last));
+        let corners = u128::from(low) << 64 | u128::from(middle) << 32 | u128::from(high);
+        corners << ORIENTATION | u128::from(first < last)
     };
     match *face {
         Cell::Triangle([a, b, c]) => {
-            let [first, last] = match a.min(b).min(c) {
-                lowest if lowest == a => [b, c],
-                lowest if lowest == b => [c, a],
-                _ => [a, b],
-            };
-            ordered(first, u32::MAX, last)
+            if a < b && a < c {
+                ordered(b, 0, c)
+            } else if b < c {
+                ordered(c, 0, a)
+            } else {
+                ordered(a, 0, b)
+            }
         }
         Cell::Quadrangle(corners) => {
-            let lowest = (0..4)
-                .min_by_key(|&place| corners[place])
-                .unwrap_or_default();
-            let after = |steps: usize| corners[(lowest + steps) % 4];
+            let lowest = (0..4).min_by_key(|&place| corners[place]);
+            let after = |steps: usize| corners[(lowest.unwrap_or_default() + steps) % 4];
             ordered(after(1), after(2), after(3))
         }
     }

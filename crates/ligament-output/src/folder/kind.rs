@@ -10,18 +10,23 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run whose names do not vary.
-const OF_A_RUN: [&str; 17] = [
+const OF_A_RUN: [&str; 22] = [
     RESOLVED_CASE,
     "breaks.csv",
     "crack.csv",
+    "crack.pvd",
+    "crack.stl",
     "crack.vtu",
     "crack_growth.csv",
     "crack_tips.csv",
     "criteria.csv",
     "history.csv",
     "iterations.csv",
+    "iso.vtu",
     "model.vtu",
     "modes.csv",
+    "opened.pvd",
+    "opened.vtu",
     "softening.csv",
     "summary.json",
     "timings.csv",
@@ -31,7 +36,7 @@ const OF_A_RUN: [&str; 17] = [
 ];
 
 /// Files of a run that have a number, by what stands before it.
-const NUMBERED: [&str; 3] = ["fields_", "bonds_", "mode_"];
+const NUMBERED: [&str; 5] = ["fields_", "bonds_", "mode_", "crack_", "opened_"];
 
 /// A kind of result folder.
 #[derive(Debug, Clone, Copy)]

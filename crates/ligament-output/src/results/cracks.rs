@@ -31,7 +31,7 @@ pub struct StoredCracks {
 
 /// The moment from which a face is open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Moment {
+pub(super) enum Moment {
     /// A bond broke, at this place in the order of all breakages, from 1.
     Breakage(usize),
     /// A bond that softens opened in this step.
@@ -152,20 +152,7 @@ impl StoredCracks {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
             open.count()
         };
-        let mut before = 0;
-        let mut grown: Vec<&CrackRecord> = Vec::new();
-        for record in &self.records {
-            let now = open(record);
-            if now > before {
-                grown.push(record);
-            }
-            before = now;
-        }
-        let stride = grown.len().div_ceil(MOST_RECORDS).max(1);
-        let last = grown.len().saturating_sub(1);
-        let numbered = grown.into_iter().enumerate();
-        let chosen = numbered.filter(|(place, _)| (last - place).is_multiple_of(stride));
-        chosen.map(|(_, record)| record).collect()
+        grown(&self.records, open, MOST_RECORDS)
     }
 
     /// Mean horizon of the points, m.
@@ -177,6 +164,28 @@ impl StoredCracks {
     pub fn steps(&self) -> Vec<usize> {
         self.records.iter().map(|it| it.step).collect()
     }
+}
+
+/// The records in which more is open than in the one before; of very many an even choice, with the last.
+pub(super) fn grown(
+    records: &[CrackRecord],
+    open: impl Fn(&CrackRecord) -> usize,
+    most: usize,
+) -> Vec<&CrackRecord> {
+    let mut before = 0;
+    let mut grown: Vec<&CrackRecord> = Vec::new();
+    for record in records {
+        let now = open(record);
+        if now > before {
+            grown.push(record);
+        }
+        before = now;
+    }
+    let stride = grown.len().div_ceil(most).max(1);
+    let last = grown.len().saturating_sub(1);
+    let numbered = grown.into_iter().enumerate();
+    let chosen = numbered.filter(|(place, _)| (last - place).is_multiple_of(stride));
+    chosen.map(|(_, record)| record).collect()
 }
 
 impl From<&StepRecord> for CrackRecord {
@@ -195,14 +204,14 @@ impl From<&StepRecord> for CrackRecord {
 
 impl CrackRecord {
     /// Whether something has happened in its state. On the exact path that is the one before the breakages of its event.
-    fn is_after(&self, moment: Moment) -> bool {
+    pub(super) fn is_after(&self, moment: Moment) -> bool {
         match moment {
             Moment::Breakage(order) => order <= self.broken_bonds,
             Moment::Step(step) => step <= self.step,
         }
     }
 
-    fn read(row: Row<'_>) -> Result<Self, Error> {
+    pub(super) fn read(row: Row<'_>) -> Result<Self, Error> {
         Ok(Self {
             step: row.value("step")?,
             load_factor: row.number("load_factor")?,
@@ -216,7 +225,7 @@ impl CrackRecord {
 }
 
 /// Tags of the ends of the broken bonds, in the order of breaking.
-fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
+pub(super) fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
     let Some(sheet) = table(&folder.join("breaks.csv"))? else {
         return Ok(Vec::new());
     };
@@ -224,7 +233,7 @@ fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
 }
 
 /// Tags of the ends of the bonds that opened as they softened, with the moment.
-fn softened_pairs(folder: &Path) -> Result<Vec<([i64; 2], Moment)>, Error> {
+pub(super) fn softened_pairs(folder: &Path) -> Result<Vec<([i64; 2], Moment)>, Error> {
     let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
         return Ok(Vec::new());
     };

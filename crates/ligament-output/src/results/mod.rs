@@ -21,13 +21,17 @@ mod grid;
 mod largest;
 mod model_file;
 mod modes;
+mod opened_files;
 pub mod outputs;
 mod point_fields;
 mod rule;
 mod so_far;
 mod softening_table;
+pub mod solid_body;
+pub mod solid_cracks;
 pub mod steps;
 pub mod stored;
+mod surface_files;
 mod tables;
 
 use ligament_analysis::driver::Problem;
@@ -50,6 +54,7 @@ pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
 use softening_table::SofteningTable;
 pub use softening_table::{OPEN, SoftenedBond, SoftenedBonds};
+pub use surface_files::{SURFACE_FILES, write_series, write_surface};
 use tables::Tables;
 pub use tables::{
     break_columns, break_row, criterion_labels, deformation_names, history_columns, history_row,

@@ -123,6 +123,25 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     Ok(Some(tagged.collect()))
 }
 
+/// The pairs of points with a bond before the first load, by the tags of their ends; None where the run wrote no model.
+///
+/// # Errors
+///
+/// If the model cannot be used.
+pub fn bonded_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
+    let path = folder.join(MODEL);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let file = VtuFile::open(path)?;
+    let absent = file.required_integers(FieldLocation::Cell, "absent")?;
+    let (_, tags) = file.tags(FieldLocation::Point)?;
+    let pairs = file.lines()?.into_iter().zip(absent);
+    let bonds = pairs.filter(|(_, absent)| *absent == 0);
+    let tagged = bonds.map(|(ends, _)| ends.map(|point| tags[point as usize]));
+    Ok(Some(tagged.collect()))
+}
+
 /// Removes the fields of a run that starts anew in its folder.
 ///
 /// # Errors

@@ -107,28 +107,31 @@ impl<'a> Skin<'a> {
         }
         let mean = [0, 1, 2].map(|axis| normals[0][axis] + normals[1][axis]);
         let turned = [[r, p, s], [s, q, r]].map(|nodes| self.normal(nodes));
-        let around = [[p, r], [p, s], [q, r], [q, s]].map(|edge| 0.5 * self.bend(ascending(edge)));
-        let is_convex = self.bend(edge) + around.iter().sum::<f64>() > 0.0;
+        let around = [[p, r], [p, s], [q, r], [q, s]];
+        let around: Vec<f64> = around
+            .iter()
+            .filter_map(|it| self.bend(ascending(*it)))
+            .collect();
+        // Each of the four is half of another pair's; sharp edges say nothing of the surface beside them.
+        let mean_bend = around.iter().sum::<f64>() / around.len().max(1) as f64;
+        let is_convex = self.bend(edge)? + 2.0 * mean_bend > 0.0;
         (is_convex && turned.iter().all(|it| is_round(*it, mean))).then_some(pair)
     }
 
     /// The length of an edge times the angle between its triangles, positive where the body is convex: a part of the integral of the
-    /// mean curvature (D. Cohen-Steiner and J.-M. Morvan, Restricted Delaunay triangulations and normal cycle, 2003). Nothing at edges
+    /// mean curvature (D. Cohen-Steiner and J.-M. Morvan, Restricted Delaunay triangulations and normal cycle, 2003). None at edges
     /// of the body itself, where the surface is not round.
-    fn bend(&self, edge: [u32; 2]) -> f64 {
-        let Some(pair) = self.pair(edge) else {
-            return 0.0;
-        };
-        let [p, q, r, s] = pair.nodes;
+    fn bend(&self, edge: [u32; 2]) -> Option<f64> {
+        let [p, q, r, s] = self.pair(edge)?.nodes;
         let [one, other] = [[p, q, r], [q, p, s]].map(|nodes| self.normal(nodes));
         let cosine = dot(one, other) / (norm(one) * norm(other));
         if cosine <= ROUND {
-            return 0.0;
+            return None;
         }
         let sine = dot(cross(one, other), minus(self.at(q), self.at(p)));
         let length = norm(minus(self.at(q), self.at(p)));
         let angle = (sine / (length * norm(one) * norm(other))).atan2(cosine);
-        angle * length
+        Some(angle * length)
     }
 
     fn normal(&self, [a, b, c]: [u32; 3]) -> [f64; 3] {

@@ -1,0 +1,141 @@
+//! Points that lie in a crack.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use super::sides::{Link, Links};
+use super::tetrahedra::{EDGES, Tetrahedra};
+
+/// The points beside a loose one that are on one side of it.
+#[derive(Debug, Default)]
+struct Side {
+    points: Vec<u32>,
+    /// Points among them that were loose and counted to a side.
+    counted: usize,
+    /// Distance of the nearest one.
+    nearest: f64,
+}
+
+/// The links with every point whose edges are all cut counted to one of its sides, where it has one.
+///
+/// Points are taken in the order of their numbers, and after each one its loose neighbours. The side is the one with most points
+/// that were counted before, then the one with the nearest point, then the one with the lowest point.
+pub(super) fn settled(tetrahedra: &Tetrahedra, links: &Links) -> Links {
+    let mut links = links.clone();
+    let mut loose = loose_points(tetrahedra, &links);
+    if loose.is_empty() {
+        return links;
+    }
+    let mut around: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (number, corners) in tetrahedra.corners.iter().enumerate() {
+        for point in corners.map(|node| tetrahedra.points[node as usize]) {
+            if loose.contains(&point) {
+                around.entry(point).or_default().push(number);
+            }
+        }
+    }
+    let mut counted = BTreeSet::new();
+    loop {
+        let before = loose.len();
+        for start in loose.clone() {
+            let mut queue = VecDeque::from([start]);
+            while let Some(point) = queue.pop_front() {
+                if !loose.contains(&point) {
+                    continue;
+                }
+                let near = &around[&point];
+                let Some(side) = side_of(tetrahedra, &links, (point, near), (&loose, &counted))
+                else {
+                    continue;
+                };
+                side.points
+                    .iter()
+                    .for_each(|other| links.name([point, *other], Link::Whole));
+                loose.remove(&point);
+                counted.insert(point);
+                let corners = near.iter().flat_map(|it| tetrahedra.corners[*it]);
+                queue.extend(corners.map(|node| tetrahedra.points[node as usize]));
+            }
+        }
+        // What has loose neighbours alone has no side.
+        if loose.is_empty() || loose.len() == before {
+            return links;
+        }
+    }
+}
+
+/// Points with cut edges, and none that is whole.
+fn loose_points(tetrahedra: &Tetrahedra, links: &Links) -> BTreeSet<u32> {
+    let mut has_whole = tetrahedra.held.clone();
+    let mut cut = BTreeSet::new();
+    for corners in &tetrahedra.corners {
+        for pair in EDGES.map(|ends| tetrahedra.pair(corners, ends)) {
+            match links.between(pair) {
+                Link::Whole if pair[0] != pair[1] => {
+                    pair.iter()
+                        .for_each(|point| has_whole[*point as usize] = true);
+                }
+                Link::PreCrack | Link::Open => cut.extend(pair),
+                Link::Whole | Link::Unbonded => {}
+            }
+        }
+    }
+    cut.retain(|point| !has_whole[*point as usize]);
+    cut
+}
+
+/// The side that a loose point with the tetrahedra near it is counted to.
+fn side_of(
+    tetrahedra: &Tetrahedra,
+    links: &Links,
+    (point, near): (u32, &[usize]),
+    (loose, counted): (&BTreeSet<u32>, &BTreeSet<u32>),
+) -> Option<Side> {
+    let mut side: BTreeMap<u32, u32> = BTreeMap::new();
+    let mut distance: BTreeMap<u32, f64> = BTreeMap::new();
+    let places = |number: &usize| {
+        tetrahedra.corners[*number].map(|node| (tetrahedra.points[node as usize], node))
+    };
+    let own = near.iter().flat_map(places).find(|it| it.0 == point)?.1;
+    let here = tetrahedra.nodes[own as usize];
+    for (other, node) in near.iter().flat_map(places) {
+        if other != point && !loose.contains(&other) {
+            let there = tetrahedra.nodes[node as usize];
+            let squares = (0..3).map(|axis| (there[axis] - here[axis]).powi(2));
+            let length = squares.sum::<f64>().sqrt();
+            side.entry(other).or_insert(other);
+            distance
+                .entry(other)
+                .and_modify(|it| *it = it.min(length))
+                .or_insert(length);
+        }
+    }
+    for number in near {
+        for [a, b] in EDGES.map(|ends| tetrahedra.pair(&tetrahedra.corners[*number], ends)) {
+            let (Some(&of_a), Some(&of_b)) = (side.get(&a), side.get(&b)) else {
+                continue;
+            };
+            if of_a != of_b && links.between([a, b]) == Link::Whole {
+                let (low, high) = (of_a.min(of_b), of_a.max(of_b));
+                side.values_mut()
+                    .filter(|it| **it == high)
+                    .for_each(|it| *it = low);
+            }
+        }
+    }
+    let mut sides: BTreeMap<u32, Side> = BTreeMap::new();
+    for (other, of) in &side {
+        let first = Side {
+            nearest: f64::INFINITY,
+            ..Side::default()
+        };
+        let of = sides.entry(*of).or_insert(first);
+        of.points.push(*other);
+        of.counted += usize::from(counted.contains(other));
+        of.nearest = of.nearest.min(distance[other]);
+    }
+    // The first of equals, which has the lowest point.
+    sides.into_values().reduce(|best, it| {
+        let order = (it.counted.cmp(&best.counted)).then(best.nearest.total_cmp(&it.nearest));
+        if order.is_gt() { it } else { best }
+    })
+}

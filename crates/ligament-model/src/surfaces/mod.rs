@@ -1,0 +1,36 @@
+//! Surfaces in a solid as triangles: its cracks, and where a field has a value.
+//!
+//! A bond model opens a crack by breaking all bonds across it. Between the points lie tetrahedra ([`Tetrahedra`]): parts of the
+//! cells of a mesh, or of the cells between the points of a lattice. An edge of a tetrahedron is *cut* where the bond of its ends
+//! has broken or a pre-crack parts them. The corners that edges without a cut connect are on one side, and where a tetrahedron
+//! has several sides the crack goes through it ([`crack_surface`]):
+//!
+//! 1. One corner against three gives a triangle, two against two a quadrangle, each through the middles of the edges between the
+//!    sides. Three and four sides meet in the middles of faces, and of the tetrahedron. Places are shared by the tetrahedra at an
+//!    edge or face: the surface is connected where the tetrahedra beside each other see the same sides.
+//! 2. An edge longer than both horizons has no bond. It connects what no bonds of its tetrahedron connected before the first load,
+//!    and nothing else.
+//! 3. A point whose edges are all cut lies in the crack: a crack on a layer of points would be two surfaces with the layer between
+//!    them. Such a point is counted to one side, the one of its neighbours in the crack that were counted before it, else that
+//!    of its nearest neighbour.
+//! 4. Middles of edges follow the cells and are jagged on their scale: each place moves along the normal of the surface towards
+//!    the mean of its neighbours ([`CrackSurface::smoothed`]).
+//!
+//! The same sides cut cells into pieces that move apart ([`opened_cells`]).
+
+mod crack;
+mod lattice;
+mod level_set;
+mod loose;
+mod measures;
+mod opened;
+mod sides;
+mod smooth;
+mod tetrahedra;
+
+pub use crack::{CrackSurface, crack_surface};
+pub use level_set::{LevelSet, level_set};
+pub use measures::{BestPlane, SurfacePart};
+pub use opened::{OpenedCells, opened_cells};
+pub use sides::{Link, Links};
+pub use tetrahedra::Tetrahedra;

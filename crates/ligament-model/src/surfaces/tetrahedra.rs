@@ -1,0 +1,75 @@
+//! The tetrahedra between the points of a solid.
+
+use super::lattice;
+use crate::grid::{BodyGrid, Canvas};
+
+/// Tetrahedra whose corners are nodes, and the points that nodes belong to.
+///
+/// In a mesh a node is a point. On a lattice a point at the outside has more nodes, on the faces of its box, so that surfaces reach
+/// the outside of the body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tetrahedra {
+    /// Positions of the nodes, shape (n_nodes), m.
+    pub nodes: Vec<[f64; 3]>,
+    /// Point that each node belongs to, shape (n_nodes).
+    pub points: Vec<u32>,
+    /// Corners of the tetrahedra, shape (n_tetrahedra).
+    pub corners: Vec<[u32; 4]>,
+    /// The cell of a mesh, or the corner of boxes, that each lies in, shape (n_tetrahedra), ascending.
+    pub cells: Vec<u32>,
+    /// Marks of points with tetrahedra that are left out here, none of whose edges is ever cut, shape (n_points).
+    pub(super) held: Vec<bool>,
+}
+
+/// Places of the ends of the edges among the corners of a tetrahedron.
+pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+
+impl Tetrahedra {
+    /// The tetrahedra of a body; none in the plane, and of boxes that do not fit together.
+    pub fn new(grid: &BodyGrid) -> Self {
+        match &grid.canvas {
+            Canvas::Solid(cells) => {
+                let numbered = (0..).zip(cells);
+                let all = numbered.flat_map(|(cell, it)| it.tetrahedra().map(move |of| (of, cell)));
+                let (corners, cells) = all.unzip();
+                Self {
+                    nodes: grid.positions.clone(),
+                    points: (0..grid.positions.len() as u32).collect(),
+                    corners,
+                    cells,
+                    held: vec![false; grid.positions.len()],
+                }
+            }
+            Canvas::Boxes(boxes) => lattice::between_boxes(boxes),
+            Canvas::Between(_) | Canvas::Around(_) => Self::default(),
+        }
+    }
+
+    /// Those that have an edge between two points for which this holds, with the same nodes.
+    pub fn with_edges(&self, is_meant: impl Fn([u32; 2]) -> bool) -> Self {
+        let mut held = self.held.clone();
+        let mut chosen = Self {
+            nodes: self.nodes.clone(),
+            points: self.points.clone(),
+            ..Self::default()
+        };
+        for (corners, cell) in self.corners.iter().zip(&self.cells) {
+            if EDGES.iter().any(|ends| is_meant(self.pair(corners, *ends))) {
+                chosen.corners.push(*corners);
+                chosen.cells.push(*cell);
+            } else {
+                corners
+                    .iter()
+                    .for_each(|node| held[self.points[*node as usize] as usize] = true);
+            }
+        }
+        chosen.held = held;
+        chosen
+    }
+
+    /// Points at the ends of an edge of a tetrahedron, the lower one first.
+    pub(super) fn pair(&self, corners: &[u32; 4], ends: [usize; 2]) -> [u32; 2] {
+        let [a, b] = ends.map(|end| self.points[corners[end] as usize]);
+        [a.min(b), a.max(b)]
+    }
+}

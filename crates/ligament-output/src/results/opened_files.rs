@@ -1,0 +1,69 @@
+//! The cells of a solid, opened along its cracks, as a file.
+
+use std::path::Path;
+
+use ligament_model::Canvas;
+use ligament_model::surfaces::opened_cells;
+
+use super::solid_cracks::SolidCracks;
+use crate::vtu::read::VtuFile;
+use crate::vtu::{self, Cell, Field, UnstructuredGrid};
+use crate::{Error, FieldLocation};
+
+/// Fields of the points that the file has, beside the displacement.
+const FIELDS: [&str; 2] = ["damage", "strain_energy_density"];
+
+/// Whether points share cells, which can be opened; the boxes of a lattice move each with its point.
+pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
+    matches!(cracks.body.grid.canvas, Canvas::Solid(_))
+}
+
+/// Writes the cells as the crack of a step cuts them, with stored fields: corners on the crack have the mean of the points of their
+/// side.
+pub(super) fn write_opened(
+    path: &Path,
+    cracks: &SolidCracks,
+    step: usize,
+    fields: &VtuFile,
+) -> Result<(), Error> {
+    let grid = &cracks.body.grid;
+    let Canvas::Solid(cells) = &grid.canvas else {
+        return Ok(());
+    };
+    let links = cracks.links(step);
+    let opened = opened_cells((&grid.positions, cells), &cracks.tetrahedra, &links);
+    let mean = |points: &Vec<u32>, value: &dyn Fn(usize) -> f64| {
+        let sum: f64 = points.iter().map(|it| value(*it as usize)).sum();
+        sum / points.len() as f64
+    };
+    let displacement = cracks.body.vectors(fields, "displacement")?;
+    let follows = opened.follows.iter();
+    let moved: Vec<[f64; 3]> = follows
+        .map(|points| [0, 1, 2].map(|axis| mean(points, &|it| displacement[it][axis])))
+        .collect();
+    let mut named = Vec::new();
+    for name in FIELDS {
+        if let Some(values) = fields.numbers(FieldLocation::Point, name)? {
+            let follows = opened.follows.iter();
+            let values: Vec<f64> = follows
+                .map(|points| mean(points, &|it| values[it]))
+                .collect();
+            named.push((name, values));
+        }
+    }
+    let cells: Vec<Cell> = opened.cells.iter().copied().map(Cell::Solid).collect();
+    let of: Vec<i64> = opened.of.iter().map(|it| i64::from(*it)).collect();
+    let mut point_fields = vec![Field::vector("displacement", &moved)];
+    point_fields.extend(
+        named
+            .iter()
+            .map(|(name, values)| Field::scalar(name, values)),
+    );
+    let grid = UnstructuredGrid {
+        points: &opened.positions,
+        cells: &cells,
+        point_fields: &point_fields,
+        cell_fields: &[Field::integer("cell_of_mesh", &of)],
+    };
+    vtu::write_vtu(path, &grid)
+}

@@ -1,0 +1,193 @@
+//! The cracks of a stored run of a solid, as surfaces.
+
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+use ligament_model::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surface};
+
+use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
+use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};
+use super::solid_body::{SolidBody, is_solid};
+use crate::Error;
+use crate::csv::read::Sheet;
+use crate::vtu::read::VtuFile;
+
+/// A solid with the order in which a run parted its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolidCracks {
+    /// The body, with its cells or boxes.
+    pub body: SolidBody,
+    /// The tetrahedra in which something is cut at some time.
+    pub(super) tetrahedra: Tetrahedra,
+    /// What connects points before the first load, where it is no bond.
+    at_first: Links,
+    /// Pairs that parted, with the moment and the step of it, in the order of parting.
+    opened: Vec<([u32; 2], Moment, usize)>,
+    /// The rows of the history.
+    pub(super) records: Vec<CrackRecord>,
+    /// Mean horizon of the points, m.
+    mean_horizon: f64,
+}
+
+/// Records of the history of which the surface is followed at most.
+const MOST_RECORDS: usize = 200;
+
+/// Whether the body of a run is a solid.
+///
+/// # Errors
+///
+/// If the folder holds no results, or its first output cannot be read.
+pub fn has_solid(folder: &Path) -> Result<bool, Error> {
+    let outputs = Outputs::list(folder)?;
+    match outputs.files.first_key_value() {
+        Some((_, path)) => is_solid(&VtuFile::open(path)?),
+        None => Ok(false),
+    }
+}
+
+impl SolidCracks {
+    /// Reads them from the folder of a run.
+    ///
+    /// # Errors
+    ///
+    /// If the folder holds no results of a solid under loads, or a file cannot be used.
+    pub fn open(folder: &Path) -> Result<Self, Error> {
+        let outputs = Outputs::list(folder)?;
+        let first = outputs.files.first_key_value();
+        let Some((_, path)) = first.filter(|_| outputs.kind == OutputKind::Steps) else {
+            return Err(Error::NoResults {
+                path: folder.to_path_buf(),
+                reason: "it has natural modes, in which nothing breaks".to_owned(),
+            });
+        };
+        let file = VtuFile::open(path)?;
+        let body = SolidBody::read(&file)?;
+        let horizon = file.finite_numbers(body.location, "horizon")?;
+        let records = Sheet::read(folder.join("history.csv"))?.rows(CrackRecord::read)?;
+        let opened = opened(folder, &body, &records)?;
+        let cut = cut_pairs(folder)?.unwrap_or_default();
+        let cut: Vec<[u32; 2]> = cut.into_iter().filter_map(|it| body.points(it)).collect();
+        let parted: HashSet<[u32; 2]> = (opened.iter().map(|it| it.0))
+            .chain(cut.iter().copied())
+            .map(ascending)
+            .collect();
+        let tetrahedra = Tetrahedra::new(&body.grid).with_edges(|pair| parted.contains(&pair));
+        let mut at_first = unbonded(&tetrahedra, bonds_among(folder, &body, &tetrahedra)?);
+        for pair in cut {
+            at_first.name(pair, Link::PreCrack);
+        }
+        Ok(Self {
+            mean_horizon: horizon.iter().sum::<f64>() / horizon.len().max(1) as f64,
+            body,
+            tetrahedra,
+            at_first,
+            opened,
+            records,
+        })
+    }
+
+    /// What connects the points in the state of a step, or of the last one before it.
+    pub(super) fn links(&self, step: usize) -> Links {
+        let until = self.records.iter().take_while(|it| it.step <= step);
+        let mut links = self.at_first.clone();
+        if let Some(record) = until.last() {
+            let open = self.opened.iter().filter(|it| record.is_after(it.1));
+            open.for_each(|(pair, ..)| links.name(*pair, Link::Open));
+        }
+        links
+    }
+
+    /// The crack in the state of a step, smoothed.
+    pub fn surface(&self, step: usize) -> CrackSurface {
+        crack_surface(&self.tetrahedra, &self.links(step)).smoothed()
+    }
+
+    /// Step in which each pair parted.
+    pub(super) fn steps_of_parting(&self) -> HashMap<[u32; 2], usize> {
+        let opened = self.opened.iter().rev();
+        opened.map(|(pair, _, step)| (*pair, *step)).collect()
+    }
+
+    /// The records in which more pairs are parted than in the one before; of very many an even choice, with the last.
+    pub fn grown_records(&self) -> Vec<&CrackRecord> {
+        let open = |record: &CrackRecord| {
+            let open = self.opened.iter().filter(|it| record.is_after(it.1));
+            open.count()
+        };
+        grown(&self.records, open, MOST_RECORDS)
+    }
+
+    /// Mean horizon of the points, m.
+    pub fn mean_horizon(&self) -> f64 {
+        self.mean_horizon
+    }
+
+    /// The steps of the history.
+    pub fn steps(&self) -> Vec<usize> {
+        self.records.iter().map(|it| it.step).collect()
+    }
+}
+
+/// Pairs that parted, in their order, with the moment and the step of it.
+fn opened(
+    folder: &Path,
+    body: &SolidBody,
+    records: &[CrackRecord],
+) -> Result<Vec<([u32; 2], Moment, usize)>, Error> {
+    let breaks = (1..).zip(broken_pairs(folder)?);
+    let breaks = breaks.map(|(order, tags)| (tags, Moment::Breakage(order)));
+    let mut opened = Vec::new();
+    for (tags, moment) in breaks.chain(softened_pairs(folder)?) {
+        let step = match moment {
+            Moment::Step(step) => step,
+            // A run that is under way may have broken bonds of a step before its row.
+            Moment::Breakage(_) => records
+                .iter()
+                .find(|it| it.is_after(moment))
+                .map_or(0, |it| it.step),
+        };
+        if let Some(pair) = body.points(tags) {
+            opened.push((ascending(pair), moment, step));
+        }
+    }
+    Ok(opened)
+}
+
+/// The edges of tetrahedra that are bonds; None where the run wrote no model.
+fn bonds_among(
+    folder: &Path,
+    body: &SolidBody,
+    tetrahedra: &Tetrahedra,
+) -> Result<Option<HashSet<[u32; 2]>>, Error> {
+    if tetrahedra.corners.is_empty() {
+        return Ok(None);
+    }
+    let bonds = bonded_pairs(folder)?;
+    Ok(bonds.map(|bonds| {
+        let pairs = bonds.into_iter().filter_map(|tags| body.points(tags));
+        pairs.map(ascending).collect()
+    }))
+}
+
+/// The edges of tetrahedra that are no bonds.
+fn unbonded(tetrahedra: &Tetrahedra, bonds: Option<HashSet<[u32; 2]>>) -> Links {
+    let mut links = Links::default();
+    let Some(bonds) = bonds else {
+        return links;
+    };
+    for corners in &tetrahedra.corners {
+        let points = corners.map(|node| tetrahedra.points[node as usize]);
+        for (place, a) in points.iter().enumerate() {
+            for b in &points[place + 1..] {
+                if a != b && !bonds.contains(&ascending([*a, *b])) {
+                    links.name([*a, *b], Link::Unbonded);
+                }
+            }
+        }
+    }
+    links
+}
+
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}

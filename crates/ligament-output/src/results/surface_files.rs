@@ -1,0 +1,243 @@
+//! The cracks of a stored run of a solid as files.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `crack.vtu`, `crack.stl` | the surface of a step as triangles |
+//! | `opened.vtu` | the cells of a mesh, opened along the surface, with the displacement and the damage of the step |
+//! | `crack_growth.csv` | parts and area of the surface in every record of the history in which it grew, and energies over the new area |
+//! | `crack_NNNN.vtu`, `crack.pvd`, `opened_NNNN.vtu`, `opened.pvd` | the same of all stored steps |
+//!
+//! Fields on the places of the surface: `opening` and `sliding`, the jump of the displacement along the normal of the surface and in
+//! it (m, the mean over the pairs that are parted there; positive openings part), the `step` in which the last of them parted (-1
+//! before the first load) and its `load_factor`. On the triangles: the connected `part`, from 1, the largest first, and `precrack`.
+
+use std::path::Path;
+
+use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
+use ligament_model::surfaces::CrackSurface;
+
+use super::cracks::CrackRecord;
+use super::opened_files::{has_cells, write_opened};
+use super::outputs::Outputs;
+use super::solid_cracks::SolidCracks;
+use crate::Error;
+use crate::atomic::{remove_file, replace_file};
+use crate::csv::{Table, Value};
+use crate::pvd::Collection;
+use crate::vtu::read::VtuFile;
+use crate::vtu::{self, Cell, Field, UnstructuredGrid};
+
+/// Files that are written beside the results of a run of a solid.
+pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", "opened.vtu", "crack_growth.csv"];
+
+const GROWTH: [&str; 9] = [
+    "step",
+    "load_factor",
+    "displacement",
+    "reaction",
+    "parts",
+    "area",
+    "release_rate_compliance",
+    "release_rate_energy",
+    "dissipated_per_area",
+];
+
+/// Writes the surface of a step, and how it grew over all steps; gives the surface.
+///
+/// # Errors
+///
+/// If a file cannot be read or written.
+pub fn write_surface(
+    folder: &Path,
+    cracks: &SolidCracks,
+    step: usize,
+) -> Result<CrackSurface, Error> {
+    let surface = cracks.surface(step);
+    let [grid, stl, opened, growth] = SURFACE_FILES.map(|name| folder.join(name));
+    let fields = fields_until(folder, step)?;
+    write_grid(&grid, cracks, &surface, fields.as_ref())?;
+    match surface.triangles.is_empty() {
+        true => remove_file(&stl)?,
+        false => replace_file(&stl, &stl_of(&surface))?,
+    }
+    match fields.filter(|_| has_cells(cracks)) {
+        Some(fields) => write_opened(&opened, cracks, step, &fields)?,
+        None => remove_file(&opened)?,
+    }
+    write_growth(&growth, cracks)?;
+    Ok(surface)
+}
+
+/// Writes the surface and the opened cells of every stored step as series; gives the number of steps.
+///
+/// # Errors
+///
+/// If a file cannot be read or written.
+pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error> {
+    let outputs = Outputs::list(folder)?;
+    let mut surfaces = Collection::new(folder.join("crack.pvd"));
+    let mut bodies = Collection::new(folder.join("opened.pvd"));
+    for (&step, path) in &outputs.files {
+        let fields = VtuFile::open(path)?;
+        let surface = cracks.surface(step);
+        if !surface.triangles.is_empty() {
+            let name = format!("crack_{step:04}.vtu");
+            write_grid(&folder.join(&name), cracks, &surface, Some(&fields))?;
+            surfaces.append(step as f64, name)?;
+        }
+        if has_cells(cracks) {
+            let name = format!("opened_{step:04}.vtu");
+            write_opened(&folder.join(&name), cracks, step, &fields)?;
+            bodies.append(step as f64, name)?;
+        }
+    }
+    Ok(outputs.files.len())
+}
+
+/// The stored fields of a step, or of the last one before it that has some.
+fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
+    let outputs = Outputs::list(folder)?;
+    let path = outputs.files.range(..=step).next_back();
+    path.map(|(_, path)| VtuFile::open(path)).transpose()
+}
+
+/// Writes the surface with its fields; no file without triangles, which readers would refuse.
+fn write_grid(
+    path: &Path,
+    cracks: &SolidCracks,
+    surface: &CrackSurface,
+    fields: Option<&VtuFile>,
+) -> Result<(), Error> {
+    if surface.triangles.is_empty() {
+        return remove_file(path);
+    }
+    let jumps = match fields {
+        Some(file) => jumps(cracks, surface, &cracks.body.vectors(file, "displacement")?),
+        None => vec![[f64::NAN; 2]; surface.places.len()],
+    };
+    let [opening, sliding]: [Vec<f64>; 2] =
+        [0, 1].map(|place| jumps.iter().map(|it| it[place]).collect());
+    let steps = cracks.steps_of_parting();
+    let parted = surface.parted.iter();
+    let last = |pairs: &Vec<[u32; 2]>| pairs.iter().filter_map(|it| steps.get(it)).max().copied();
+    let step: Vec<Option<usize>> = parted.map(last).collect();
+    let factor = |step: &Option<usize>| {
+        let record = cracks.records.iter().find(|it| Some(it.step) == *step);
+        record.map_or(f64::NAN, |it| it.load_factor)
+    };
+    let load_factor: Vec<f64> = step.iter().map(factor).collect();
+    let step: Vec<i64> = step
+        .iter()
+        .map(|it| it.map_or(-1, |it| it as i64))
+        .collect();
+    let cells: Vec<Cell> = surface
+        .triangles
+        .iter()
+        .copied()
+        .map(Cell::Triangle)
+        .collect();
+    let part: Vec<i64> = surface.part.iter().map(|it| i64::from(*it) + 1).collect();
+    let precrack: Vec<i64> = surface.is_precrack.iter().copied().map(i64::from).collect();
+    let grid = UnstructuredGrid {
+        points: &surface.places,
+        cells: &cells,
+        point_fields: &[
+            Field::scalar("opening", &opening),
+            Field::scalar("sliding", &sliding),
+            Field::scalar("load_factor", &load_factor),
+            Field::integer("step", &step),
+        ],
+        cell_fields: &[
+            Field::integer("part", &part),
+            Field::integer("precrack", &precrack),
+        ],
+    };
+    vtu::write_vtu(path, &grid)
+}
+
+/// Opening and sliding at each place, shape (n_places), m.
+fn jumps(cracks: &SolidCracks, surface: &CrackSurface, displacement: &[[f64; 3]]) -> Vec<[f64; 2]> {
+    let positions = &cracks.body.grid.positions;
+    let places = surface.parted.iter().zip(surface.normals());
+    let of_place = |(pairs, normal): (&Vec<[u32; 2]>, [f64; 3])| {
+        let along = |vector: [f64; 3]| -> f64 { (0..3).map(|k| vector[k] * normal[k]).sum() };
+        let of_pair = |pair: &[u32; 2]| {
+            let [a, b] = pair.map(|it| it as usize);
+            let less = |of: &[[f64; 3]]| [0, 1, 2].map(|k| of[b][k] - of[a][k]);
+            let (jump, from) = (less(displacement), less(positions));
+            let across = along(jump);
+            let square: f64 = jump.iter().map(|it| it * it).sum();
+            let opening = if along(from) < 0.0 { -across } else { across };
+            [opening, (square - across * across).max(0.0).sqrt()]
+        };
+        let count = pairs.len() as f64;
+        let all: Vec<[f64; 2]> = pairs.iter().map(of_pair).collect();
+        [0, 1].map(|place| all.iter().map(|it| it[place]).sum::<f64>() / count)
+    };
+    places.map(of_place).collect()
+}
+
+/// The surface as binary STL: 80 bytes of words, the number of triangles, and of each its normal and corners as single numbers.
+fn stl_of(surface: &CrackSurface) -> Vec<u8> {
+    let mut bytes = vec![0; 80];
+    let words = b"crack surface, m";
+    bytes[..words.len()].copy_from_slice(words);
+    bytes.extend((surface.triangles.len() as u32).to_le_bytes());
+    for triangle in &surface.triangles {
+        let corners = triangle.map(|it| surface.places[it as usize]);
+        let normal = unit_normal(corners);
+        for number in [normal].iter().chain(&corners).flatten() {
+            bytes.extend((*number as f32).to_le_bytes());
+        }
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    let [p, q] = [b, c].map(|it| [0, 1, 2].map(|axis| it[axis] - a[axis]));
+    let normal = [
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    ];
+    let length = normal.iter().map(|it| it * it).sum::<f64>().sqrt();
+    if length > 0.0 {
+        normal.map(|it| it / length)
+    } else {
+        normal
+    }
+}
+
+fn write_growth(path: &Path, cracks: &SolidCracks) -> Result<(), Error> {
+    let mut table = Table::create(path, &GROWTH)?;
+    let grown: Vec<(&CrackRecord, CrackSurface)> = (cracks.grown_records().into_iter())
+        .map(|record| (record, cracks.surface(record.step)))
+        .collect();
+    let state = |(record, surface): &(&CrackRecord, CrackSurface)| GrowthState {
+        area: surface.area(),
+        displacement: record.displacement,
+        reaction: record.reaction,
+        released_energy: record.released_energy,
+        dissipated_energy: record.dissipated_energy,
+    };
+    let states: Vec<GrowthState> = grown.iter().map(state).collect();
+    let rates = release_rates(&states, cracks.mean_horizon().powi(2));
+    for (((record, surface), state), rates) in grown.iter().zip(&states).zip(rates) {
+        let rate = |of: fn(&ReleaseRates) -> f64| {
+            rates.as_ref().map_or(Value::Missing, |it| of(it).into())
+        };
+        table.append(&[
+            record.step.into(),
+            record.load_factor.into(),
+            record.displacement.into(),
+            record.reaction.into(),
+            surface.parts().len().into(),
+            state.area.into(),
+            rate(|it| it.by_compliance),
+            rate(|it| it.by_energy),
+            rate(|it| it.dissipated),
+        ])?;
+    }
+    Ok(())
+}
