@@ -1,10 +1,12 @@
 //! `[[precrack]]`: cracks and slots that are there from the start.
 
+use std::convert::Infallible;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, first_given, missing};
@@ -19,26 +21,44 @@ const SAME_ANGLE: f64 = 1e-9;
 /// A crack that is there from the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["points", "centre"])))]
-#[schemars(extend("dependencies" = { "centre": ["length", "angle"], "length": ["centre", "angle"], "angle": ["centre", "length"] }))]
+#[schemars(extend("oneOf" = exactly_one(&["points", "centre", "group"])))]
+#[schemars(extend("dependencies" = { "length": ["centre", "angle"], "angle": ["centre", "length"], "normal": ["centre", "radius"], "radius": ["centre", "normal"] }))]
 pub struct Precrack {
-    /// Corners of the polyline, two or more `[x, y]`, m.
+    /// Corners of the polyline, two or more `[x, y]`, m; in a solid of a plane polygon, three or more `[x, y, z]`.
     #[schemars(length(min = 2))]
-    pub points: Option<Vec<Point>>,
-    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`.
-    pub centre: Option<Point>,
+    pub points: Option<Vec<Coordinates>>,
+    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
+    /// `radius`.
+    pub centre: Option<Coordinates>,
     /// From end to end of a straight crack, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
     /// From the x axis to a straight crack, counter-clockwise, rad.
     pub angle: Option<f64>,
+    /// Normal of a disk in a solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Coordinates>,
+    /// Radius of a disk in a solid, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub radius: Option<f64>,
+    /// The faces of this physical surface of a solid mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
     /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
     pub ends: Word<Ends>,
 }
 
 impl Precrack {
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+    pub(super) fn in_plane(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+        let of_solids = [
+            ("normal", self.normal.is_some()),
+            ("radius", self.radius.is_some()),
+            ("group", self.group.is_some()),
+        ];
+        let reason = "it belongs to pre-cracks of solids, which are surfaces";
+        refuse(key, of_solids, "a body in the plane", reason)?;
         let straight = [
             ("centre", self.centre.is_some()),
             ("length", self.length.is_some()),
@@ -48,7 +68,11 @@ impl Precrack {
             Some(points) => {
                 let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
                 refuse(key, straight, "`points`", reason)?;
-                points.clone()
+                let key = key.child("points");
+                let corners = points.iter().enumerate();
+                corners
+                    .map(|(index, it)| it.of(&key.child(index)))
+                    .collect::<Result<_, _>>()?
             }
             None if first_given(straight).is_some() => self.ends_of_line(key)?.to_vec(),
             None => {
@@ -60,8 +84,13 @@ impl Precrack {
         Ok(PreCrack { points, ends })
     }
 
+    pub(super) fn in_space(&self, key: &KeyPath) -> Result<Infallible, KeyFault> {
+        Err(KeyFault::new(key.clone(), "no pre-cracks in space yet"))
+    }
+
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
         let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
+        let centre = centre.of(&key.child("centre"))?;
         let length = self.length.ok_or_else(|| missing(key, "length"))?;
         let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
         let ends = straight(centre, length, angle);
