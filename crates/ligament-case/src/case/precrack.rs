@@ -89,7 +89,12 @@ impl Precrack {
             ("length", self.length.is_some()),
             ("angle", self.angle.is_some()),
         ];
-        refuse(key, of_lines, "a solid", "it belongs to pre-cracks in the plane, which are lines")?;
+        refuse(
+            key,
+            of_lines,
+            "a solid",
+            "it belongs to pre-cracks in the plane, which are lines",
+        )?;
         let points = self.points.as_ref().map(|points| {
             let key = key.child("points");
             let corners = points.iter().enumerate();
@@ -105,7 +110,10 @@ impl Precrack {
             })
         });
         let group = self.group.clone().map(|it| Ok(CrackSurface::Group(it)));
-        let surface = one_of(key, [("points", points), ("centre", disk), ("group", group)])??;
+        let surface = one_of(
+            key,
+            [("points", points), ("centre", disk), ("group", group)],
+        )??;
         let ends = self.ends.0;
         Ok(SolidCrack { surface, ends })
     }

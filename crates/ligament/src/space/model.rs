@@ -53,7 +53,11 @@ impl Model<3> {
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            correct(&SolidFormulation::new(&setup, &cloud, &horizons), bonds, &is_cut)
+            correct(
+                &SolidFormulation::new(&setup, &cloud, &horizons),
+                bonds,
+                &is_cut,
+            )
         });
         watcher.found(&Finding::Correction(
             &setup.correction,
@@ -148,11 +152,7 @@ struct Corrected {
 
 /// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other way round if the
 /// setup says so.
-fn correct(
-    formulation: &SolidFormulation<'_>,
-    bonds: BondSet<3>,
-    is_cut: &[bool],
-) -> Corrected {
+fn correct(formulation: &SolidFormulation<'_>, bonds: BondSet<3>, is_cut: &[bool]) -> Corrected {
     let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
     if formulation.cuts_first() {
         return of_bonds(formulation, bonds.retained(&survives));

@@ -83,7 +83,9 @@ fn faces_of_group(
 ) -> Result<Vec<[u32; 3]>, SetupError> {
     let Origin::SolidMesh(mesh) = body.origin() else {
         let reason = "only meshes have groups of faces: give a polygon or a disk";
-        return Err(field.part("surface").error(Fault::Contradiction(reason.into())));
+        return Err(field
+            .part("surface")
+            .error(Fault::Contradiction(reason.into())));
     };
     if body.points_of(group).is_none() {
         return Err(field.part("surface").error(Fault::UnknownName {
