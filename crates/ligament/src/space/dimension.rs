@@ -8,6 +8,7 @@ use ligament_model::thermal::FreeStrains;
 use ligament_model::{Bonds, LumpedMass, Material, PointCloud};
 
 use super::formulation::shear_form;
+use super::precrack::SolidCrack;
 use crate::error::SetupError;
 use crate::model::Model;
 use crate::setup::{Dim, Dimension, Horizon, Setup};
@@ -18,7 +19,7 @@ use crate::warning::Warning;
 const USUAL_FACTOR: f64 = 3.0;
 
 impl Dimension<3> for Dim {
-    type PreCrack = std::convert::Infallible;
+    type PreCrack = SolidCrack;
 
     /// A point of a solid stands for a volume alone.
     type Section = ();

@@ -15,7 +15,7 @@ use ligament_model::{
 };
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Alpha, Calibration, Law, Setup, Surface};
+use crate::setup::{Alpha, Calibration, CorrectionDomain, Law, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body in space.
 #[derive(Debug, Clone)]
@@ -68,6 +68,11 @@ impl<'a> SolidFormulation<'a> {
             horizons,
             constants: constants(setup),
         }
+    }
+
+    /// Whether pre-cracks cut bonds before these are corrected.
+    pub(super) fn cuts_first(&self) -> bool {
+        self.setup.correction.domain == CorrectionDomain::Cracked
     }
 
     /// Factors alpha of the bonds, shape (n_bonds).

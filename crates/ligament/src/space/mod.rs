@@ -4,4 +4,7 @@ mod check;
 mod dimension;
 mod formulation;
 mod model;
+mod precrack;
 mod soundness;
+
+pub use precrack::{CrackSurface, SolidCrack};
