@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
-use ligament::body::{Body, LatticeBody, LatticeError, MeshBody, SolidMeshBody};
+use ligament::body::{
+    Body, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody,
+};
 use ligament::setup::{Dim, Dimension, Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_mesh::AnyMesh;
 
 use crate::case::key_path::KeyPath;
-use crate::case::{CaseError, CaseFile, LatticeSection};
+use crate::case::{CaseError, CaseFile, LatticeSection, SolidLatticeSection};
 use crate::mesh_file::{read_any_mesh, read_mesh};
 use crate::temperature_table;
 
@@ -19,15 +21,19 @@ impl CaseFile {
     ///
     /// If a file cannot be read, or the mesh is not one of solid cells.
     pub fn setup_in_space(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup<3>> {
-        let Some(section) = &self.case.mesh else {
-            anyhow::bail!("the case has no mesh");
+        let body: Arc<dyn Body<3>> = match (&self.case.mesh, &self.case.solid_lattice) {
+            (Some(section), _) => {
+                let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
+                let AnyMesh::Solid(mesh) = mesh else {
+                    let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
+                    return Err(self.error("mesh.file", reason).into());
+                };
+                Arc::new(SolidMeshBody::from(mesh))
+            }
+            (None, Some(section)) => Arc::new(stage(watcher, "lattice", || self.solid_lattice(section))?),
+            (None, None) => anyhow::bail!("the case has no body"),
         };
-        let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
-        let AnyMesh::Solid(mesh) = mesh else {
-            let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
-            return Err(self.error("mesh.file", reason).into());
-        };
-        let setup = self.case.in_space(Arc::new(SolidMeshBody::from(mesh)));
+        let setup = self.case.in_space(body);
         let setup = setup.map_err(|fault| self.source.error(fault))?;
         Ok(self.with_tables(setup)?)
     }
@@ -91,6 +97,22 @@ impl CaseFile {
                 LatticeError::NothingLeft { .. } => "lattice.remove".to_owned(),
                 LatticeError::EmptySet { name } => LatticeSection::set_key(name),
                 LatticeError::NoRim { hole } => format!("lattice.remove.{hole}"),
+            };
+            self.error(&key, error.to_string())
+        })
+    }
+
+    fn solid_lattice(&self, section: &SolidLatticeSection) -> Result<SolidLatticeBody, CaseError> {
+        let key = KeyPath::default().child("solid_lattice");
+        let parts = section.parts(&key);
+        let (holes, sets) = parts.map_err(|fault| self.source.error(fault))?;
+        let (spacing, corner) = (section.spacing, section.corner);
+        let body = SolidLatticeBody::new(section.cells, spacing, corner, &holes, &sets);
+        body.map_err(|error| {
+            let key = match &error {
+                LatticeError::NothingLeft { .. } => "solid_lattice.remove".to_owned(),
+                LatticeError::EmptySet { name } => SolidLatticeSection::set_key(name),
+                LatticeError::NoRim { hole } => format!("solid_lattice.remove.{hole}"),
             };
             self.error(&key, error.to_string())
         })

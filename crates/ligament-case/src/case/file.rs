@@ -1,11 +1,8 @@
 //! A case file on disk: loading it, and locating its keys.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use ligament::SetupError;
-use ligament::body::SolidMeshBody;
-use ligament_mesh::SolidMesh;
 
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
@@ -80,8 +77,8 @@ impl CaseFile {
         let file = Self { source, case };
         let case = &file.case;
         let checked = if case.is_solid() {
-            let body = Arc::new(SolidMeshBody::from(SolidMesh::default()));
-            case.in_space(body).map(|setup| setup.check())
+            let setup = case.solid_stand_in().and_then(|body| case.in_space(body));
+            setup.map(|setup| setup.check())
         } else {
             let setup = case.stand_in().and_then(|body| case.in_plane(body));
             setup.map(|setup| setup.check())

@@ -85,6 +85,7 @@ impl Case {
     fn key_of_field(&self, field: Field) -> String {
         let list = match field.name {
             "body" if self.mesh.is_some() => "mesh",
+            "body" if self.solid_lattice.is_some() => "solid_lattice",
             "body" => "lattice",
             "law" | "horizon" | "rotational_scale" | "closing" => "model",
             "materials" => "material",

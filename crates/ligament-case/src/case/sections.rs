@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ligament::body::{Body, LatticeBody, MeshBody};
+use ligament::body::{Body, LatticeBody, MeshBody, SolidLatticeBody, SolidMeshBody};
 use ligament::setup::{self, Dim, Dimension, Section, Setup};
-use ligament_mesh::Mesh;
+use ligament_mesh::{Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,6 +27,7 @@ use super::output::{Output, StressField};
 use super::precrack::Precrack;
 use super::probe::Probe;
 use super::region::Region;
+use super::solid_lattice_section::SolidLatticeSection;
 use super::solver::{self, Solver};
 use super::stage::Stage;
 use super::temperature::Temperature;
@@ -35,7 +36,7 @@ use super::values::{exactly_one, refuse};
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["mesh", "lattice"])))]
+#[schemars(extend("oneOf" = exactly_one(&["mesh", "lattice", "solid_lattice"])))]
 pub struct Case {
     /// One line on what the case is.
     #[serde(default)]
@@ -49,6 +50,9 @@ pub struct Case {
     pub mesh: Option<MeshSection>,
     /// The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`.
     pub lattice: Option<LatticeSection>,
+    /// The body as a box of equal cells in space with a point at the centre of each; or a `[mesh]` of solid cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solid_lattice: Option<SolidLatticeSection>,
     /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
     #[serde(
         rename = "material",
@@ -179,18 +183,27 @@ impl Case {
     }
 
     fn require_one_body(&self) -> Result<(), KeyFault> {
-        match (&self.mesh, &self.lattice) {
-            (Some(_), None) | (None, Some(_)) => Ok(()),
-            (None, None) => Err(KeyFault::new(
+        let given = [
+            self.mesh.is_some(),
+            self.lattice.is_some(),
+            self.solid_lattice.is_some(),
+        ];
+        match given {
+            [true, false, false] | [false, true, false] | [false, false, true] => Ok(()),
+            [false, false, false] => Err(KeyFault::new(
                 root().child("mesh"),
                 F::MissingSection {
                     section: "[mesh] or [lattice]".to_owned(),
                     purpose: "one of them: [mesh] with `file`, the Gmsh file, or [lattice] with `cells` and `spacing`",
                 },
             )),
-            (Some(_), Some(_)) => Err(KeyFault::new(
+            [true, true, _] => Err(KeyFault::new(
                 root().child("lattice"),
                 "the case has a [mesh] as well, but its body is one of the two: remove [mesh] or [lattice]",
+            )),
+            [_, _, true] => Err(KeyFault::new(
+                root().child("solid_lattice"),
+                "the case has a [mesh] or a [lattice] as well, but its body is one of them: remove the others",
             )),
         }
     }
@@ -204,7 +217,7 @@ impl Case {
 
     /// Whether the body is solid.
     pub fn is_solid(&self) -> bool {
-        self.mesh.as_ref().is_some_and(|it| it.is_solid)
+        self.solid_lattice.is_some() || self.mesh.as_ref().is_some_and(|it| it.is_solid)
     }
 
     /// The setup of the case on a solid body, whatever body the case names. Tables of temperatures have no rows yet.
@@ -278,6 +291,20 @@ impl Case {
             solver: self.solver.setup(),
             threads: self.solver.threads.map(|threads| threads as usize),
         })
+    }
+
+    /// A stand-in for a solid body before it is made: of its kind, with a point at most.
+    pub(super) fn solid_stand_in(&self) -> Result<Arc<dyn Body<3>>, KeyFault> {
+        let Some(lattice) = &self.solid_lattice else {
+            return Ok(Arc::new(SolidMeshBody::from(SolidMesh::default())));
+        };
+        let key = root().child("solid_lattice");
+        lattice.parts(&key)?;
+        let (spacing, corner) = (lattice.spacing, lattice.corner);
+        let cell = SolidLatticeBody::new([1; 3], spacing, corner, &[], &Default::default());
+        Ok(Arc::new(
+            cell.map_err(|error| KeyFault::new(key, error.to_string()))?,
+        ))
     }
 
     /// A stand-in for the body before it is made: of its kind, with a point at most.

@@ -21,10 +21,6 @@ impl Setup<3> {
                 return contradiction(field, reason);
             }
         }
-        if self.scatter.is_some() {
-            let reason = "properties that vary at random are known in the plane alone so far: leave them out";
-            return contradiction(Field::whole("scatter"), reason);
-        }
         if self.closing {
             let reason =
                 "faces that close are known in the plane alone so far: leave `closing` out";
