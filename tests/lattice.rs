@@ -145,7 +145,7 @@ load = [{ group = "right", displacement = { x = 1e-5 } }]
         })
         .sum();
     let expected = energy / (7e9 / (2.0 * (1.0 - 1.0 / 9.0)));
-    let found = bench.model.fixed.energy_ratios[0][6 * 15 + 7];
+    let found = bench.model.fixed.energy_ratios[0].at_points[6 * 15 + 7];
     assert!(
         relative_error(found, expected) < 1e-12,
         "{found} {expected}"

@@ -183,7 +183,7 @@ fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
                 "stress" => YOUNG * strain * strain / (1.0 - nu),
                 _ => YOUNG * strain * strain * (1.0 + nu) / (1.0 - 2.0 * nu),
             };
-            let biaxial = &bench.model.fixed.energy_ratios[2];
+            let biaxial = &bench.model.fixed.energy_ratios[2].at_points;
             let volumes = &bench.model.system.cloud.volumes;
             let expected: f64 = (biaxial.iter().zip(volumes))
                 .map(|(ratio, volume)| ratio * volume * density)

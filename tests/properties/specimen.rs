@@ -297,7 +297,7 @@ impl Specimen {
             Action::Displacement(Displacement {
                 x: Some(far * along),
                 y: Some(far * across),
-                rotation: None,
+                ..Displacement::default()
             })
         };
         Load::new("right", action)
@@ -318,7 +318,7 @@ impl Specimen {
         ];
         if self.law.element() == ElementKind::Beam {
             let couple = image.sense() * image.energy() * 0.1 * self.strength() * self.spacing;
-            let mut load = Load::new("bottom", Action::Moment(couple));
+            let mut load = Load::new("bottom", Action::Moment(couple.into()));
             load.name = "couple".to_owned();
             setup.loads.push(load);
         }

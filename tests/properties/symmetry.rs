@@ -18,7 +18,7 @@ fn moved(specimen: &Specimen, [x, y]: [f64; 2]) -> Setup {
         Action::Displacement(Displacement {
             x: Some(far * x),
             y: Some(far * y),
-            rotation: None,
+            ..Displacement::default()
         }),
     )];
     setup

@@ -217,11 +217,10 @@ impl<'a> PointFields<'a> {
         self.reals("horizon", fixed.horizon.iter().copied());
         self.reals("nearest_distance", cloud.spacing.iter().copied());
         self.reals("precrack_share", fixed.precrack_share.iter().copied());
-        let [along_x, along_y, biaxial, shear] = &fixed.energy_ratios;
-        self.reals("energy_ratio_x", along_x.iter().copied());
-        self.reals("energy_ratio_y", along_y.iter().copied());
-        self.reals("energy_ratio_biaxial", biaxial.iter().copied());
-        self.reals("energy_ratio_shear", shear.iter().copied());
+        let names = ["x", "y", "biaxial", "shear"].map(|it| format!("energy_ratio_{it}"));
+        for (name, ratio) in names.iter().zip(&fixed.energy_ratios) {
+            self.reals(name, ratio.at_points.iter().copied());
+        }
         if let Some(scatter) = &fixed.scatter {
             self.reals("strength_factor", scatter.at_points.iter().copied());
         }

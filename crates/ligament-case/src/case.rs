@@ -6,7 +6,9 @@
 
 mod analysis;
 mod conditions;
+mod coordinates;
 mod correction;
+mod couple;
 mod criterion;
 pub mod decode;
 pub mod document;
@@ -39,7 +41,9 @@ mod word;
 
 pub use analysis::{Analysis, MOST_MODES, Modal};
 pub use conditions::{Displacement, SpringStiffness, Support, Vector};
+pub use coordinates::Coordinates;
 pub use correction::Correction;
+pub use couple::Couple;
 pub use criterion::Criterion;
 pub use fault::{CaseError, Fault, Location};
 pub use file::CaseFile;
@@ -53,7 +57,7 @@ pub use output::{Output, StressField};
 pub use overrides::unset;
 pub use precrack::Precrack;
 pub use probe::Probe;
-pub use region::{Rectangle, Region};
+pub use region::{Corners, Rectangle, Region};
 pub use scatter::{Distribution, Scatter};
 pub use schema::schema;
 pub use sections::Case;

@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ligament_mesh::Mesh;
 use ligament_mesh::gmsh::{self, GmshError};
+use ligament_mesh::{AnyMesh, Mesh};
 
 use crate::input_file;
 
@@ -35,15 +35,33 @@ pub enum MeshFileError {
 ///
 /// If the file cannot be read or is not a planar Gmsh mesh.
 pub fn read_mesh(path: &Path) -> Result<Mesh, MeshFileError> {
+    read(path, gmsh::parse)
+}
+
+/// Reads a file of a mesh in the plane or of solid cells.
+///
+/// # Errors
+///
+/// If the file cannot be read or is no Gmsh mesh of one of the two kinds.
+pub fn read_any_mesh(path: &Path) -> Result<AnyMesh, MeshFileError> {
+    read(path, gmsh::parse_any)
+}
+
+fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, MeshFileError> {
     let read = input_file::read(path);
     let bytes = read.map_err(|source| MeshFileError::Read {
         path: path.to_owned(),
         source,
     })?;
-    gmsh::parse(&bytes).map_err(|source| MeshFileError::Parse {
+    parse(&bytes).map_err(|source| MeshFileError::Parse {
         path: path.to_owned(),
         source,
     })
+}
+
+/// Whether a file holds a mesh of solids; not if it cannot be read.
+pub(crate) fn holds_solid(path: &Path) -> bool {
+    input_file::read(path).is_ok_and(|bytes| gmsh::holds_solid(&bytes))
 }
 
 /// Lower left and upper right corner.

@@ -2,23 +2,47 @@
 
 use std::sync::Arc;
 
-use ligament::body::{Body, LatticeBody, LatticeError, MeshBody};
-use ligament::setup::{Setup, TemperatureChange};
+use ligament::body::{Body, LatticeBody, LatticeError, MeshBody, SolidMeshBody};
+use ligament::setup::{Dim, Dimension, Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
+use ligament_mesh::AnyMesh;
 
 use crate::case::key_path::KeyPath;
 use crate::case::{CaseError, CaseFile, LatticeSection};
-use crate::mesh_file::read_mesh;
+use crate::mesh_file::{read_any_mesh, read_mesh};
 use crate::temperature_table;
 
 impl CaseFile {
-    /// The setup of the case, with its body and the tables that it names read from their files.
+    /// The setup of the case on its solid body, with the mesh and the tables that it names read from their files.
     ///
     /// # Errors
     ///
-    /// If a file cannot be read, or nothing is left of the lattice or of one of its sets.
+    /// If a file cannot be read, or the mesh is not one of solid cells.
+    pub fn setup_in_space(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup<3>> {
+        let Some(section) = &self.case.mesh else {
+            anyhow::bail!("the case has no mesh");
+        };
+        let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
+        let AnyMesh::Solid(mesh) = mesh else {
+            let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
+            return Err(self.error("mesh.file", reason).into());
+        };
+        let setup = self.case.in_space(Arc::new(SolidMeshBody::from(mesh)));
+        let setup = setup.map_err(|fault| self.source.error(fault))?;
+        Ok(self.with_tables(setup)?)
+    }
+
+    /// The setup of the case in the plane, with its body and the tables that it names read from their files.
+    ///
+    /// # Errors
+    ///
+    /// If a file cannot be read, nothing is left of the lattice or of one of its sets, or the body is solid.
     pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
         let body: Arc<dyn Body> = match (&self.case.mesh, &self.case.lattice) {
+            (Some(section), _) if section.is_solid => {
+                let reason = "the mesh has solid cells, and this is for bodies in the plane";
+                return Err(self.error("mesh.file", reason).into());
+            }
             (Some(section), _) => {
                 let mesh = stage(watcher, "read mesh", || read_mesh(&section.file))?;
                 Arc::new(MeshBody::from(mesh))
@@ -35,11 +59,18 @@ impl CaseFile {
     ///
     /// If a table of temperatures cannot be read.
     pub fn setup_on(&self, body: Arc<dyn Body>) -> Result<Setup, CaseError> {
-        let setup = self.case.setup_with(body);
-        let mut setup = setup.map_err(|fault| self.source.error(fault))?;
+        let setup = self.case.in_plane(body);
+        self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
+    }
+
+    /// A setup with the tables of temperatures that the case names.
+    fn with_tables<const D: usize>(&self, mut setup: Setup<D>) -> Result<Setup<D>, CaseError>
+    where
+        Dim: Dimension<D>,
+    {
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
-                let rows = temperature_table::rows_of(file);
+                let rows = temperature_table::rows_of::<D>(file);
                 let rows = rows
                     .map_err(|reason| self.error(&format!("temperature.{index}.file"), reason))?;
                 let samples = rows.into_iter().map(|(_, sample)| sample);

@@ -7,20 +7,25 @@ use ligament::setup::Sample;
 use crate::input_file;
 
 /// The rows of a file, each with its line; else what is wrong with the file.
-pub(crate) fn rows_of(path: &Path) -> Result<Vec<(usize, Sample)>, String> {
+pub(crate) fn rows_of<const D: usize>(path: &Path) -> Result<Vec<(usize, Sample<D>)>, String> {
     let text = input_file::read_text(path)
         .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
     rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
 }
 
 /// The rows below the header; blank lines and those that begin with # say nothing.
-fn rows(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
+fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample<D>)>, (usize, String)> {
     // Spreadsheets begin their files with a byte order mark.
     let lines = text.trim_start_matches('\u{feff}').lines();
     let mut lines = (1..)
         .zip(lines.map(str::trim))
         .filter(|(_, text)| !text.is_empty() && !text.starts_with('#'));
-    let expected = "the first row must name the columns `x`, `y` (m) and `change` (K)";
+    let axes = &["x", "y", "z"][..D];
+    let names: Vec<String> = axes.iter().map(|axis| format!("`{axis}`")).collect();
+    let expected = format!(
+        "the first row must name the columns {} (m) and `change` (K)",
+        names.join(", ")
+    );
     let Some((line, header)) = lines.next() else {
         return Err((1, format!("the file is empty: {expected}")));
     };
@@ -29,7 +34,11 @@ fn rows(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
         let place = names.iter().position(|&name| name == wanted);
         place.ok_or_else(|| (line, format!("there is no column `{wanted}`: {expected}")))
     };
-    let columns = [column("x")?, column("y")?, column("change")?];
+    let along: Vec<usize> = axes
+        .iter()
+        .map(|axis| column(axis))
+        .collect::<Result<_, _>>()?;
+    let of_change = column("change")?;
     let row = |(line, text): (usize, &str)| {
         let values: Vec<&str> = text.split(',').map(str::trim).collect();
         if values.len() != names.len() {
@@ -46,10 +55,13 @@ fn rows(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
                 .filter(|number| number.is_finite())
                 .ok_or_else(|| (line, format!("`{:.40}` is no number", values[column])))
         };
-        let [x, y, change] = columns;
+        let mut position = [0.0; D];
+        for (coordinate, &column) in position.iter_mut().zip(&along) {
+            *coordinate = value(column)?;
+        }
         let sample = Sample {
-            position: [value(x)?, value(y)?],
-            change: value(change)?,
+            position,
+            change: value(of_change)?,
         };
         Ok((line, sample))
     };

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use ligament::setup::{Action, Axis};
 use ligament_analysis::probe::{PointField, StressComponent};
-use ligament_case::case::{CaseFile, Profile, StressField, Word};
+use ligament_case::case::{CaseFile, Couple, Profile, StressField, Word};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -21,7 +21,7 @@ fn profiles_and_couples_are_read_and_written_back() {
     let load = "moment = -2.5\nprofile = { along = \"x\", zero = -0.01, one = 0.02 }";
     let case = CaseFile::parse(Path::new("case.toml"), with_load(load), &[]).unwrap();
     let read = &case.case.loads[0];
-    assert_eq!(read.moment, Some(-2.5));
+    assert_eq!(read.moment, Some(Couple::InPlane(-2.5)));
     let profile = Profile {
         along: Word(Axis::X),
         zero: -0.01,
@@ -33,7 +33,7 @@ fn profiles_and_couples_are_read_and_written_back() {
         zero: profile.zero,
         one: profile.one,
     };
-    assert!((profile.at([0.005, 7.0]) - 0.5).abs() < 1e-15);
+    assert!((profile.at(&[0.005, 7.0]) - 0.5).abs() < 1e-15);
     let written = case.resolved_toml().unwrap();
     let again = CaseFile::parse(Path::new("case.toml"), written, &[]).unwrap();
     assert_eq!(again.case.loads, case.case.loads);
@@ -100,7 +100,7 @@ fn profiles_and_couples_are_checked() {
 fn a_pressure_needs_a_group() {
     let case = CaseFile::parse(Path::new("case.toml"), with_load("pressure = -2e6"), &[]).unwrap();
     assert_eq!(case.case.loads[0].pressure, Some(-2e6));
-    let units = Action::Pressure(-2e6).units();
+    let units = Action::<2>::Pressure(-2e6).units();
     assert_eq!((units.displacement, units.force), ("m^3", "Pa"));
     let written = case.resolved_toml().unwrap();
     let again = CaseFile::parse(Path::new("case.toml"), written, &[]).unwrap();
@@ -148,7 +148,7 @@ fn stresses_are_asked_for_by_name() {
     );
     let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
     let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
-    let at = [0.0, 0.0];
+    let at = [0.0, 0.0].into();
     let field = Word(PointField::Stress(StressComponent::Xy));
     let probe = case.case.probes.last().unwrap();
     assert_eq!((probe.at, probe.field), (Some(at), Some(field)));
@@ -197,11 +197,11 @@ fn loads_through_machines_are_checked() {
     for (load, message) in [
         (
             "force = { y = 1.0 }\nstiffness = 1e9",
-            "load.0.stiffness: only a `displacement` along x and y goes through springs",
+            "load.0.stiffness: only a `displacement` along the axes goes through springs",
         ),
         (
             "moment = 1.0\ntilts = true",
-            "load.0.tilts: a platen tilts under a `displacement` along x and y or under a `force`",
+            "load.0.tilts: a platen tilts under a `displacement` along the axes or under a `force`",
         ),
         (
             "displacement = { y = 1e-3 }\ntilts = true\nprofile = { along = \"x\", zero = 0.0, one = 0.1 }",

@@ -5,9 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament::setup::Iteration;
-use ligament_case::case::{
-    CaseFile, Control, Displacement, Precrack, Rectangle, Region, Steps, Vector, Word,
-};
+use ligament_case::case::{CaseFile, Control, Displacement, Precrack, Region, Steps, Vector, Word};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
 
@@ -36,8 +34,10 @@ fn set(setting: &str) -> Result<CaseFile, String> {
 fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;
     assert_eq!(
-        case.mesh.as_ref().map(|it| (it.thickness, it.plane.0)),
-        Some((1.0, Plane::Stress))
+        case.mesh
+            .as_ref()
+            .map(|it| (it.thickness, it.plane.map(|it| it.0))),
+        Some((Some(1.0), Some(Plane::Stress)))
     );
     let mean = Some(Word(Some(Iteration::MEAN)));
     assert_eq!(
@@ -45,7 +45,14 @@ fn defaults_are_filled_in() {
         (mean, Some(500))
     );
     assert_eq!(case.loads[0].name.as_deref(), Some("load-1"));
-    assert_eq!(case.loads[0].body_force, Some(Vector { x: 0.0, y: -2.5e4 }));
+    assert_eq!(
+        case.loads[0].body_force,
+        Some(Vector {
+            x: 0.0,
+            y: -2.5e4,
+            z: None
+        })
+    );
     let top = &case.loads[1];
     assert_eq!(
         (top.name.as_deref(), top.group.as_deref()),
@@ -65,22 +72,24 @@ fn the_case_is_read_as_it_is_written() {
     assert_eq!(
         case.precracks,
         [Precrack {
-            points: Some(vec![[-0.015, 0.0], [0.015, 0.0]]),
+            points: Some(vec![[-0.015, 0.0].into(), [0.015, 0.0].into()]),
             centre: None,
             length: None,
             angle: None,
+            normal: None,
+            radius: None,
+            group: None,
             ends: Word(Ends::Excluded),
         }]
     );
     let held = Displacement {
         x: Some(0.0),
-        y: None,
-        rotation: None,
+        ..Displacement::default()
     };
     assert_eq!(case.supports[1].displacement, Some(held));
     let ordered = Region {
         group: None,
-        r#box: Some(Rectangle([[-0.01, 0.04], [0.01, 0.05]])),
+        r#box: Some([[-0.01, 0.04], [0.01, 0.05]].into()),
     };
     assert_eq!(case.no_fail, [ordered]);
     let fracture = case.fracture.unwrap();
@@ -187,9 +196,8 @@ fn overrides_change_make_and_replace_settings() {
     let case = case.unwrap().case;
     assert_eq!(case.plane(), Plane::Strain);
     let pushed = Displacement {
-        x: None,
         y: Some(-1e-6),
-        rotation: None,
+        ..Displacement::default()
     };
     assert_eq!(case.loads[0].displacement, Some(pushed));
     let stop = case.fracture.unwrap().stop;
@@ -199,7 +207,7 @@ fn overrides_change_make_and_replace_settings() {
     );
     assert!(case.output.bonds);
     let points = case.precracks[0].points.as_ref().unwrap();
-    assert_eq!(points[1], [0.02, 0.001]);
+    assert_eq!(points[1], [0.02, 0.001].into());
     assert_eq!(case.title, "Disk under a small load");
     let small = with(SMALL, &["output.fields_every=3"]).unwrap();
     assert_eq!(small.case.output.fields_every, Some(3));

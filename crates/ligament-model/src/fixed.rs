@@ -9,8 +9,8 @@ pub struct FixedFields {
     pub horizon: Vec<f64>,
     /// Share of its bonds that pre-cracks cut, shape (n_points).
     pub precrack_share: Vec<f64>,
-    /// Energy density over the continuum's for uniaxial x, uniaxial y, biaxial and shear strain, shape (4, n_points).
-    pub energy_ratios: [Vec<f64>; 4],
+    /// Energy density over the continuum's in uniform strains: in the plane uniaxial x, uniaxial y, biaxial and shear.
+    pub energy_ratios: Vec<EnergyRatio>,
     /// Omega of each bond, shape (n_bonds).
     pub domain_factor: Vec<f64>,
     /// Factors of the shear stiffness over Omega, shape (n_bonds); empty where all are 1.
@@ -23,6 +23,17 @@ pub struct FixedFields {
     pub scatter: Option<Factors>,
     /// Pairs within a horizon that are no bonds, in the order of their ends.
     pub absent: Vec<AbsentBond>,
+}
+
+/// Energy density of the bonds in a uniform strain over the continuum's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnergyRatio {
+    /// Name of the field in results: `energy_ratio_x`.
+    pub field: &'static str,
+    /// The strain in words: `uniaxial x`.
+    pub strain: &'static str,
+    /// Ratio at each point, shape (n_points).
+    pub at_points: Vec<f64>,
 }
 
 /// A pair of points, one in the horizon of the other, that is no bond.

@@ -55,7 +55,7 @@ pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use deformation::{Deformations, SpaceDeformation};
 pub use element::ElementKind;
-pub use fixed::{Absence, AbsentBond, FixedFields};
+pub use fixed::{Absence, AbsentBond, EnergyRatio, FixedFields};
 pub use grid::{BodyGrid, Canvas, box_corners, raised};
 pub use horizon::Horizons;
 pub use interface::Bonds;

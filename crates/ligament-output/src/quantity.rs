@@ -116,11 +116,12 @@ pub fn between([min, max]: [f64; 2], unit: &str) -> String {
     }
 }
 
-/// A place in the plane: `(12.50, -3.000) mm`.
-pub fn place([x, y]: [f64; 2]) -> String {
-    let shown = Shown::new("m", x.abs().max(y.abs()));
-    let [x, y] = [x, y].map(|it| shown.number(it));
-    format!("({x}, {y}) {}", shown.symbol())
+/// A place: `(12.50, -3.000) mm`.
+pub fn place(position: &[f64]) -> String {
+    let largest = position.iter().map(|it| it.abs()).fold(0.0, f64::max);
+    let shown = Shown::new("m", largest);
+    let coordinates: Vec<String> = position.iter().map(|&it| shown.number(it)).collect();
+    format!("({}) {}", coordinates.join(", "), shown.symbol())
 }
 
 /// A number with four digits that count.
@@ -180,6 +181,6 @@ mod tests {
         assert_eq!(between([-1.0, 2e4], "N"), "-0.001000 to 20.00 kN");
         assert_eq!(between([1e-4, 2e-4], "-"), "100.0e-6 to 200.0e-6");
         assert_eq!(between([7e-28, 6155.0], "N"), "0 to 6.155 kN");
-        assert_eq!(place([0.0125, -3e-3]), "(12.50, -3.000) mm");
+        assert_eq!(place(&[0.0125, -3e-3]), "(12.50, -3.000) mm");
     }
 }

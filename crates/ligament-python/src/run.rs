@@ -210,16 +210,13 @@ fn named(py: Python<'_>, fields: Fields) -> PyResult<Bound<'_, PyDict>> {
 /// Fields of the points that never change.
 fn fixed(points: &Bound<'_, PyDict>, fixed: FixedFields) -> PyResult<()> {
     let py = points.py();
-    let [x, y, biaxial, shear] = fixed.energy_ratios;
-    let fields = [
+    let ratios = fixed.energy_ratios.into_iter();
+    let mut fields = vec![
         ("horizon", fixed.horizon),
         ("precrack_share", fixed.precrack_share),
-        ("energy_ratio_x", x),
-        ("energy_ratio_y", y),
-        ("energy_ratio_biaxial", biaxial),
-        ("energy_ratio_shear", shear),
-        ("patch_residual", fixed.patch_residual),
     ];
+    fields.extend(ratios.map(|it| (it.field, it.at_points)));
+    fields.push(("patch_residual", fixed.patch_residual));
     for (name, values) in fields {
         if !values.is_empty() {
             points.set_item(name, array(py, values))?;

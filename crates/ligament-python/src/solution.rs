@@ -122,7 +122,7 @@ fn solve_here(
     let loading = Loading::new(&model.setup, &model.system);
     let loading = loading.map_err(|it| Failure::setup(case, it))?;
     let problem = loading.problem(&model.system, &model.criteria);
-    memory::foresee_equations(case, &model.system, &problem)?;
+    memory::foresee_equations(case, &*model.system, &problem)?;
     if stop.asked(1) {
         return Err(Failure::Stopped);
     }

@@ -4,8 +4,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use ligament::Model;
-use ligament::setup::Analysis;
+use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
 
 /// Bytes of a point in a file of fields, compressed, rounded up from the largest that was measured: a Brazilian disk of 846,
 /// 1273, 2998 and 4808 points took 109 a point before its load and up to 163, 159, 160 and 157 after it. The file of a regular
@@ -29,11 +30,14 @@ pub struct FieldsOnDisk {
 
 impl FieldsOnDisk {
     /// The room that the fields of a case take.
-    pub fn new(case: &CaseFile, model: &Model) -> Self {
+    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         let output = &case.case.output;
         let every = output.fields_every.unwrap_or_default() as usize;
         let bonds = if output.bonds {
-            BOND * model.system.bonds.len() as f64
+            BOND * model.system.ends().len() as f64
         } else {
             0.0
         };
@@ -48,7 +52,7 @@ impl FieldsOnDisk {
             Analysis::Elastic { .. } | Analysis::Modal(_) => Some(2),
         };
         Self {
-            of_one: POINT * model.system.cloud.len() as f64 + bonds,
+            of_one: POINT * model.system.n_points() as f64 + bonds,
             most,
             every,
         }

@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ligament::run::{follow, resume};
-use ligament::setup::Analysis;
+use ligament::setup::{Analysis, Dim, Dimension};
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
@@ -21,9 +21,12 @@ use crate::watch::Watch;
 pub(crate) const SUMMARY: &str = "summary.json";
 
 /// A body under loads, and the folder of its results.
-pub(crate) struct LoadedBody<'a> {
+pub(crate) struct LoadedBody<'a, const D: usize>
+where
+    Dim: Dimension<D>,
+{
     pub(crate) case: &'a CaseFile,
-    pub(crate) model: &'a Model,
+    pub(crate) model: &'a Model<D>,
     pub(crate) loading: &'a Loading,
     pub(crate) folder: &'a ResultFolder,
     pub(crate) build: Build,
@@ -37,7 +40,10 @@ pub(crate) struct Kept {
     pub(crate) notices: Vec<String>,
 }
 
-impl LoadedBody<'_> {
+impl<const D: usize> LoadedBody<'_, D>
+where
+    Dim: Dimension<D>,
+{
     /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder.
     pub(crate) fn follow(
         &self,

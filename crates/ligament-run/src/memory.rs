@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
+use ligament::setup::{Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::stiffness::Stiffness;
 use ligament_case::case::{CaseFile, LatticeSection};
-use ligament_model::{BondSystem, Bonds};
+use ligament_model::Bonds;
 
 /// Bytes that a stored value of the factor takes.
 const FACTOR_VALUE: usize = size_of::<f64>();
@@ -69,16 +69,16 @@ fn gigabytes(bytes: u64) -> f64 {
 }
 
 /// Estimated bytes of the equations of a system and of what stands around them; without a stiffness they are solved without a matrix.
-pub fn of_equations(system: &BondSystem, stiffness: Option<&Stiffness>) -> usize {
+pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize {
     let Some(stiffness) = stiffness else {
         let unknowns = system.layout().n_degrees_of_freedom();
-        return WITHOUT_MATRIX * unknowns + BOND * system.bonds.len();
+        return WITHOUT_MATRIX * unknowns + BOND * system.ends().len();
     };
     let symbolic = stiffness.symbolic();
     let (matrix, factor) = (symbolic.pattern().n_entries(), symbolic.n_factor_values());
     let factor = times_of_factor(stiffness.choice().unsymmetric) * factor;
     // The matrix is kept with its row numbers, and once more in the order of elimination while it is factorised.
-    FACTOR_VALUE * factor + 4 * FACTOR_VALUE * matrix + BOND * system.bonds.len()
+    FACTOR_VALUE * factor + 4 * FACTOR_VALUE * matrix + BOND * system.ends().len()
 }
 
 /// Values of a factor over those of the symmetric one.
@@ -113,14 +113,24 @@ pub fn foresee_lattice(case: &CaseFile, lattice: &LatticeSection) -> Result<(), 
 /// # Errors
 ///
 /// With both numbers.
-pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
+pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup<D>) -> Result<(), TooLarge>
+where
+    Dim: Dimension<D>,
+{
     let positions = setup.body.positions();
     let points = positions.len() as f64;
+    // Volume of a ball of radius 1 in so many dimensions.
+    let ball = if D == 2 { PI } else { 4.0 * PI / 3.0 };
     let family = match setup.horizon {
-        Horizon::Factor(factor) => PI * factor * factor,
+        Horizon::Factor(factor) => ball * factor.powi(D as i32),
         Horizon::Length(length) => {
-            let [low, high] = ligament_case::mesh_file::bounding_box(positions);
-            PI * length * length * points / ((high[0] - low[0]) * (high[1] - low[1]))
+            let extent = |axis: usize| {
+                let along = positions.iter().map(|it| it[axis]);
+                along.clone().fold(f64::NEG_INFINITY, f64::max)
+                    - along.fold(f64::INFINITY, f64::min)
+            };
+            let box_of_body: f64 = (0..D).map(extent).product();
+            ball * length.powi(D as i32) * points / box_of_body
         }
     };
     foresee_bonds(case, points, family)
@@ -140,11 +150,11 @@ fn foresee_bonds(case: &CaseFile, points: f64, family: f64) -> Result<(), TooLar
 /// With both numbers, or if the equations cannot be analysed.
 pub fn foresee_equations(
     case: &CaseFile,
-    system: &BondSystem,
+    system: &dyn Bonds,
     problem: &Problem,
 ) -> anyhow::Result<()> {
     let times = times_of_factor(!problem.system.has_energy());
-    let most = (times * MOST_OVER_BONDS * BOND * system.bonds.len()) as u64;
+    let most = (times * MOST_OVER_BONDS * BOND * system.ends().len()) as u64;
     if allowed(case).is_none_or(|there| most <= there) {
         return Ok(());
     }
@@ -159,7 +169,7 @@ pub fn foresee_equations(
 /// With both numbers.
 pub fn foresee(
     case: &CaseFile,
-    system: &BondSystem,
+    system: &dyn Bonds,
     stiffness: Option<&Stiffness>,
 ) -> Result<(), TooLarge> {
     compare(

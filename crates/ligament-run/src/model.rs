@@ -1,6 +1,8 @@
 //! The discrete model of a case, with the stages of its preparation timed and shown.
 
 pub use ligament::Model;
+use ligament::Setup;
+use ligament::setup::{Dim, Dimension};
 use ligament::stage::{Finding, StageWatcher};
 
 use crate::memory;
@@ -47,7 +49,7 @@ impl StageWatcher for Preparation<'_> {
     }
 }
 
-/// Reads the body of a case and builds its model.
+/// Reads the body of a case in the plane and builds its model.
 ///
 /// # Errors
 ///
@@ -57,11 +59,36 @@ pub fn build_model(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
-    let mut preparation = Preparation { stages, progress };
     if let Some(lattice) = &case.case.lattice {
         memory::foresee_lattice(case, lattice)?;
     }
-    let setup = case.setup(&mut preparation)?;
+    build(case, stages, progress, CaseFile::setup)
+}
+
+/// Reads the solid body of a case and builds its model.
+///
+/// # Errors
+///
+/// If a file cannot be read, or the case does not go together with its body.
+pub fn build_model_in_space(
+    case: &CaseFile,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model<3>> {
+    build(case, stages, progress, CaseFile::setup_in_space)
+}
+
+fn build<const D: usize>(
+    case: &CaseFile,
+    stages: &mut Stages,
+    progress: &Progress,
+    read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup<D>>,
+) -> anyhow::Result<Model<D>>
+where
+    Dim: Dimension<D>,
+{
+    let mut preparation = Preparation { stages, progress };
+    let setup = read(case, &mut preparation)?;
     memory::foresee_model(case, &setup)?;
     Ok(Model::build(setup, &mut preparation).map_err(|error| case.located(error))?)
 }

@@ -13,21 +13,25 @@ use crate::provenance::Provenance;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
+use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 
 /// Finds the modes of a model and writes them into a new folder.
-pub(crate) fn find_modes(
+pub(crate) fn find_modes<const D: usize>(
     case: &CaseFile,
     settings: ModalSettings,
-    (model, provenance): (&Model, Provenance),
+    (model, provenance): (&Model<D>, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
-) -> anyhow::Result<ModalSummary> {
+) -> anyhow::Result<ModalSummary>
+where
+    Dim: Dimension<D>,
+{
     let vibration = Vibration::new(&model.setup, &model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
-    memory::foresee(case, &model.system, Some(analysis.stiffness()))?;
+    memory::foresee(case, &*model.system, Some(analysis.stiffness()))?;
 
     let outcome = stages.time("modes", || analysis.find())?;
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
 use ligament::run::{on_threads, restore};
+use ligament::setup::{Analysis, Dim, Dimension};
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Problem;
 use ligament_analysis::serial::Serial;
@@ -19,7 +20,7 @@ use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
 use crate::loading::{Kept, LoadedBody, SUMMARY};
-use crate::model::build_model;
+use crate::model::{build_model, build_model_in_space};
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::Build;
 use crate::run::Report;
@@ -66,18 +67,37 @@ impl Request<'_> {
         folder: ResultFolder,
         mode: ProgressMode,
     ) -> anyhow::Result<Report> {
-        let mut progress = Progress::new(mode);
+        let progress = Progress::new(mode);
         let found = find_checkpoint(&folder, case, &progress)?;
         if found.is_none() {
             ensure_unfinished(&folder)?;
             progress.stage("the run has no checkpoint yet: it starts anew");
         }
         let mut stages = Stages::default();
-        let model = build_model(case, &mut stages, &progress)?;
+        if case.case.is_solid() {
+            let model = build_model_in_space(case, &mut stages, &progress)?;
+            self.go_on(&model, found, (folder, stages, progress), case)
+        } else {
+            let model = build_model(case, &mut stages, &progress)?;
+            self.go_on(&model, found, (folder, stages, progress), case)
+        }
+    }
+
+    /// Goes on with a model from what was found.
+    fn go_on<const D: usize>(
+        &self,
+        model: &Model<D>,
+        found: Option<(Checkpoint, SoFar)>,
+        (folder, mut stages, mut progress): (ResultFolder, Stages, Progress),
+        case: &CaseFile,
+    ) -> anyhow::Result<Report>
+    where
+        Dim: Dimension<D>,
+    {
         let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
         let problem = loading.problem(&model.system, &model.criteria);
         let kept = found.map(|(checkpoint, results)| {
-            let kept = kept(checkpoint, results, &problem, &model)?;
+            let kept = kept(checkpoint, results, &problem, &model.setup.analysis)?;
             progress.stage(&format!(
                 "going on at load factor {:.4}, {} broken",
                 kept.restored.load_factor(),
@@ -100,7 +120,7 @@ impl Request<'_> {
             |folder| {
                 let body = LoadedBody {
                     case,
-                    model: &model,
+                    model,
                     loading: &loading,
                     folder,
                     build: self.build,
@@ -186,9 +206,9 @@ fn kept(
     checkpoint: Checkpoint,
     results: SoFar,
     problem: &Problem,
-    model: &Model,
+    analysis: &Analysis,
 ) -> anyhow::Result<Kept> {
-    let restored = restore(problem, &model.setup.analysis, &checkpoint.solution)?;
+    let restored = restore(problem, analysis, &checkpoint.solution)?;
     ensure!(
         results.fits(problem),
         "the checkpoint is of another model: points or bonds differ"

@@ -5,14 +5,14 @@ use std::path::Path;
 
 use ligament::Loading;
 use ligament::run::on_threads;
-use ligament::setup::Analysis;
+use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
 use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
-use crate::model::{Model, build_model};
+use crate::model::{Model, build_model, build_model_in_space};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::{Build, Provenance};
@@ -110,34 +110,55 @@ impl Request<'_> {
     fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         ResultFolder::check(self.out, self.force)?;
         let mut stages = Stages::default();
-        let mut progress = Progress::new(mode);
-        let model = build_model(self.case, &mut stages, &progress)?;
+        let progress = Progress::new(mode);
+        if self.case.case.is_solid() {
+            let model = build_model_in_space(self.case, &mut stages, &progress)?;
+            self.solve(&model, stages, progress)
+        } else {
+            let model = build_model(self.case, &mut stages, &progress)?;
+            self.solve(&model, stages, progress)
+        }
+    }
+
+    /// Loads a model or finds its modes.
+    fn solve<const D: usize>(
+        &self,
+        model: &Model<D>,
+        stages: Stages,
+        mut progress: Progress,
+    ) -> anyhow::Result<Report>
+    where
+        Dim: Dimension<D>,
+    {
         if let Analysis::Modal(settings) = model.setup.analysis {
             let create = || ResultFolder::create(self.out, self.force);
             let provenance = Provenance::new(self.build, self.case, &mut Contents::default());
             let provenance = provenance.map_err(unread)?;
-            let body = (&model, provenance);
+            let body = (model, provenance);
             let summary = find_modes(self.case, settings, body, create, stages)?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
         } else {
-            let summary = follow_loads(self, &model, stages, progress)?;
+            let summary = follow_loads(self, model, stages, progress)?;
             Ok(Report::Loading(Box::new(summary)))
         }
     }
 }
 
 /// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
-fn follow_loads(
+fn follow_loads<const D: usize>(
     request: &Request<'_>,
-    model: &Model,
+    model: &Model<D>,
     mut stages: Stages,
     mut progress: Progress,
-) -> anyhow::Result<Summary> {
+) -> anyhow::Result<Summary>
+where
+    Dim: Dimension<D>,
+{
     let case = request.case;
     let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
     let problem = loading.problem(&model.system, &model.criteria);
-    memory::foresee_equations(case, &model.system, &problem)?;
+    memory::foresee_equations(case, &*model.system, &problem)?;
     anyhow::ensure!(
         !(request.is_stopped)(),
         "stopped before the first solution: nothing was written"

@@ -20,6 +20,7 @@ use serde::ser::{SerializeMap, Serializer};
 use crate::provenance::Provenance;
 use crate::stages::Stage;
 use ligament::Model;
+use ligament::setup::{Dim, Dimension};
 use ligament::units::Units;
 use ligament_case::case::CaseFile;
 
@@ -169,7 +170,10 @@ fn is_false(value: &bool) -> bool {
 }
 
 /// Why a run ended, in words, with points by their tags and places.
-pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
+pub(crate) fn ending<const D: usize>(outcome: &Outcome, model: &Model<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     let body = model.body();
     outcome.termination.words(&|point| body.place(point))
 }
@@ -182,14 +186,17 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
 
 impl Summary {
     /// Collects the numbers.
-    pub fn new(
+    pub fn new<const D: usize>(
         case: &CaseFile,
-        model: &Model,
+        model: &Model<D>,
         boundary: &ProportionalLoading,
         outcome: &Outcome,
         (provenance, notices, first): (Provenance, Vec<String>, FirstBonds),
         stages: &[Stage],
-    ) -> Self {
+    ) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         let history = &outcome.history;
         let without_equilibrium = outcome.is_without_equilibrium();
         let loaded = |point: Option<LoadPoint>| {

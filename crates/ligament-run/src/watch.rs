@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use ligament::setup::{Dim, Dimension};
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
@@ -18,25 +19,28 @@ use crate::progress::{Progress, StepLine};
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
-pub(crate) struct Watch<'a> {
+pub(crate) struct Watch<'a, const D: usize> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
     is_stopped: IsStopped<'a>,
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    body: &'a dyn Body,
+    body: &'a dyn Body<D>,
     /// Whether faces of cracks carry pressure where they close.
     closing: bool,
 }
 
-impl<'a> Watch<'a> {
+impl<'a, const D: usize> Watch<'a, D>
+where
+    Dim: Dimension<D>,
+{
     /// Watches the run of a setup with a writer, checkpoints and a progress display; it goes on with some notices.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
         is_stopped: IsStopped<'a>,
         progress: &'a mut Progress,
-        setup: &'a Setup,
+        setup: &'a Setup<D>,
         notices: Vec<String>,
     ) -> Self {
         progress.begin_steps(setup.n_steps().map(|steps| steps as u64));
@@ -109,7 +113,10 @@ impl<'a> Watch<'a> {
     }
 }
 
-impl Observer for Watch<'_> {
+impl<const D: usize> Observer for Watch<'_, D>
+where
+    Dim: Dimension<D>,
+{
     fn round(
         &mut self,
         step: usize,

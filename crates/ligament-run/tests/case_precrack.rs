@@ -57,7 +57,7 @@ fn a_resolved_case_keeps_what_was_given() {
     let crack = &back.case.precracks[0];
     assert_eq!(
         (crack.centre, crack.length, crack.angle),
-        (Some([0.01, 0.0]), Some(0.03), Some(0.6))
+        (Some([0.01, 0.0].into()), Some(0.03), Some(0.6))
     );
     assert!(!resolved.contains("points"), "{resolved}");
 }

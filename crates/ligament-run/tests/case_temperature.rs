@@ -7,7 +7,7 @@ use std::path::Path;
 
 use ligament::Loading;
 use ligament_analysis::ControlKind;
-use ligament_case::case::{CaseFile, Rectangle};
+use ligament_case::case::CaseFile;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
@@ -149,7 +149,7 @@ fn the_sections_are_read() {
     let text = format!("{LATTICE}[[temperature]]\nbox = [[1, 2], [0, 1]]\nfile = \"a.csv\"\n");
     let case = parse_in(Path::new("/somewhere"), &text).unwrap();
     let second = &case.case.temperatures[1];
-    assert_eq!(second.r#box, Some(Rectangle([[0.0, 1.0], [1.0, 2.0]])));
+    assert_eq!(second.r#box, Some([[0.0, 1.0], [1.0, 2.0]].into()));
     let file = Path::new("/somewhere/a.csv").to_owned();
     assert_eq!(second.file, Some(file));
     // What a run writes of it is the same case.

@@ -145,11 +145,12 @@ pub enum Fault {
     },
     /// A position that is not on the body.
     #[error(
-        "({:.6}, {:.6}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away", position[0], position[1]
+        "({}) is not on the body: the nearest point, {nearest}, is {distance:.3e} m away",
+        coordinates(position)
     )]
     OffBody {
         /// The position, m.
-        position: [f64; 2],
+        position: Vec<f64>,
         /// The nearest point, in words.
         nearest: String,
         /// Distance from the nearest point, m.
@@ -244,6 +245,11 @@ pub enum Fault {
         "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: this group has no length"
     )]
     NoLength,
+    /// A force per area on points without an area.
+    #[error(
+        "a force per area needs a physical surface of a solid mesh, or cells at a side of a box: this group has no area"
+    )]
+    NoArea,
     /// A pressure on points without an outline.
     #[error(
         "a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: this group has no \
@@ -302,8 +308,8 @@ pub enum Fault {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
-     (direction {:.2}, {:.2}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
-     a horizon factor of 3", places[0], places[1], along[0], along[1]
+     (direction {}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
+     a horizon factor of 3", places[0], places[1], direction(along)
 )]
 pub struct Torn {
     /// Number of parts by the bonds.
@@ -313,13 +319,24 @@ pub struct Torn {
     /// Ends of a side of a cell that lie in two parts, in words.
     pub places: [String; 2],
     /// Direction of the side, without sign.
-    pub along: [f64; 2],
+    pub along: Vec<f64>,
     /// Length of the side, m.
     pub length: f64,
     /// Horizon of its ends, m.
     pub horizon: f64,
     /// The horizon that the side needs, in words.
     pub remedy: String,
+}
+
+fn direction(cosines: &[f64]) -> String {
+    let cosines = cosines.iter().map(|it| format!("{it:.2}"));
+    cosines.collect::<Vec<_>>().join(", ")
+}
+
+/// Coordinates as errors show them.
+pub(crate) fn coordinates(position: &[f64]) -> String {
+    let coordinates = position.iter().map(|it| format!("{it:.6}"));
+    coordinates.collect::<Vec<_>>().join(", ")
 }
 
 impl Field {

@@ -161,7 +161,7 @@ pub fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) 
     match setup.body.origin() {
         Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, material_of_cell, &stiffness),
         Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, material_of_cell, &stiffness),
-        Origin::Points => patch::of_mesh(&[], cloud, material_of_cell, &stiffness),
+        _ => patch::of_mesh(&[], cloud, material_of_cell, &stiffness),
     }
 }
 

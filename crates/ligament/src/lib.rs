@@ -55,6 +55,7 @@ pub mod prelude;
 pub mod run;
 pub mod setup;
 mod soundness;
+pub mod space;
 pub mod stage;
 pub mod suggestion;
 pub mod units;

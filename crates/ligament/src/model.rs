@@ -6,10 +6,12 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
-use ligament_model::correction::{Continuum, Correction, CorrectionReport, energy_ratios};
+use ligament_model::correction::{
+    Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
+};
 use ligament_model::failure::Criteria;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, FixedFields, PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
 
 use crate::body::Body;
@@ -17,18 +19,21 @@ use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
-use crate::setup::{CorrectionDomain, Setup};
+use crate::setup::{CorrectionDomain, Dim, Dimension, Setup};
 use crate::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning::{self, Warning};
 
-/// The discrete model: all that comes before the first equation.
+/// The discrete model in the plane, or for D = 3 in space: all that comes before the first equation.
 #[derive(Debug)]
-pub struct Model {
+pub struct Model<const D: usize = 2>
+where
+    Dim: Dimension<D>,
+{
     /// Setup that the model was built from.
-    pub setup: Setup,
+    pub setup: Setup<D>,
     /// Points and corrected bonds.
-    pub system: Arc<BondSystem>,
+    pub system: Arc<<Dim as Dimension<D>>::System>,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
     /// Report on the domain correction, where there was one.
@@ -41,13 +46,26 @@ pub struct Model {
     pub warnings: Vec<Warning>,
 }
 
-impl Model {
+impl<const D: usize> Model<D>
+where
+    Dim: Dimension<D>,
+{
     /// Builds the model of a setup, on the threads of the caller.
     ///
     /// # Errors
     ///
     /// If a field of the setup is wrong.
-    pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    pub fn build(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+        Dim::model(setup, watcher)
+    }
+}
+
+impl Model {
+    /// Builds the model of a setup in the plane.
+    pub(crate) fn in_plane(
+        setup: Setup,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
@@ -107,7 +125,12 @@ impl Model {
             criteria: Arc::new(criteria),
         })
     }
+}
 
+impl<const D: usize> Model<D>
+where
+    Dim: Dimension<D>,
+{
     /// Number of pairs of points that would be bonded but for a void of the body between them.
     pub fn across_voids(&self) -> usize {
         self.absent(Absence::Void)
@@ -129,7 +152,7 @@ impl Model {
     }
 
     /// The body.
-    pub fn body(&self) -> &dyn Body {
+    pub fn body(&self) -> &dyn Body<D> {
         &*self.setup.body
     }
 }
@@ -199,14 +222,22 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
 }
 
 /// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.
-fn with_cut(mut absent: Vec<AbsentBond>, bonds: &BondSet, is_cut: &[bool]) -> Vec<AbsentBond> {
+pub(crate) fn with_cut<const D: usize>(
+    mut absent: Vec<AbsentBond>,
+    bonds: &BondSet<D>,
+    is_cut: &[bool],
+) -> Vec<AbsentBond> {
     absent.extend(absent_bonds(bonds, is_cut, Absence::PreCrack));
     absent.sort_unstable_by_key(|it| it.ends);
     absent
 }
 
 /// The bonds for which `is_absent` (n_bonds) is true, as what is none.
-fn absent_bonds(bonds: &BondSet, is_absent: &[bool], absence: Absence) -> Vec<AbsentBond> {
+pub(crate) fn absent_bonds<const D: usize>(
+    bonds: &BondSet<D>,
+    is_absent: &[bool],
+    absence: Absence,
+) -> Vec<AbsentBond> {
     (bonds.ends.iter().zip(&bonds.horizon))
         .zip(is_absent)
         .filter(|(_, is_absent)| **is_absent)
@@ -223,7 +254,7 @@ struct Corrected {
     bonds: BondSet,
     stiffness: BondStiffness,
     correction: Correction,
-    energy_ratios: [Vec<f64>; 4],
+    energy_ratios: Vec<EnergyRatio>,
     faces: Faces,
 }
 
@@ -276,18 +307,20 @@ fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
         materials: &materials,
         plane,
     };
-    let energy_ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
+    let ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
+    let named = StrainMode::ALL.into_iter().zip(ratios);
+    let energy_ratios = named.map(|(strain, ratios)| strain.named(ratios));
     Corrected {
         bonds,
         stiffness,
         correction,
-        energy_ratios,
+        energy_ratios: energy_ratios.collect(),
         faces: Faces::default(),
     }
 }
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
-fn precrack_share(bonds: &BondSet, is_cut: &[bool]) -> Vec<f64> {
+pub(crate) fn precrack_share<const D: usize>(bonds: &BondSet<D>, is_cut: &[bool]) -> Vec<f64> {
     let n_points = bonds.incidence.n_points();
     if !is_cut.contains(&true) {
         return vec![0.0; n_points];

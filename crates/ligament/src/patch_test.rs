@@ -170,7 +170,7 @@ fn constants(setup: &Setup, system: &BondSystem, strains: &UniformStrains) -> Op
     let stiffness = elasticity.plane_stiffness(plane);
     let of_tractions = match setup.body.origin() {
         Origin::Lattice(lattice) => patch::stiffness_of_lattice(lattice, &system.cloud, &stiffness),
-        Origin::Mesh(_) | Origin::Points => stiffness,
+        _ => stiffness,
     };
     let read = |constants: EngineeringConstants| match (elasticity, plane) {
         (Elasticity::Isotropic(_), Plane::Strain) => out_of_plane_strain(constants),

@@ -13,27 +13,33 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use crate::error::{Error, Fault, Field};
 use crate::loading::{Loading, Vibration};
 use crate::model::Model;
-use crate::setup::{Analysis, Setup};
+use crate::setup::{Analysis, Dim, Dimension, Setup};
 
 /// What a setup of loads comes to.
 #[derive(Debug)]
-pub struct Solution {
+pub struct Solution<const D: usize = 2>
+where
+    Dim: Dimension<D>,
+{
     /// The discrete model.
-    pub model: Model,
+    pub model: Model<D>,
     /// Probes; their values stand in the records of the outcome, in this order.
     pub probes: Arc<[Probe]>,
     /// Outcome of the analysis: history, last state, and why it ended.
     pub outcome: Outcome,
 }
 
-impl Setup {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
     /// Builds the model and follows the loads on the threads of the setup: the elastic solution, or the breaking of bonds up to the
     /// end of the loading or of the body.
     ///
     /// # Errors
     ///
     /// If a field of the setup is wrong, or the equations cannot be set up. How the analysis ends is in the outcome.
-    pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
+    pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution<D>, Error> {
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
             let loading = Loading::new(&model.setup, &model.system)?;

@@ -12,7 +12,7 @@ use crate::setup::{Horizon, Setup};
 ///
 /// Double nodes of exports in single precision lie up to 1e-7 of the body's size apart, 1e-5 of cells of a hundredth of it. Of two
 /// points nearer than this one bond would be 1e5 times as stiff as all others.
-const DISTINCT: f64 = 1e-5;
+pub(crate) const DISTINCT: f64 = 1e-5;
 
 /// Refuses cells that lie on others.
 pub(crate) fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
@@ -48,7 +48,10 @@ pub(crate) fn require_distinct(body: &dyn Body, cloud: &PointCloud) -> Result<()
 }
 
 /// Refuses points that have no neighbour at all: no correction gives them a stiffness.
-fn require_neighbours(body: &dyn Body, bonds: &BondSet) -> Result<(), SetupError> {
+pub(crate) fn require_neighbours<const D: usize>(
+    body: &dyn Body<D>,
+    bonds: &BondSet<D>,
+) -> Result<(), SetupError> {
     let lone = bonds.lone_points();
     let Some(&first) = lone.first() else {
         return Ok(());
@@ -112,7 +115,9 @@ fn require_whole(
         parts: parts.count(),
         of_body: of_mesh.count(),
         places: worst.map(|it| body.place(it)),
-        along: [0, 1].map(|axis| (to[axis] - from[axis]).abs() / length(&worst)),
+        along: (0..2)
+            .map(|axis| (to[axis] - from[axis]).abs() / length(&worst))
+            .collect(),
         length: length(&worst),
         horizon: radius(&worst),
         remedy: match setup.horizon {
@@ -125,18 +130,27 @@ fn require_whole(
 
 /// Refuses bonds whose stiffness is no number that equations can be made of.
 pub(crate) fn require_numbers(body: &dyn Body, system: &BondSystem) -> Result<(), SetupError> {
+    require_rigidities(body, &system.rigidities, &system.bonds.ends)
+}
+
+/// Refuses rigidities of bonds between some ends (n_bonds) that are no numbers to make equations of.
+pub(crate) fn require_rigidities<const D: usize>(
+    body: &dyn Body<D>,
+    rigidities: &Rigidities,
+    ends: &[[u32; 2]],
+) -> Result<(), SetupError> {
     let Rigidities {
         axial,
         shear,
         rotational,
-    } = &system.rigidities;
+    } = rigidities;
     let is_wrong = |bond: &usize| {
         let mut all = [axial, shear, rotational].into_iter().map(|it| it[*bond]);
         all.any(|it| !it.is_finite())
     };
     if let Some(bond) = (0..axial.len()).find(is_wrong) {
         return Err(Field::whole("materials").error(Fault::NoNumber {
-            places: system.bonds.ends[bond].map(|end| body.place(end)),
+            places: ends[bond].map(|end| body.place(end)),
         }));
     }
     // The square of a strain of one in 10^14 counts as well.
@@ -149,13 +163,13 @@ pub(crate) fn require_numbers(body: &dyn Body, system: &BondSystem) -> Result<()
 }
 
 /// Points that hang together by pairs.
-struct Parts {
+pub(crate) struct Parts {
     /// The first point of the part of each point.
     first: Vec<u32>,
 }
 
 impl Parts {
-    fn new(n_points: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
+    pub(crate) fn new(n_points: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
         let mut first: Vec<u32> = (0..n_points as u32).collect();
         let root = |first: &mut [u32], mut point: u32| {
             while first[point as usize] != point {
@@ -174,11 +188,11 @@ impl Parts {
         Self { first }
     }
 
-    fn part(&self, point: u32) -> u32 {
+    pub(crate) fn part(&self, point: u32) -> u32 {
         self.first[point as usize]
     }
 
-    fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         let firsts = self.first.iter().enumerate();
         firsts
             .filter(|(point, first)| *point == **first as usize)

@@ -1,6 +1,6 @@
 //! Units of the force-displacement curve.
 
-use crate::setup::{Action, Setup};
+use crate::setup::{Action, Dim, Dimension, Setup};
 
 /// Units of the axes of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,10 @@ impl Units {
     }
 }
 
-impl Setup {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
     /// Units of the displacement and the force in the history, which are those of the load of the curve, or of the temperature.
     pub fn units(&self) -> Units {
         let load = self.curve_load();
@@ -40,14 +43,17 @@ impl Setup {
     }
 }
 
-impl Action {
+impl<const D: usize> Action<D> {
     /// Units of the displacement and the force of the action in the history: their product is work.
     pub fn units(&self) -> Units {
         match self {
-            Self::Displacement(it) if it.x.is_none() && it.y.is_none() => Units::COUPLE,
+            Self::Displacement(it) if it.components().all(|(it, _)| it.is_rotation()) => {
+                Units::COUPLE
+            }
             Self::Displacement(_)
             | Self::Force(_)
             | Self::ForcePerLength(_)
+            | Self::ForcePerArea(_)
             | Self::BodyForce(_)
             | Self::Acceleration(_) => Units::FORCE,
             Self::Moment(_) | Self::BodyCouple(_) => Units::COUPLE,

@@ -3,11 +3,12 @@
 use ligament_model::correction::{CorrectionReport, DomainReport, patch};
 use ligament_model::failure::Measure;
 use ligament_model::failure::softening::linear;
+use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::{ElementKind, FixedFields, Isotropic};
 use thiserror::Error;
 
 use crate::body::Body;
-use crate::setup::{Horizon, Setup};
+use crate::setup::{Dim, Dimension, Horizon, Setup};
 
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -70,8 +71,9 @@ pub enum Warning {
     /// A domain correction that did not converge.
     #[error(
         "the domain correction did not converge in {sweeps} sweeps (last change {last_change:.2e}): {off} of {n_points} points have \
-         energies off by more than {ENERGY_TOLERANCE}, the worst by {error:.1e} ({worst} at {:.4}, {:.4}); more \
-         correction.max_sweeps may help", position[0], position[1]
+         energies off by more than {ENERGY_TOLERANCE}, the worst by {error:.1e} ({worst} at {}); more \
+         correction.max_sweeps may help",
+        place(position)
     )]
     NotConverged {
         /// Number of sweeps.
@@ -87,13 +89,13 @@ pub enum Warning {
         /// The point with the largest error, in words.
         worst: String,
         /// Position of the point, m.
-        position: [f64; 2],
+        position: Vec<f64>,
     },
     /// A patch correction whose equations the bonds cannot meet.
     #[error(
         "the patch correction cannot make every uniform strain an equilibrium: forces of {:.2} % of the size of their terms are left in \
-         the mean, of {:.0} % at worst ({worst} at {:.4}, {:.4}); more bonds a point help (model.horizon_factor = 3), or take \
-         correction.surface = \"domain\"", 100.0 * left, 100.0 * largest, position[0], position[1]
+         the mean, of {:.0} % at worst ({worst} at {}); more bonds a point help (model.horizon_factor = 3), or take \
+         correction.surface = \"domain\"", 100.0 * left, 100.0 * largest, place(position)
     )]
     NotMet {
         /// Root mean square of what is left of the scaled equations.
@@ -103,7 +105,7 @@ pub enum Warning {
         /// The point, in words.
         worst: String,
         /// Position of the point, m.
-        position: [f64; 2],
+        position: Vec<f64>,
     },
     /// Bonds that only touch an end of a pre-crack.
     #[error(
@@ -157,6 +159,9 @@ pub enum Warning {
         /// Whether bonds resist rotations too.
         turns: bool,
     },
+    /// A Poisson's ratio that makes shear stiffness negative in space.
+    #[error("{0}")]
+    NegativeShearInSpace(NegativeShear),
     /// A criterion that takes the rotation of the body for sliding.
     #[error(
         "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so that where the body turns its rotation counts \
@@ -181,15 +186,24 @@ pub enum Warning {
     },
 }
 
+/// A position as warnings show it.
+fn place(position: &[f64]) -> String {
+    let coordinates = position.iter().map(|it| format!("{it:.4}"));
+    coordinates.collect::<Vec<_>>().join(", ")
+}
+
 /// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction,
 /// pre-cracks (`touched`: bonds that only touch an end of one) and the materials.
-pub(crate) fn of_model(
-    setup: &Setup,
+pub(crate) fn of_model<const D: usize>(
+    setup: &Setup<D>,
     spacing: &[f64],
     correction: Option<&CorrectionReport>,
     fixed: &FixedFields,
     touched: usize,
-) -> Vec<Warning> {
+) -> Vec<Warning>
+where
+    Dim: Dimension<D>,
+{
     let body = &*setup.body;
     let mut warnings: Vec<Warning> = body.remarks().into_iter().map(Warning::Body).collect();
     let length = length(body);
@@ -234,7 +248,14 @@ pub(crate) fn of_model(
     warnings
 }
 
-fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<Warning> {
+fn small_horizon<const D: usize>(
+    setup: &Setup<D>,
+    spacing: &[f64],
+    fixed: &FixedFields,
+) -> Option<Warning>
+where
+    Dim: Dimension<D>,
+{
     let (factor, is_given) = match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
         Horizon::Length(_) => {
@@ -246,22 +267,25 @@ fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
-fn scatter_below_spacing(setup: &Setup, spacing: &[f64]) -> Option<Warning> {
+fn scatter_below_spacing<const D: usize>(setup: &Setup<D>, spacing: &[f64]) -> Option<Warning>
+where
+    Dim: Dimension<D>,
+{
     let length = setup.scatter?.correlation_length;
     let spacing = spacing.iter().copied().fold(0.0, f64::max);
     (length > 0.0 && length < spacing).then_some(Warning::ScatterBelowSpacing { length, spacing })
 }
 
 /// Longer side of the box around a body, m.
-fn length(body: &dyn Body) -> f64 {
+fn length<const D: usize>(body: &dyn Body<D>) -> f64 {
     let extent = |axis: usize| {
         let places = body.positions().iter().map(|it| it[axis]);
         places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
     };
-    extent(0).max(extent(1))
+    (0..D).map(extent).fold(0.0, f64::max)
 }
 
-fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
+fn large_horizon<const D: usize>(body: &dyn Body<D>, fixed: &FixedFields) -> Option<Warning> {
     let length = length(body);
     let horizons = fixed.horizon.iter().enumerate();
     let (point, &horizon) = horizons.min_by(|one, other| one.1.total_cmp(other.1))?;
@@ -272,7 +296,7 @@ fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
     })
 }
 
-fn not_met(body: &dyn Body, report: &patch::Report) -> Warning {
+fn not_met<const D: usize>(body: &dyn Body<D>, report: &patch::Report) -> Warning {
     let residual = &report.residual;
     let worst = (0..residual.len())
         .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
@@ -281,32 +305,45 @@ fn not_met(body: &dyn Body, report: &patch::Report) -> Warning {
         left: report.left,
         largest: residual[worst],
         worst: body.label(worst as u32),
-        position: body.positions()[worst],
+        position: body.positions()[worst].to_vec(),
     }
 }
 
-fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &FixedFields) -> Warning {
-    let [x, y, ..] = &fixed.energy_ratios;
-    let error = |point: usize| (x[point] - 1.0).abs().max((y[point] - 1.0).abs());
-    let off = (0..x.len())
+fn not_converged<const D: usize>(
+    body: &dyn Body<D>,
+    correction: &DomainReport,
+    fixed: &FixedFields,
+) -> Warning {
+    let n_points = fixed.horizon.len();
+    let along_axes = &fixed.energy_ratios[..D];
+    let error = |point: usize| {
+        let errors = along_axes
+            .iter()
+            .map(|it| (it.at_points[point] - 1.0).abs());
+        errors.fold(0.0, f64::max)
+    };
+    let off = (0..n_points)
         .filter(|&point| error(point) > ENERGY_TOLERANCE)
         .count();
-    let worst = (0..x.len())
+    let worst = (0..n_points)
         .max_by(|&i, &j| error(i).total_cmp(&error(j)))
         .unwrap_or_default();
     Warning::NotConverged {
         sweeps: correction.sweeps,
         last_change: correction.last_change,
         off,
-        n_points: x.len(),
+        n_points,
         error: error(worst),
         worst: body.label(worst as u32),
-        position: body.positions()[worst],
+        position: body.positions()[worst].to_vec(),
     }
 }
 
 /// The shear of a bond between points without rotations is that of the body and its rotation together.
-fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
+fn rotation_as_sliding<const D: usize>(setup: &Setup<D>) -> Option<Warning>
+where
+    Dim: Dimension<D>,
+{
     let law = &setup.law;
     if law.element() != ElementKind::Spring {
         return None;
@@ -325,7 +362,10 @@ fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
     })
 }
 
-fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+fn energy_given_back<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning>
+where
+    Dim: Dimension<D>,
+{
     let mut kinds = setup.criteria.iter();
     let looks_at_energy = kinds.any(|it| it.kind.measures.contains(&Measure::Energy));
     let (poisson, limit) = poisson_and_limit(setup, material);
@@ -333,7 +373,10 @@ fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })
 }
 
-fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+fn of_poisson<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning>
+where
+    Dim: Dimension<D>,
+{
     let (poisson, limit) = poisson_and_limit(setup, material);
     if setup.law.fixes_poisson() {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
@@ -344,14 +387,13 @@ fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
         ElementKind::Spring => false,
         ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => return None,
     };
-    (poisson > limit).then_some(Warning::NegativeShear {
-        poisson,
-        limit,
-        turns,
-    })
+    (poisson > limit).then(|| Dim::negative_shear(setup, poisson, turns))
 }
 
-fn poisson_and_limit(setup: &Setup, material: &Isotropic) -> (f64, f64) {
-    let limit = Isotropic::central_force_poisson(setup.plane());
+fn poisson_and_limit<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> (f64, f64)
+where
+    Dim: Dimension<D>,
+{
+    let limit = Dim::central_poisson(&setup.section);
     (material.poisson, limit)
 }

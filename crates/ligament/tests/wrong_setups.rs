@@ -38,7 +38,9 @@ fn the_plate_itself_is_right() {
 #[test]
 fn a_group_that_is_not_there_is_named_with_the_nearest() {
     let mut setup = plate();
-    setup.loads.push(Load::new("rigth", Action::Moment(1.0)));
+    setup
+        .loads
+        .push(Load::new("rigth", Action::Moment(1.0.into())));
     let Error::Setup(error) = setup.solve(&mut Unobserved).unwrap_err() else {
         panic!("another error");
     };
@@ -201,7 +203,7 @@ fn what_does_not_go_together_is_refused_with_a_remedy() {
         (error(|it| it.materials.clear()), "materials:", "give one"),
         (error(|it| it.loads.clear()), "temperatures:", "no load"),
         (
-            error(|it| it.loads[0].action = Action::Moment(0.0)),
+            error(|it| it.loads[0].action = Action::Moment(0.0.into())),
             "loads[0].action:",
             "other than 0",
         ),

@@ -3,14 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::region::{Rectangle, place};
-use super::values::{Point, exactly_one};
+use super::region::{Corners, place};
+use super::values::exactly_one;
 use ligament::setup;
 
 /// Prescribed displacements; a component that is not given is free.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("minProperties" = 1))]
 pub struct Displacement {
@@ -18,8 +19,34 @@ pub struct Displacement {
     pub x: Option<f64>,
     /// Along y, m.
     pub y: Option<f64>,
-    /// Rotation, rad, counter-clockwise.
+    /// Rotation in the plane, rad, counter-clockwise.
     pub rotation: Option<f64>,
+    /// Along z of a solid, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+    /// Rotation about x in a solid, rad, right-handed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_x: Option<f64>,
+    /// Rotation about y in a solid, rad, right-handed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_y: Option<f64>,
+    /// Rotation about z in a solid, rad, right-handed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_z: Option<f64>,
+}
+
+impl Displacement {
+    pub(super) fn setup(&self) -> setup::Displacement {
+        setup::Displacement {
+            x: self.x,
+            y: self.y,
+            rotation: self.rotation,
+            z: self.z,
+            rotation_x: self.rotation_x,
+            rotation_y: self.rotation_y,
+            rotation_z: self.rotation_z,
+        }
+    }
 }
 
 /// A vector; a component that is not given is zero.
@@ -33,6 +60,20 @@ pub struct Vector {
     /// Along y, in the unit of the force.
     #[serde(default)]
     pub y: f64,
+    /// Along z of a solid, in the unit of the force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+}
+
+impl Vector {
+    pub(super) fn of<const D: usize>(&self, key: &KeyPath) -> Result<[f64; D], KeyFault> {
+        if D < 3 && self.z.is_some() {
+            let reason = "a body in the plane has no z";
+            return Err(KeyFault::new(key.child("z"), reason));
+        }
+        let along = [self.x, self.y, self.z.unwrap_or(0.0)];
+        Ok(std::array::from_fn(|axis| along[axis]))
+    }
 }
 
 /// Stiffness of springs to the ground in total over the points, shared out as a force is; a component that is not given has none.
@@ -49,6 +90,10 @@ pub struct SpringStiffness {
     /// Against rotations of the points, in N m/rad.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rotation: Option<f64>,
+    /// Along z of a solid, N/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
     /// Along the `normal` of the support, N/m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub normal: Option<f64>,
@@ -61,48 +106,47 @@ pub struct SpringStiffness {
 pub struct Support {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
-    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
-    pub r#box: Option<Rectangle>,
-    /// The point nearest to `[x, y]`, m.
-    pub at: Option<Point>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
+    pub r#box: Option<Corners>,
+    /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
+    pub at: Option<Coordinates>,
     /// The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// An inclined roller: the direction along which the points are held while they are free across it, `[1.0, 1.0]` is at 45 degrees.
-    pub normal: Option<Point>,
+    pub normal: Option<Coordinates>,
     /// Springs to the ground in the place of what holds, in total over the points.
     pub stiffness: Option<SpringStiffness>,
 }
 
 impl Support {
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Support, KeyFault> {
-        let nothing = Displacement {
-            x: None,
-            y: None,
-            rotation: None,
-        };
-        let Displacement { x, y, rotation } = self.displacement.unwrap_or(nothing);
-        for (name, value) in [("x", x), ("y", y), ("rotation", rotation)] {
-            if let Some(value) = value.filter(|it| *it != 0.0) {
-                let reason = format!(
-                    "a support holds at 0, found {value:?}: put prescribed displacements in a [[load]]"
-                );
-                return Err(KeyFault::new(key.child("displacement").child(name), reason));
-            }
+    pub(super) fn setup<const D: usize>(
+        &self,
+        key: &KeyPath,
+    ) -> Result<setup::Support<D>, KeyFault> {
+        let given = self.displacement.unwrap_or_default().setup();
+        for (component, value) in given.components().filter(|(_, value)| *value != 0.0) {
+            let reason = format!(
+                "a support holds at 0, found {value:?}: put prescribed displacements in a [[load]]"
+            );
+            let key = key.child("displacement").child(component.name());
+            return Err(KeyFault::new(key, reason));
         }
+        let stiffness = |it: SpringStiffness| setup::SpringStiffness {
+            components: setup::Displacement {
+                x: it.x,
+                y: it.y,
+                rotation: it.rotation,
+                z: it.z,
+                ..setup::Displacement::default()
+            },
+            normal: it.normal,
+        };
+        let normal = self.normal.map(|it| it.of(&key.child("normal")));
         Ok(setup::Support {
             place: place(key, self.group.as_ref(), self.r#box, self.at)?,
-            x: x.is_some(),
-            y: y.is_some(),
-            rotation: rotation.is_some(),
-            normal: self.normal,
-            stiffness: (self.stiffness).map_or_else(Default::default, |it| {
-                setup::SpringStiffness {
-                    x: it.x,
-                    y: it.y,
-                    rotation: it.rotation,
-                    normal: it.normal,
-                }
-            }),
+            held: given.components().map(|(component, _)| component).collect(),
+            normal: normal.transpose()?,
+            stiffness: self.stiffness.map(stiffness).unwrap_or_default(),
         })
     }
 }

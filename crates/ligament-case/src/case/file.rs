@@ -1,8 +1,11 @@
 //! A case file on disk: loading it, and locating its keys.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use ligament::SetupError;
+use ligament::body::SolidMeshBody;
+use ligament_mesh::SolidMesh;
 
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
@@ -75,12 +78,16 @@ impl CaseFile {
         let case = check_ranges(document).and_then(|()| Case::read(document, folder));
         let case = case.map_err(|fault| source.error(fault))?;
         let file = Self { source, case };
-        let setup = file
-            .case
-            .stand_in()
-            .and_then(|body| file.case.setup_with(body));
-        let setup = setup.map_err(|fault| file.source.error(fault))?;
-        setup.check().map_err(|error| file.located(error))?;
+        let case = &file.case;
+        let checked = if case.is_solid() {
+            let body = Arc::new(SolidMeshBody::from(SolidMesh::default()));
+            case.in_space(body).map(|setup| setup.check())
+        } else {
+            let setup = case.stand_in().and_then(|body| case.in_plane(body));
+            setup.map(|setup| setup.check())
+        };
+        let checked = checked.map_err(|fault| file.source.error(fault))?;
+        checked.map_err(|error| file.located(error))?;
         Ok(file)
     }
 

@@ -4,42 +4,47 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::conditions::{Displacement, Vector};
+use super::coordinates::Coordinates;
+use super::couple::Couple;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::region::{Rectangle, place};
-use super::values::{Point, exactly_one, first_given, one_of, require_column_name};
+use super::region::{Corners, place};
+use super::values::{exactly_one, first_given, one_of, require_column_name};
 use super::word::Word;
 use ligament::setup::{self, Action, Axis, Place};
 
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["displacement", "force", "force_per_length", "body_force", "acceleration", "moment", "body_couple", "pressure"])))]
+#[schemars(extend("oneOf" = exactly_one(&["displacement", "force", "force_per_length", "force_per_area", "body_force", "acceleration", "moment", "body_couple", "pressure"])))]
 pub struct Load {
     /// Heads its column in `history.csv`; without it the name of the group.
     #[schemars(length(min = 1))]
     pub name: Option<String>,
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
-    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
-    pub r#box: Option<Rectangle>,
-    /// The point nearest to `[x, y]`, m.
-    pub at: Option<Point>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
+    pub r#box: Option<Corners>,
+    /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
+    pub at: Option<Coordinates>,
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// A force in total over the points, N.
     pub force: Option<Vector>,
     /// A force along the edges of a group, N/m.
     pub force_per_length: Option<Vector>,
+    /// A force over the surface of a group of a solid, N/m^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_per_area: Option<Vector>,
     /// A force in the volume, N/m^3; on the whole body without a place.
     pub body_force: Option<Vector>,
     /// An acceleration that acts on all masses, as gravity does, m/s^2; on the whole body without a place, and the materials need a
     /// `density`.
     pub acceleration: Option<Vector>,
-    /// A couple in total over the points, counter-clockwise, N m.
-    pub moment: Option<f64>,
-    /// A couple in the volume, counter-clockwise, N m/m^3; on the whole body without a place.
-    pub body_couple: Option<f64>,
+    /// A couple in total over the points, N m: counter-clockwise, in a solid `{ x = 0.0, y = 0.0, z = 1.0 }`, right-handed.
+    pub moment: Option<Couple>,
+    /// A couple in the volume, N m/m^3, as a `moment`; on the whole body without a place.
+    pub body_couple: Option<Couple>,
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
     pub pressure: Option<f64>,
     /// How the load varies along an axis: what a point takes is multiplied by (c - zero)/(one - zero).
@@ -76,8 +81,8 @@ impl Load {
         Ok(())
     }
 
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Load, KeyFault> {
-        let action = one_of(key, self.actions())?;
+    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Load<D>, KeyFault> {
+        let action = one_of(key, self.actions(key))??;
         let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
         let place = match action {
             Action::Displacement(_) | Action::Force(_) | Action::Moment(_) => self.place(key)?,
@@ -98,38 +103,44 @@ impl Load {
         })
     }
 
-    fn place(&self, key: &KeyPath) -> Result<Place, KeyFault> {
+    fn place<const D: usize>(&self, key: &KeyPath) -> Result<Place<D>, KeyFault> {
         place(key, self.group.as_ref(), self.r#box, self.at)
     }
 
-    fn actions(&self) -> [(&'static str, Option<Action>); 8] {
-        let displacement = self.displacement.map(|it| setup::Displacement {
-            x: it.x,
-            y: it.y,
-            rotation: it.rotation,
-        });
-        let vector = |given: Option<Vector>| given.map(|it| [it.x, it.y]);
+    fn actions<const D: usize>(&self, key: &KeyPath) -> Actions<D> {
+        let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
+        let vector =
+            |name: &'static str, given: Option<Vector>, make: fn([f64; D]) -> Action<D>| {
+                let action = given.map(|it| it.of(&key.child(name)).map(make));
+                (name, action)
+            };
+        let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action<D>| {
+            let action = given.map(|it| it.of::<D>(&key.child(name)).map(make));
+            (name, action)
+        };
         [
-            ("displacement", displacement.map(Action::Displacement)),
-            ("force", vector(self.force).map(Action::Force)),
-            (
+            ("displacement", self.displacement.map(displacement)),
+            vector("force", self.force, Action::Force),
+            vector(
                 "force_per_length",
-                vector(self.force_per_length).map(Action::ForcePerLength),
+                self.force_per_length,
+                Action::ForcePerLength,
             ),
-            ("body_force", vector(self.body_force).map(Action::BodyForce)),
-            (
-                "acceleration",
-                vector(self.acceleration).map(Action::Acceleration),
-            ),
-            ("moment", self.moment.map(Action::Moment)),
-            ("body_couple", self.body_couple.map(Action::BodyCouple)),
-            ("pressure", self.pressure.map(Action::Pressure)),
+            vector("force_per_area", self.force_per_area, Action::ForcePerArea),
+            vector("body_force", self.body_force, Action::BodyForce),
+            vector("acceleration", self.acceleration, Action::Acceleration),
+            couple("moment", self.moment, Action::Moment),
+            couple("body_couple", self.body_couple, Action::BodyCouple),
+            ("pressure", self.pressure.map(|it| Ok(Action::Pressure(it)))),
         ]
     }
 
     /// Key of the action.
     pub(crate) fn action_key(&self) -> &'static str {
-        let given = self.actions().map(|(key, action)| (key, action.is_some()));
-        first_given(given).unwrap_or("force")
+        let actions = self.actions::<3>(&KeyPath::default());
+        first_given(actions.map(|(key, action)| (key, action.is_some()))).unwrap_or("force")
     }
 }
+
+/// The actions of a load by their keys.
+type Actions<const D: usize> = [(&'static str, Option<Result<Action<D>, KeyFault>>); 9];

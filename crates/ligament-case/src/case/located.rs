@@ -1,5 +1,7 @@
 //! The key of a case that a faulty field of its setup comes from.
 
+use std::path::Path;
+
 use ligament::error::Fault as SetupFault;
 use ligament::{Field, SetupError};
 
@@ -117,6 +119,7 @@ impl Case {
                 return element;
             }
             ("materials", Some(_)) => missing_key(field),
+            ("precracks", Some("surface")) => self.precracks[index].surface_key(),
             ("precracks", Some("points")) => &self.points_key(index),
             (_, Some("place")) => self.place_key(field.name, index),
             (_, Some("action")) => self.loads[index].action_key(),
@@ -160,11 +163,20 @@ impl Case {
             return format!("{place} has two temperatures").into();
         };
         // The rows were read before: only their lines are asked for.
-        let rows = temperature_table::rows_of(file).unwrap_or_default();
-        let [first, second] = samples.map(|it| rows.get(it).map_or(0, |(line, _)| *line));
+        let lines = match self.is_solid() {
+            true => lines_of::<3>(file),
+            false => lines_of::<2>(file),
+        };
+        let [first, second] = samples.map(|it| lines.get(it).copied().unwrap_or_default());
         let file = file.display();
         format!("{file}:{second}: {place} has a row already, in line {first}").into()
     }
+}
+
+/// Lines of the rows of a table.
+fn lines_of<const D: usize>(file: &Path) -> Vec<usize> {
+    let rows = temperature_table::rows_of::<D>(file).unwrap_or_default();
+    rows.into_iter().map(|(line, _)| line).collect()
 }
 
 /// The key of a material that a part of the setup's comes from.

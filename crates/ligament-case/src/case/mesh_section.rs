@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{metre, require};
+use super::values::{metre, refuse, require};
 use super::word::Word;
+use crate::mesh_file::holds_solid;
 use ligament_model::Plane;
 
 /// The meshed body.
@@ -18,13 +19,36 @@ pub struct MeshSection {
     /// The mesh, a Gmsh file (2.2 or 4.1), from the folder of the case file.
     #[schemars(length(min = 1))]
     pub file: PathBuf,
-    /// Thickness of the body, m.
-    #[serde(default = "metre")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub thickness: f64,
-    /// Plane stress or plane strain.
-    #[serde(default)]
-    pub plane: Word<Plane>,
+    /// Thickness of a body in the plane, m; a mesh of solid cells has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
+    pub thickness: Option<f64>,
+    /// Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = "stress"))]
+    pub plane: Option<Word<Plane>>,
+    /// Whether the cells of the mesh are solid.
+    #[serde(skip)]
+    pub is_solid: bool,
+}
+
+impl MeshSection {
+    /// Fills in what is not given; `folder` is that of the case file.
+    pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+        complete_path(&key.child("file"), &mut self.file, folder)?;
+        self.is_solid = holds_solid(&self.file);
+        if self.is_solid {
+            let given = [
+                ("thickness", self.thickness.is_some()),
+                ("plane", self.plane.is_some()),
+            ];
+            let reason = "they belong to bodies in the plane";
+            return refuse(key, given, "a mesh of solid cells", reason);
+        }
+        self.thickness.get_or_insert_with(metre);
+        self.plane.get_or_insert_default();
+        Ok(())
+    }
 }
 
 /// Makes the path at a key an absolute one; without `..` where the file exists. Whether it does is for its reader to say.

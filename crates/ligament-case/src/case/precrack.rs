@@ -5,11 +5,13 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, first_given, missing};
-use super::values::{not_exactly_one, refuse, require};
+use super::values::{not_exactly_one, one_of, refuse, require};
 use super::word::Word;
+use ligament::space::{CrackSurface, SolidCrack};
 use ligament_model::bonds::precrack::{Ends, PreCrack};
 
 /// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
@@ -19,26 +21,44 @@ const SAME_ANGLE: f64 = 1e-9;
 /// A crack that is there from the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["points", "centre"])))]
-#[schemars(extend("dependencies" = { "centre": ["length", "angle"], "length": ["centre", "angle"], "angle": ["centre", "length"] }))]
+#[schemars(extend("oneOf" = exactly_one(&["points", "centre", "group"])))]
+#[schemars(extend("dependencies" = { "length": ["centre", "angle"], "angle": ["centre", "length"], "normal": ["centre", "radius"], "radius": ["centre", "normal"] }))]
 pub struct Precrack {
-    /// Corners of the polyline, two or more `[x, y]`, m.
+    /// Corners of the polyline, two or more `[x, y]`, m; in a solid of a plane polygon, three or more `[x, y, z]`.
     #[schemars(length(min = 2))]
-    pub points: Option<Vec<Point>>,
-    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`.
-    pub centre: Option<Point>,
+    pub points: Option<Vec<Coordinates>>,
+    /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
+    /// `radius`.
+    pub centre: Option<Coordinates>,
     /// From end to end of a straight crack, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
     /// From the x axis to a straight crack, counter-clockwise, rad.
     pub angle: Option<f64>,
+    /// Normal of a disk in a solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Coordinates>,
+    /// Radius of a disk in a solid, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub radius: Option<f64>,
+    /// The faces of this physical surface of a solid mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
     /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
     pub ends: Word<Ends>,
 }
 
 impl Precrack {
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+    pub(super) fn in_plane(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+        let of_solids = [
+            ("normal", self.normal.is_some()),
+            ("radius", self.radius.is_some()),
+            ("group", self.group.is_some()),
+        ];
+        let reason = "it belongs to pre-cracks of solids, which are surfaces";
+        refuse(key, of_solids, "a body in the plane", reason)?;
         let straight = [
             ("centre", self.centre.is_some()),
             ("length", self.length.is_some()),
@@ -48,7 +68,11 @@ impl Precrack {
             Some(points) => {
                 let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
                 refuse(key, straight, "`points`", reason)?;
-                points.clone()
+                let key = key.child("points");
+                let corners = points.iter().enumerate();
+                corners
+                    .map(|(index, it)| it.of(&key.child(index)))
+                    .collect::<Result<_, _>>()?
             }
             None if first_given(straight).is_some() => self.ends_of_line(key)?.to_vec(),
             None => {
@@ -60,8 +84,52 @@ impl Precrack {
         Ok(PreCrack { points, ends })
     }
 
+    pub(super) fn in_space(&self, key: &KeyPath) -> Result<SolidCrack, KeyFault> {
+        let of_lines = [
+            ("length", self.length.is_some()),
+            ("angle", self.angle.is_some()),
+        ];
+        refuse(
+            key,
+            of_lines,
+            "a solid",
+            "it belongs to pre-cracks in the plane, which are lines",
+        )?;
+        let points = self.points.as_ref().map(|points| {
+            let key = key.child("points");
+            let corners = points.iter().enumerate();
+            let corners = corners.map(|(index, it)| it.of(&key.child(index)));
+            corners.collect::<Result<_, _>>().map(CrackSurface::Polygon)
+        });
+        let disk = self.centre.map(|centre| {
+            let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
+            Ok(CrackSurface::Disk {
+                centre: centre.of(&key.child("centre"))?,
+                normal: normal.of(&key.child("normal"))?,
+                radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
+            })
+        });
+        let group = self.group.clone().map(|it| Ok(CrackSurface::Group(it)));
+        let surface = one_of(
+            key,
+            [("points", points), ("centre", disk), ("group", group)],
+        )??;
+        let ends = self.ends.0;
+        Ok(SolidCrack { surface, ends })
+    }
+
+    /// Key of the surface of a pre-crack of a solid.
+    pub(crate) fn surface_key(&self) -> &'static str {
+        let given = [
+            ("points", self.points.is_some()),
+            ("centre", self.centre.is_some()),
+        ];
+        first_given(given).unwrap_or("group")
+    }
+
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
         let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
+        let centre = centre.of(&key.child("centre"))?;
         let length = self.length.ok_or_else(|| missing(key, "length"))?;
         let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
         let ends = straight(centre, length, angle);

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::{Point, exactly_one, first_given, one_of, require_column_name};
+use super::values::{exactly_one, first_given, one_of, require_column_name};
 use super::word::Word;
 use ligament::setup::{self, Axis, Reading};
 use ligament_analysis::Component;
@@ -20,32 +21,40 @@ pub struct Probe {
     #[schemars(length(min = 1))]
     pub name: String,
     /// Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`.
-    pub between: Option<[Point; 2]>,
+    pub between: Option<[Coordinates; 2]>,
     /// A position, m, whose nearest point is read; with `field`.
-    pub at: Option<Point>,
-    /// A line, m, through which the bonds carry a force, N; with `component`.
-    pub section: Option<[Point; 2]>,
-    /// The component that `between` (m or rad) or `section` (N; `x` or `y`) reads.
+    pub at: Option<Coordinates>,
+    /// A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
+    /// `component`.
+    pub section: Option<[Coordinates; 2]>,
+    /// The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
     pub component: Option<Word<Component>>,
     /// The field that is read `at` the position.
     pub field: Option<Word<PointField>>,
 }
 
 impl Probe {
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Probe, KeyFault> {
+    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Probe<D>, KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
+        let pair = |name: &str, [first, second]: [Coordinates; 2]| {
+            let key = key.child(name);
+            Ok([first.of(&key.child(0))?, second.of(&key.child(1))?])
+        };
         let between = |positions| {
+            let positions = pair("between", positions)?;
             let component = self.component(key)?;
             Ok(Reading::Between {
                 positions,
                 component,
             })
         };
-        let at = |position| {
+        let at = |position: Coordinates| {
+            let position = position.of(&key.child("at"))?;
             let field = self.field(key)?;
             Ok(Reading::At { position, field })
         };
         let section = |line| {
+            let line = pair("section", line)?;
             let component = self.axis(key)?;
             Ok(Reading::Section { line, component })
         };
@@ -74,8 +83,9 @@ impl Probe {
         match self.component(key)? {
             Component::X => Ok(Axis::X),
             Component::Y => Ok(Axis::Y),
+            Component::Z => Ok(Axis::Z),
             _ => {
-                let reason = "the force through a section has the components \"x\" and \"y\" only";
+                let reason = "the force through a section has the components \"x\", \"y\" and, in a solid, \"z\" only";
                 Err(KeyFault::new(key.child("component"), reason))
             }
         }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, one_of};
@@ -28,6 +29,52 @@ impl TryFrom<[Point; 2]> for Rectangle {
     }
 }
 
+/// A rectangle, or in space a box: its lowest and its highest corner, m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "[Coordinates; 2]")]
+pub struct Corners(pub [Coordinates; 2]);
+
+impl Corners {
+    pub(super) fn of<const D: usize>(&self, key: &KeyPath) -> Result<[[f64; D]; 2], KeyFault> {
+        let [low, high] = &self.0;
+        Ok([low.of(&key.child(0))?, high.of(&key.child(1))?])
+    }
+}
+
+impl<const D: usize> From<[[f64; D]; 2]> for Corners {
+    fn from(corners: [[f64; D]; 2]) -> Self {
+        Self(corners.map(Coordinates::from))
+    }
+}
+
+impl TryFrom<[Coordinates; 2]> for Corners {
+    type Error = String;
+
+    fn try_from([a, b]: [Coordinates; 2]) -> Result<Self, String> {
+        match (a.as_slice(), b.as_slice()) {
+            (&[ax, ay], &[bx, by]) => {
+                let Rectangle(corners) = Rectangle::try_from([[ax, ay], [bx, by]])?;
+                Ok(corners.into())
+            }
+            (a @ &[ax, ay, az], b @ &[bx, by, bz]) => {
+                if a.iter().zip(b).any(|(a, b)| a == b) {
+                    let expected =
+                        "two opposite corners of a box with a width, a depth and a height";
+                    return Err(format!("must be {expected}, found {:?}", [a, b]));
+                }
+                let corners = [
+                    [ax.min(bx), ay.min(by), az.min(bz)],
+                    [ax.max(bx), ay.max(by), az.max(bz)],
+                ];
+                Ok(corners.into())
+            }
+            (a, b) => Err(format!(
+                "must be two corners with two coordinates each, or three in a solid, found {a:?} and {b:?}"
+            )),
+        }
+    }
+}
+
 /// A part of the body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -35,27 +82,25 @@ impl TryFrom<[Point; 2]> for Rectangle {
 pub struct Region {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
-    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, m.
-    pub r#box: Option<Rectangle>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
+    pub r#box: Option<Corners>,
 }
 
 impl Region {
-    pub(super) fn place(&self, key: &KeyPath) -> Result<Place, KeyFault> {
-        let group = self.group.clone().map(Place::Group);
-        let corners = self.r#box.map(|it| Place::Box(it.0));
-        one_of(key, [("group", group), ("box", corners)])
+    pub(super) fn place<const D: usize>(&self, key: &KeyPath) -> Result<Place<D>, KeyFault> {
+        place(key, self.group.as_ref(), self.r#box, None)
     }
 }
 
 /// The place of a table that must have one.
-pub(super) fn place(
+pub(super) fn place<const D: usize>(
     key: &KeyPath,
     group: Option<&String>,
-    corners: Option<Rectangle>,
-    at: Option<Point>,
-) -> Result<Place, KeyFault> {
-    let group = group.cloned().map(Place::Group);
-    let corners = corners.map(|it| Place::Box(it.0));
-    let at = at.map(Place::At);
-    one_of(key, [("group", group), ("box", corners), ("at", at)])
+    corners: Option<Corners>,
+    at: Option<Coordinates>,
+) -> Result<Place<D>, KeyFault> {
+    let group = group.cloned().map(|it| Ok(Place::Group(it)));
+    let corners = corners.map(|it| it.of(&key.child("box")).map(Place::Box));
+    let at = at.map(|it| it.of(&key.child("at")).map(Place::At));
+    one_of(key, [("group", group), ("box", corners), ("at", at)])?
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ligament::body::{Body, LatticeBody, MeshBody};
-use ligament::setup::{self, Section, Setup};
+use ligament::setup::{self, Dim, Dimension, Section, Setup};
 use ligament_mesh::Mesh;
 use ligament_model::Plane;
 use schemars::JsonSchema;
@@ -21,7 +21,7 @@ use super::key_path::KeyPath;
 use super::lattice_section::LatticeSection;
 use super::load::Load;
 use super::material::{self, Material};
-use super::mesh_section::{MeshSection, complete_path};
+use super::mesh_section::MeshSection;
 use super::model::ModelSection;
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
@@ -104,7 +104,7 @@ impl Case {
         case.materials = material::read(material.ok_or_else(|| missing_section("material"))?)?;
         case.require_one_body()?;
         if let Some(mesh) = &mut case.mesh {
-            complete_path(&root().child("mesh").child("file"), &mut mesh.file, folder)?;
+            mesh.complete(&root().child("mesh"), folder)?;
         }
         case.complete_analysis(document.get("output").is_some())?;
         let is_idle = case.loads.is_empty() && case.temperatures.is_empty();
@@ -197,24 +197,51 @@ impl Case {
 
     /// State of the plane.
     pub fn plane(&self) -> Plane {
-        let of_mesh = self.mesh.as_ref().map(|it| it.plane.0);
+        let of_mesh = self.mesh.as_ref().and_then(|it| Some(it.plane?.0));
         let of_lattice = self.lattice.as_ref().map(|it| it.plane.0);
         of_mesh.or(of_lattice).unwrap_or_default()
     }
 
-    /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
-    pub(crate) fn setup_with(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
-        let law = self.model.law.0;
-        let of_mesh = self.mesh.as_ref().map(|it| it.thickness);
+    /// Whether the body is solid.
+    pub fn is_solid(&self) -> bool {
+        self.mesh.as_ref().is_some_and(|it| it.is_solid)
+    }
+
+    /// The setup of the case on a solid body, whatever body the case names. Tables of temperatures have no rows yet.
+    pub(crate) fn in_space(&self, body: Arc<dyn Body<3>>) -> Result<Setup<3>, KeyFault> {
+        let precracks = each("precrack", &self.precracks, Precrack::in_space)?;
+        self.setup_of(body, (), precracks)
+    }
+
+    /// The setup of the case on a body in the plane, whatever body the case names. Tables of temperatures have no rows yet.
+    pub(crate) fn in_plane(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
+        let of_mesh = self.mesh.as_ref().and_then(|it| it.thickness);
         let of_lattice = self.lattice.as_ref().map(|it| it.thickness);
+        let section = Section::Plane {
+            state: self.plane(),
+            thickness: of_mesh.or(of_lattice).unwrap_or_default(),
+        };
+        let precracks = each("precrack", &self.precracks, Precrack::in_plane)?;
+        self.setup_of(body, section, precracks)
+    }
+
+    /// The setup of the case on a body in D dimensions. Tables of temperatures have no rows yet.
+    fn setup_of<const D: usize>(
+        &self,
+        body: Arc<dyn Body<D>>,
+        section: <Dim as Dimension<D>>::Section,
+        precracks: Vec<<Dim as Dimension<D>>::PreCrack>,
+    ) -> Result<Setup<D>, KeyFault>
+    where
+        Dim: Dimension<D>,
+    {
+        let law = self.model.law.0;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
         Ok(Setup {
             body,
-            section: Section::Plane {
-                state: self.plane(),
-                thickness: of_mesh.or(of_lattice).unwrap_or_default(),
-            },
+            section,
+            precracks,
             materials: (self.materials.iter())
                 .map(Material::setup)
                 .collect::<Result<_, _>>()?,
@@ -223,7 +250,6 @@ impl Case {
             horizon: self.model.horizon(&root().child("model"))?,
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
-            precracks: each("precrack", &self.precracks, Precrack::setup)?,
             closing: self.model.closing,
             no_fail: each("no_fail", &self.no_fail, Region::place)?,
             supports: each("support", &self.supports, Support::setup)?,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
-use super::region::{Rectangle, Region};
+use super::region::{Corners, Region};
 use super::values::{exactly_one, first_given, one_of, refuse};
 use ligament::setup::{self, Place, TemperatureChange};
 
@@ -19,11 +19,11 @@ use ligament::setup::{self, Place, TemperatureChange};
 pub struct Temperature {
     /// The part of the body; the whole body without it or a `box`.
     pub group: Option<String>,
-    /// The part of the body in this rectangle, by two opposite corners, m.
-    pub r#box: Option<Rectangle>,
+    /// The part of the body in this rectangle, by two opposite corners, in a solid in this box, m.
+    pub r#box: Option<Corners>,
     /// Change of the temperature at load factor 1, the same everywhere there, K.
     pub change: Option<f64>,
-    /// A CSV file with the columns `x`, `y` (m) and `change` (K), from the folder of the case file.
+    /// A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `change` (K), from the folder of the case file.
     #[schemars(length(min = 1))]
     pub file: Option<PathBuf>,
     /// A scalar field at the nodes in the mesh file, K; `ligament inspect` lists them.
@@ -54,7 +54,10 @@ impl Temperature {
     }
 
     /// The change; of a file without its rows, which are there once it is read.
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Temperature, KeyFault> {
+    pub(super) fn setup<const D: usize>(
+        &self,
+        key: &KeyPath,
+    ) -> Result<setup::Temperature<D>, KeyFault> {
         let table = self.file.as_ref();
         let field = (self.mesh_field.clone()).map(|name| TemperatureChange::Field {
             name,

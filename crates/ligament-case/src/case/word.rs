@@ -194,6 +194,7 @@ worded! { Scattered:
 worded! { Axis:
     [Self::X] "x" "Along x.";
     [Self::Y] "y" "Along y.";
+    [Self::Z] "z" "Along z of a solid.";
 }
 
 worded! { Component:

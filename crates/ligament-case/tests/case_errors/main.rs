@@ -53,7 +53,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
-         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `body_force`, `acceleration`, \
+         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `force_per_area`, `body_force`, `acceleration`, \
          `moment`, `body_couple`, `pressure`, `profile`, `stiffness`, `tilts`"
     );
     assert_eq!(

@@ -51,7 +51,7 @@ fn names_are_unique_and_fit_for_columns() {
 fn probes_take_the_keys_of_their_kind() {
     assert_eq!(
         error_with("component = \"y\"", "component = \"rotation\""),
-        "51:13: probe.2.component: the force through a section has the components \"x\" and \"y\" only"
+        "51:13: probe.2.component: the force through a section has the components \"x\", \"y\" and, in a solid, \"z\" only"
     );
     assert_eq!(
         error_with("field = \"damage\"", "component = \"x\""),

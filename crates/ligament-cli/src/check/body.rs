@@ -3,18 +3,25 @@
 use std::io::{self, Write};
 
 use ligament::body::{Body, Origin};
-use ligament_mesh::Mesh;
+use ligament_mesh::{Group, Mesh, SolidMesh};
 use ligament_model::Lattice;
+use ligament_model::space::lattice::SolidLattice;
 
 use ligament_output::quantity::{between, quantity};
 
 use super::entry::entry;
 
 /// Writes what a body is made of, with the volume of its points.
-pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Result<()> {
+pub(super) fn write<const D: usize>(
+    out: &mut dyn Write,
+    body: &dyn Body<D>,
+    volume: f64,
+) -> io::Result<()> {
     match body.origin() {
         Origin::Mesh(mesh) => write_mesh(out, mesh, volume),
         Origin::Lattice(lattice) => write_lattice(out, body, lattice, volume),
+        Origin::SolidMesh(mesh) => write_solid_mesh(out, mesh, volume),
+        Origin::SolidLattice(lattice) => write_solid_lattice(out, body, lattice, volume),
         Origin::Points => {
             let (points, volume) = (body.positions().len(), quantity(volume, "m^3"));
             writeln!(out, "{points} points of {volume}")
@@ -28,8 +35,21 @@ fn write_mesh(out: &mut dyn Write, mesh: &Mesh, volume: f64) -> io::Result<()> {
     entry(out, "nodes, cells", format!("{nodes}, {cells}"))?;
     entry(out, "area", quantity(mesh.area(), "m^2"))?;
     entry(out, "volume of the points", quantity(volume, "m^3"))?;
-    for group in &mesh.groups {
-        let kinds = ["points", "curve", "surface"];
+    write_groups(out, &mesh.groups)
+}
+
+fn write_solid_mesh(out: &mut dyn Write, mesh: &SolidMesh, volume: f64) -> io::Result<()> {
+    writeln!(out, "mesh of a solid")?;
+    let [nodes, cells] = [mesh.positions.len(), mesh.cells.len()];
+    entry(out, "nodes, cells", format!("{nodes}, {cells}"))?;
+    entry(out, "volume", quantity(mesh.volume(), "m^3"))?;
+    entry(out, "volume of the points", quantity(volume, "m^3"))?;
+    write_groups(out, &mesh.groups)
+}
+
+fn write_groups(out: &mut dyn Write, groups: &[Group]) -> io::Result<()> {
+    for group in groups {
+        let kinds = ["points", "curve", "surface", "volume"];
         let kind = kinds.get(usize::from(group.dimension)).unwrap_or(&"group");
         let of_nodes = format!("{kind} of {} nodes", group.nodes.len());
         entry(out, &format!("group {}", group.name), of_nodes)?;
@@ -37,9 +57,31 @@ fn write_mesh(out: &mut dyn Write, mesh: &Mesh, volume: f64) -> io::Result<()> {
     Ok(())
 }
 
-fn write_lattice(
+fn write_solid_lattice<const D: usize>(
     out: &mut dyn Write,
-    body: &dyn Body,
+    body: &dyn Body<D>,
+    lattice: &SolidLattice,
+    volume: f64,
+) -> io::Result<()> {
+    let [nx, ny, nz] = lattice.size;
+    let left = lattice.cells.len();
+    let removed = lattice.n_whole() - left;
+    writeln!(out, "lattice of a solid")?;
+    let cells = format!("{left} of {nx} x {ny} x {nz} ({removed} removed)");
+    entry(out, "cells", cells)?;
+    let sides = lattice.spacing.map(|it| quantity(it, "m"));
+    entry(out, "spacing", sides.join(" x "))?;
+    entry(out, "volume of the points", quantity(volume, "m^3"))?;
+    for name in body.group_names() {
+        let points = body.points_of(&name).unwrap_or_default().len();
+        entry(out, &format!("set {name}"), format!("{points} points"))?;
+    }
+    Ok(())
+}
+
+fn write_lattice<const D: usize>(
+    out: &mut dyn Write,
+    body: &dyn Body<D>,
     lattice: &Lattice,
     volume: f64,
 ) -> io::Result<()> {
@@ -69,9 +111,9 @@ fn write_lattice(
 }
 
 /// Writes a group of points that are held or loaded.
-pub(super) fn write_group(
+pub(super) fn write_group<const D: usize>(
     out: &mut dyn Write,
-    body: &dyn Body,
+    body: &dyn Body<D>,
     name: &str,
     points: &[u32],
 ) -> io::Result<()> {

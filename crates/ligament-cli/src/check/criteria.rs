@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use ligament::crack_energy::crack_energies;
-use ligament::formulation::constants;
+use ligament::setup::{Dim, Dimension};
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::{Choice, Criterion, Measure};
@@ -13,9 +13,13 @@ use ligament_run::model::Model;
 use ligament_run::summary::{ScatterSummary, Spread};
 
 use super::entry::entry;
+use super::told::Told;
 
 /// Writes the criteria with their limits over the bonds.
-pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+pub(super) fn write<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
+where
+    Dim: Dimension<D> + Told<D>,
+{
     if model.setup.criteria.is_empty() {
         return Ok(());
     }
@@ -28,12 +32,18 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             write_energy(out, model, criterion)?;
         }
     }
+    Dim::cracks(out, model)?;
+    write_scatter(out, model)
+}
+
+/// Writes what cracks spend in each material.
+pub(super) fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     for (index, material) in model.setup.materials().into_iter().enumerate() {
         if let Some(energies) = crack_energies(model, index) {
             write_crack(out, model, &material, energies)?;
         }
     }
-    write_scatter(out, model)
+    Ok(())
 }
 
 /// Writes what cracks that open along x and along y spend in a material.
@@ -101,7 +111,10 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
 }
 
 /// Writes what varies at random: limits of bonds above have its factors.
-fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_scatter<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let (Some(scatter), Some(summary)) = (model.setup.scatter, ScatterSummary::new(model)) else {
         return Ok(());
     };
@@ -159,7 +172,14 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
 }
 
 /// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
-fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
+fn write_energy<const D: usize>(
+    out: &mut dyn Write,
+    model: &Model<D>,
+    criterion: &Criterion,
+) -> io::Result<()>
+where
+    Dim: Dimension<D> + Told<D>,
+{
     // Bonds across the bar may come to their limit before those along it.
     let at_most = match criterion.measure {
         Measure::Energy => "at most ",
@@ -168,11 +188,10 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
     let setup = &model.setup;
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
     if let [region] = setup.materials.as_slice()
-        && let Some(constants) = constants(&region.material, &setup.law, setup.plane())
+        && let Some(young) = Dim::young(setup, &region.material)
         && let Some(limits) =
             Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
-        let young = constants.in_plane(setup.plane()).young;
         writeln!(
             out,
             "{:<24}a bar without a crack fails at {at_most}E s_0 = {}, which changes with the horizon",

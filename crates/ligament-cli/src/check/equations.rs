@@ -12,17 +12,22 @@ use ligament_analysis::stiffness::Stiffness;
 
 use super::entry::{entry, megabytes};
 use ligament::Setup;
+use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
 use ligament_run::memory;
 use ligament_run::model::Model;
 
 /// Writes the size of the equations and the choice of the solver.
-pub(super) fn write(
+pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model,
+    model: &Model<D>,
     equilibrium: &Equilibrium,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
     match (equilibrium.stiffness(), equilibrium.choice()) {
         (Some(stiffness), _) => write_with_matrix(out, case, model, stiffness),
         (None, SolverChoice::Iterative(choice)) => {
@@ -33,12 +38,15 @@ pub(super) fn write(
 }
 
 /// Writes the size of equations with a matrix and what was chosen for its factor.
-pub(super) fn write_with_matrix(
+pub(super) fn write_with_matrix<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model,
+    model: &Model<D>,
     stiffness: &Stiffness,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
@@ -58,12 +66,15 @@ pub(super) fn write_with_matrix(
 }
 
 /// Writes the number of unknowns without a matrix and what was chosen for the iteration.
-fn write_iteration(
+fn write_iteration<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model,
+    model: &Model<D>,
     (unknowns, choice): (usize, &IterativeChoice),
-) -> anyhow::Result<()> {
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let IterativeChoice { reason, tolerance } = choice;
     writeln!(out, "equations")?;
     entry(out, "unknowns", unknowns)?;
@@ -78,24 +89,34 @@ fn write_iteration(
     Ok(entry(out, "threads", rayon::current_num_threads())?)
 }
 
-fn write_memory(
+fn write_memory<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model,
+    model: &Model<D>,
     stiffness: Option<&Stiffness>,
-) -> io::Result<()> {
-    let bytes = memory::of_equations(&model.system, stiffness);
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let bytes = memory::of_equations(&*model.system, stiffness);
     entry(out, "estimated memory", megabytes(bytes as f64))?;
     if let Some(there) = memory::allowed(case) {
         entry(out, "memory there is", megabytes(there as f64))?;
     }
-    match memory::foresee(case, &model.system, stiffness) {
+    match memory::foresee(case, &*model.system, stiffness) {
         Ok(()) => Ok(()),
         Err(too_large) => writeln!(out, "warning: {too_large}"),
     }
 }
 
-fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io::Result<()> {
+fn write_choice<const D: usize>(
+    out: &mut dyn Write,
+    setup: &Setup<D>,
+    choice: &DirectChoice,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     if choice.unsymmetric {
         return entry(
             out,
@@ -130,11 +151,14 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io
     entry(out, "threads", rayon::current_num_threads())
 }
 
-fn ordering_reason(model: &Model) -> String {
+fn ordering_reason<const D: usize>(model: &Model<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     if model.setup.solver.ordering.is_some() {
         return "as the case says".to_owned();
     }
-    let side = if model.system.cloud.len() < POINTS_FOR_DISSECTION {
+    let side = if model.system.n_points() < POINTS_FOR_DISSECTION {
         "minimum degree, because there are fewer"
     } else {
         "nested dissection, because there are not fewer"

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
-use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Setup};
+use ligament::setup::{Analysis, Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Setup};
 use ligament_analysis::gauges;
 use ligament_analysis::probe::Reading;
 use ligament_analysis::{ControlKind, Equilibrium};
@@ -18,16 +18,20 @@ use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
 use super::entry::{entry, megabytes, spread};
+use super::told::Told;
 use super::{Extent, equations, model, restraints};
 
 /// Checks supports, loads and equations.
-pub(super) fn check(
+pub(super) fn check<const D: usize>(
     case: &CaseFile,
     extent: Extent,
-    model: &Model,
+    model: &Model<D>,
     stages: &mut Stages,
     out: &mut dyn Write,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D> + Told<D>,
+{
     let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
     let problem = loading.problem(&model.system, &model.criteria);
     let equilibrium = match extent {
@@ -55,7 +59,14 @@ pub(super) fn check(
 }
 
 /// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
-fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+fn write_room<const D: usize>(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    model: &Model<D>,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
     let Some((most, all)) = fields.most.zip(fields.all()) else {
@@ -78,7 +89,14 @@ fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result
     }
 }
 
-fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::Result<()> {
+fn write_boundary<const D: usize>(
+    out: &mut dyn Write,
+    model: &Model<D>,
+    loading: &Loading,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let body = model.body();
     writeln!(out, "supports and loads")?;
     for group in &loading.boundary.groups {
@@ -112,7 +130,10 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
     Ok(())
 }
 
-fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
+fn write_loading<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let steps = setup.n_steps().unwrap_or(0);
     let stages: Vec<&str> = setup.stages.iter().map(|it| it.name.as_str()).collect();
     if !stages.is_empty() {

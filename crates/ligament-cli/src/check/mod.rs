@@ -10,6 +10,7 @@ mod modal;
 mod model;
 mod patch_test;
 mod restraints;
+mod told;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,16 +18,19 @@ use std::path::Path;
 use ligament_analysis::connectivity::Fragments;
 use ligament_output::results::point_grid;
 
+use ligament::Model;
 use ligament::run::on_threads;
-use ligament::setup::Analysis;
+use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
 use ligament_run::disk;
-use ligament_run::model::build_model;
+use ligament_run::model::{build_model, build_model_in_space};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::{Stage, Stages};
 
 use entry::{entry, megabytes};
 pub use extent::Extent;
+use told::Told;
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
 pub fn check(
@@ -46,16 +50,36 @@ fn check_here(
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let mut stages = Stages::default();
-    let model = build_model(case, &mut stages, &Progress::new(ProgressMode::Quiet))?;
+    let progress = Progress::new(ProgressMode::Quiet);
+    if case.case.is_solid() {
+        let model = build_model_in_space(case, &mut stages, &progress)?;
+        tell(case, extent, fields, (&model, stages), out)
+    } else {
+        let model = build_model(case, &mut stages, &progress)?;
+        tell(case, extent, fields, (&model, stages), out)
+    }
+}
+
+/// Tells of a model.
+fn tell<const D: usize>(
+    case: &CaseFile,
+    extent: Extent,
+    fields: Option<&Path>,
+    (model, mut stages): (&Model<D>, Stages),
+    out: &mut dyn Write,
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D> + Told<D>,
+{
     match model.setup.analysis {
         Analysis::Modal(settings) => {
-            modal::check(case, settings, extent, &model, &mut stages, out)?;
+            modal::check(case, settings, extent, model, &mut stages, out)?;
         }
-        _ => loading::check(case, extent, &model, &mut stages, out)?,
+        _ => loading::check(case, extent, model, &mut stages, out)?,
     }
-    patch_test::write(out, extent, &model, &mut stages)?;
+    Dim::patch_test(out, extent, model, &mut stages)?;
     write_stages(out, stages.done())?;
-    let intact = vec![true; model.system.bonds.len()];
+    let intact = vec![true; model.system.ends().len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();
     if loose > 1 {
         writeln!(
@@ -69,7 +93,7 @@ fn check_here(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join("points.vtu");
-        let (grid, cloud) = (model.body().grid(), &model.system.cloud);
+        let (grid, cloud) = (model.body().grid(), Dim::cloud(&model.system));
         point_grid(&path, &grid, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;
     }

@@ -3,24 +3,29 @@
 use std::io::Write;
 
 use ligament::Vibration;
+use ligament::setup::{Dim, Dimension};
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
 use super::entry::entry;
+use super::told::Told;
 use super::{Extent, equations, model};
 use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
 /// Checks supports, masses and equations.
-pub(super) fn check(
+pub(super) fn check<const D: usize>(
     case: &CaseFile,
     settings: ModalSettings,
     extent: Extent,
-    model: &Model,
+    model: &Model<D>,
     stages: &mut Stages,
     out: &mut dyn Write,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D> + Told<D>,
+{
     let vibration = Vibration::new(&model.setup, &model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);

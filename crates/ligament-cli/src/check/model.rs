@@ -2,28 +2,37 @@
 
 use std::io::{self, Write};
 
+use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
-use ligament_model::{Elasticity, Plane};
+use ligament_model::{Bonds, Elasticity, Plane};
 use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
 
 use super::entry::{entry, spread};
+use super::told::Told;
 use super::{body, criteria};
 
 /// Writes what is known before supports and loads.
-pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
+pub(super) fn write<const D: usize>(
+    out: &mut dyn Write,
+    case: &CaseFile,
+    model: &Model<D>,
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D> + Told<D>,
+{
     writeln!(out, "{}", heading(&case.case.title))?;
-    let volume = model.system.cloud.volumes.iter().sum();
+    let volume = model.system.volumes().iter().sum();
     body::write(out, model.body(), volume)?;
-    write_section(out, model)?;
+    Dim::section(out, model)?;
     write_materials(out, model)?;
     write_bonds(out, model)?;
     criteria::write(out, model)?;
     Ok(write_energy_ratios(out, model)?)
 }
 
-fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+pub(super) fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let state = match model.setup.plane() {
         Plane::Stress => "plane stress",
         Plane::Strain => "plane strain",
@@ -36,8 +45,11 @@ fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     )
 }
 
-fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let cloud = &model.system.cloud;
+fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let cloud = Dim::cloud(&model.system);
     writeln!(out, "materials")?;
     for (index, material) in model.setup.materials().iter().enumerate() {
         let volume: f64 = (0..cloud.len())
@@ -97,17 +109,20 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     Ok(())
 }
 
-fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
-    let (bonds, cut) = (system.bonds.len(), model.cut_bonds());
+    let (bonds, cut) = (system.ends().len(), model.cut_bonds());
     entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
     if !model.body().holes().is_empty() || model.across_voids() > 0 {
         entry(out, "pairs across voids", model.across_voids())?;
     }
     entry(out, "points with no_fail", model.no_fail_points())?;
-    spread(out, "nearest distance", over(&system.cloud.spacing), "m")?;
+    spread(out, "nearest distance", over(system.spacing()), "m")?;
     spread(out, "horizon", over(&fixed.horizon), "m")?;
     let Spread { min, mean, max } = family(model);
     let of_points = format!("{min} to {max}, mean {mean:.1}");
@@ -119,12 +134,18 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     spread(out, "correction factor", over(&fixed.domain_factor), "-")
 }
 
-fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_energy_ratios<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     writeln!(out, "strain energy of the points over the continuum's")?;
-    let modes = ["uniaxial x", "uniaxial y", "biaxial", "shear"];
-    for (mode, ratios) in modes.iter().zip(&model.fixed.energy_ratios) {
-        let Spread { min, mean, max } = Spread::over(ratios.iter().copied());
-        entry(out, mode, format!("{min:.4} to {max:.4}, mean {mean:.4}"))?;
+    for ratios in &model.fixed.energy_ratios {
+        let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());
+        entry(
+            out,
+            ratios.strain,
+            format!("{min:.4} to {max:.4}, mean {mean:.4}"),
+        )?;
     }
     Ok(())
 }

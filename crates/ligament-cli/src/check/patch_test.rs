@@ -55,7 +55,7 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
         "off the mean strain by {} % rms (along x, along y, in shear), at most {:.1} % at {}",
         percent.join(", "),
         100.0 * test.largest,
-        place(test.place)
+        place(&test.place)
     );
     entry(out, "strains of the bonds", words)
 }

@@ -2,14 +2,17 @@
 
 use std::io::{self, Write};
 
-use ligament::setup::{Load, Setup, Support};
+use ligament::setup::{Dim, Dimension, Load, Setup, Support};
 
 use ligament_output::quantity::quantity;
 
 use super::entry::entry;
 
 /// Writes what each support holds or resists, and which loads go through springs or a platen.
-pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
+pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));
         entry(out, &name, of_support(support).join(", "))?;
@@ -24,11 +27,11 @@ pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     Ok(())
 }
 
-fn of_support(support: &Support) -> Vec<String> {
+fn of_support<const D: usize>(support: &Support<D>) -> Vec<String> {
     let mut words: Vec<String> = (support.components())
         .map(|it| it.name().to_owned())
         .collect();
-    for (component, total) in support.stiffness.components() {
+    for (component, total) in support.stiffness.components.components() {
         let unit = if component.is_rotation() {
             "N m/rad"
         } else {
@@ -40,15 +43,16 @@ fn of_support(support: &Support) -> Vec<String> {
             quantity(total, unit)
         ));
     }
-    if let Some([x, y]) = support.restrained_normal() {
+    if let Some(normal) = support.restrained_normal() {
         let spring = support.stiffness.normal;
         let spring = spring.map(|total| format!(" by springs of {}", quantity(total, "N/m")));
-        words.push(format!("along ({x}, {y}){}", spring.unwrap_or_default()));
+        let normal = normal.map(|it| it.to_string()).join(", ");
+        words.push(format!("along ({normal}){}", spring.unwrap_or_default()));
     }
     words
 }
 
-fn of_load(load: &Load) -> Vec<String> {
+fn of_load<const D: usize>(load: &Load<D>) -> Vec<String> {
     let springs = load.stiffness;
     let springs = springs.map(|total| format!("through springs of {}", quantity(total, "N/m")));
     let platen = load

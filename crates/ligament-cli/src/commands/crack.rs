@@ -70,9 +70,9 @@ impl CrackArgs {
                 out,
                 "  {number:<3} from the {} at {} to the {} at {}, {} long",
                 line.ends[0].word(),
-                place(from),
+                place(&from),
                 line.ends[1].word(),
-                place(to),
+                place(&to),
                 quantity(line.length(), "m")
             )?;
         }

@@ -23,6 +23,7 @@ mod element_type;
 mod error;
 mod fields;
 mod groups;
+mod kind;
 mod plane;
 mod records;
 mod sections;
@@ -34,6 +35,7 @@ mod write;
 
 pub use arrays::{Element, assemble};
 pub use error::{GmshError, Place};
+pub use kind::holds_solid;
 pub use write::{write, write_solid};
 
 use crate::any_mesh::AnyMesh;

@@ -7,7 +7,7 @@ use super::{fields, v2, v4};
 
 /// Versions of the format that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Version {
+pub(super) enum Version {
     V2,
     V4,
 }
@@ -55,7 +55,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Records, GmshError> {
 }
 
 /// Reads `$MeshFormat`: the version, and how numbers are written.
-fn read_format(cursor: &mut Cursor<'_>) -> Result<Version, GmshError> {
+pub(super) fn read_format(cursor: &mut Cursor<'_>) -> Result<Version, GmshError> {
     loop {
         match cursor.begin_section() {
             Ok(Some("MeshFormat")) => break,

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::fixed::EnergyRatio;
 use crate::material::{Elasticity, Plane};
 
 /// Homogeneous strains of size one, for which the energy at a point is compared with the continuum's.
@@ -20,6 +21,21 @@ pub enum StrainMode {
 impl StrainMode {
     /// All modes, in the order of [`energy_ratios`](super::domain::energy_ratios).
     pub const ALL: [Self; 4] = [Self::UniaxialX, Self::UniaxialY, Self::Biaxial, Self::Shear];
+
+    /// Ratios of energies in the strain (n_points) with the names that results give them.
+    pub fn named(self, at_points: Vec<f64>) -> EnergyRatio {
+        let (field, strain) = match self {
+            Self::UniaxialX => ("energy_ratio_x", "uniaxial x"),
+            Self::UniaxialY => ("energy_ratio_y", "uniaxial y"),
+            Self::Biaxial => ("energy_ratio_biaxial", "biaxial"),
+            Self::Shear => ("energy_ratio_shear", "shear"),
+        };
+        EnergyRatio {
+            field,
+            strain,
+            at_points,
+        }
+    }
 
     /// Stretch s and shear gamma of a bond of direction (a, b) under the strain, all rotations zero (NHPD eq. 3).
     pub fn bond_deformation(self, [a, b]: [f64; 2]) -> (f64, f64) {

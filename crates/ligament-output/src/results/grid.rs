@@ -15,17 +15,14 @@ pub fn fixed_fields<'a>(
     volumes: &'a [f64],
     spacing: &'a [f64],
 ) -> Vec<Field<'a>> {
-    let [uniaxial_x, uniaxial_y, biaxial, shear] = &fixed.energy_ratios;
     let mut fields = vec![
         Field::scalar("volume", volumes),
         Field::scalar("horizon", &fixed.horizon),
         Field::scalar("nearest_distance", spacing),
         Field::scalar("precrack_share", &fixed.precrack_share),
-        Field::scalar("energy_ratio_x", uniaxial_x),
-        Field::scalar("energy_ratio_y", uniaxial_y),
-        Field::scalar("energy_ratio_biaxial", biaxial),
-        Field::scalar("energy_ratio_shear", shear),
     ];
+    let ratios = fixed.energy_ratios.iter();
+    fields.extend(ratios.map(|it| Field::scalar(it.field, &it.at_points)));
     if let Some(scatter) = &fixed.scatter {
         fields.push(Field::scalar(scatter.of.field(), &scatter.at_points));
     }

@@ -11,6 +11,7 @@ use crate::provenance::Provenance;
 use crate::stages::Stage;
 use crate::summary::{ModelSummary, SolverSummary, StabilitySummary, heading};
 use ligament::Model;
+use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 
 /// All numbers of a modal analysis.
@@ -22,9 +23,9 @@ pub struct ModalSummary {
     /// Mass of the body, kg.
     pub mass: f64,
     /// Centre of the mass, m.
-    pub centre_of_mass: [f64; 2],
-    /// Mass that can move along x and along y, kg, and inertia about the centre, kg m^2.
-    pub moving: [f64; 3],
+    pub centre_of_mass: Vec<f64>,
+    /// Mass that can move along the axes, kg, and inertia about the centre, kg m^2; of a solid about each axis through it.
+    pub moving: Vec<f64>,
     /// What becomes of the rotations of the points: `inertia` or `massless`.
     pub rotations: &'static str,
     /// Rigid motions that supports and connectivity leave.
@@ -33,8 +34,8 @@ pub struct ModalSummary {
     pub complete: Option<bool>,
     /// The modes, lowest first.
     pub modes: Vec<ModeSummary>,
-    /// Share of the modes together in the mass that can move along x and along y, and in its inertia.
-    pub effective_shares: [f64; 3],
+    /// Share of the modes together in the mass that can move along the axes, and in its inertia.
+    pub effective_shares: Vec<f64>,
     /// Negative eigenvalues of the stiffness, and how many its rotations explain, where Poisson's ratio is large.
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.
@@ -48,7 +49,7 @@ pub struct ModalSummary {
 }
 
 /// A mode in numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModeSummary {
     /// Number, from 1.
     pub mode: usize,
@@ -58,26 +59,29 @@ pub struct ModeSummary {
     pub frequency: f64,
     /// Largest |K phi - omega^2 M phi| over the forces that meet at a point.
     pub residual: f64,
-    /// Shares of its effective masses along x and y and of its inertia in what can move.
-    pub effective_shares: [f64; 3],
+    /// Shares of its effective masses along the axes and of its inertia in what can move.
+    pub effective_shares: Vec<f64>,
 }
 
 impl ModalSummary {
     /// Collects the numbers.
-    pub fn new(
+    pub fn new<const D: usize>(
         case: &CaseFile,
-        model: &Model,
+        model: &Model<D>,
         outcome: &ModalOutcome,
         provenance: Provenance,
         stages: &[Stage],
-    ) -> Self {
+    ) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         let moving = &outcome.moving;
         let summary = |(index, mode): (usize, &Mode)| ModeSummary {
             mode: index + 1,
             kind: mode.kind.name(),
             frequency: mode.frequency(),
             residual: mode.residual,
-            effective_shares: of_plane(&moving.shares(&mode.participation)),
+            effective_shares: moving.shares(&mode.participation),
         };
         let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
         let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
@@ -85,16 +89,17 @@ impl ModalSummary {
         Self {
             model: ModelSummary::new(case, model),
             mass: moving.total,
-            centre_of_mass: of_plane(&moving.centre),
-            moving: of_plane(&moving.free),
+            centre_of_mass: moving.centre.clone(),
+            moving: moving.free.clone(),
             rotations: match outcome.rotations {
                 Rotations::Inertia => "inertia",
                 Rotations::Massless => "massless",
             },
             rigid_motions: outcome.rigid_motions,
             complete: outcome.complete,
-            effective_shares: [0, 1, 2]
-                .map(|k| modes.iter().map(|mode| mode.effective_shares[k]).sum()),
+            effective_shares: (0..moving.free.len())
+                .map(|k| modes.iter().map(|mode| mode.effective_shares[k]).sum())
+                .collect(),
             modes,
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &SolverChoice::Direct(outcome.solver)),
@@ -121,25 +126,29 @@ impl ModalSummary {
             quantity(self.mass, "kg"),
             self.rotations
         )?;
+        let of_inertia = match self.moving.len() {
+            3 => "x, y, inertia",
+            _ => "x, y, z, inertias",
+        };
         writeln!(
             out,
-            "  mode  kind     frequency, Hz   effective mass x, y, inertia, %   residual"
+            "  mode  kind     frequency, Hz   effective mass {of_inertia}, %   residual"
         )?;
         for mode in &self.modes {
-            let [x, y, turn] = mode.effective_shares.map(|share| 100.0 * share);
             writeln!(
                 out,
-                "  {:>4}  {:<8} {:>13}   {x:>12.3} {y:>7.3} {turn:>11.3}     {:>6.1e}",
+                "  {:>4}  {:<8} {:>13}   {}     {:>6.1e}",
                 mode.mode,
                 mode.kind,
                 four_digits(mode.frequency),
+                percentages(&mode.effective_shares),
                 mode.residual
             )?;
         }
-        let [x, y, turn] = self.effective_shares.map(|share| 100.0 * share);
         writeln!(
             out,
-            "  together                        {x:>12.3} {y:>7.3} {turn:>11.3}"
+            "  together                        {}",
+            percentages(&self.effective_shares)
         )?;
         if self.complete == Some(true) {
             writeln!(
@@ -154,7 +163,13 @@ impl ModalSummary {
     }
 }
 
-/// The components that there are in the plane.
-fn of_plane<const N: usize>(components: &[f64]) -> [f64; N] {
-    std::array::from_fn(|k| components[k])
+/// Shares as percentages in columns.
+fn percentages(shares: &[f64]) -> String {
+    let widths = match shares.len() {
+        3 => [12, 7, 11].as_slice(),
+        _ => &[8; 6],
+    };
+    let columns = shares.iter().zip(widths);
+    let columns = columns.map(|(share, width)| format!("{:>width$.3}", 100.0 * share));
+    columns.collect::<Vec<_>>().join(" ")
 }

@@ -1,12 +1,12 @@
 //! The discrete model in numbers and words, whatever is then done with it.
 
-use ligament_model::ElementKind;
 use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::scatter::Scattered;
+use ligament_model::{Bonds, ElementKind};
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
+use ligament::setup::{Alpha, Calibration, Correction, Dim, Dimension, Form, Open, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 
@@ -65,7 +65,7 @@ pub struct Spread {
 }
 
 /// The corrections, and how the domain correction went if it is the one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CorrectionSummary {
     /// The factor alpha.
     pub alpha: Word<Alpha>,
@@ -89,8 +89,8 @@ pub struct CorrectionSummary {
     /// Root mean square of what the patch correction leaves of its equations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<f64>,
-    /// Energy ratios over the points for uniaxial x, uniaxial y, biaxial and shear strain.
-    pub energy_ratios: [Spread; 4],
+    /// Energy ratios over the points: in the plane for uniaxial x, uniaxial y, biaxial and shear strain.
+    pub energy_ratios: Vec<Spread>,
 }
 
 /// The first line about a case: its title.
@@ -104,16 +104,19 @@ pub fn heading(title: &str) -> &str {
 
 impl ModelSummary {
     /// Collects the numbers.
-    pub fn new(case: &CaseFile, model: &Model) -> Self {
+    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
             formulation: formulation_words(model),
-            points: model.system.cloud.len(),
-            bonds: model.system.bonds.len(),
+            points: model.system.n_points(),
+            bonds: model.system.ends().len(),
             cut_bonds: model.cut_bonds(),
             no_fail_points: model.no_fail_points(),
-            volume: model.system.cloud.volumes.iter().sum(),
+            volume: model.system.volumes().iter().sum(),
             horizon: Spread::over(model.fixed.horizon.iter().copied()),
             family: family(model),
             correction: CorrectionSummary::new(model),
@@ -124,7 +127,10 @@ impl ModelSummary {
 
 impl ScatterSummary {
     /// What varies at random in a model.
-    pub fn new(model: &Model) -> Option<Self> {
+    pub fn new<const D: usize>(model: &Model<D>) -> Option<Self>
+    where
+        Dim: Dimension<D>,
+    {
         let factors = &model.fixed.scatter.as_ref()?.at_points;
         let scatter = model.setup.scatter?;
         let factor = Spread::over(factors.iter().copied());
@@ -152,20 +158,29 @@ impl Spread {
 }
 
 /// Law and corrections of the bonds, in words.
-fn formulation_words(model: &Model) -> String {
+fn formulation_words<const D: usize>(model: &Model<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     format!("{}; {correction}", formulation_line(&model.setup))
 }
 
 /// Numbers of bonds of the points.
-pub fn family(model: &Model) -> Spread {
-    let incidence = &model.system.bonds.incidence;
+pub fn family<const D: usize>(model: &Model<D>) -> Spread
+where
+    Dim: Dimension<D>,
+{
+    let incidence = model.system.incidence();
     Spread::over((0..incidence.n_points() as u32).map(|point| incidence.at(point).len() as f64))
 }
 
 impl CorrectionSummary {
     /// The correction of a model.
-    pub fn new(model: &Model) -> Self {
+    pub fn new<const D: usize>(model: &Model<D>) -> Self
+    where
+        Dim: Dimension<D>,
+    {
         let report = model.correction.as_ref();
         let domain = report.and_then(CorrectionReport::domain);
         let patch = report.and_then(CorrectionReport::patch);
@@ -181,17 +196,18 @@ impl CorrectionSummary {
             largest_residual: domain.map(|it| it.largest_residual),
             newton_steps: patch.map(|it| it.steps),
             left: patch.map(|it| it.left),
-            energy_ratios: model
-                .fixed
-                .energy_ratios
-                .each_ref()
-                .map(|ratios| Spread::over(ratios.iter().copied())),
+            energy_ratios: (model.fixed.energy_ratios.iter())
+                .map(|it| Spread::over(it.at_points.iter().copied()))
+                .collect(),
         }
     }
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line(setup: &Setup) -> String {
+pub fn formulation_line<const D: usize>(setup: &Setup<D>) -> String
+where
+    Dim: Dimension<D>,
+{
     let mut law = setup.law;
     let (name, element) = (law.name(), law.element());
     let Open {
@@ -201,6 +217,8 @@ pub fn formulation_line(setup: &Setup) -> String {
         ..
     } = law.open();
     let unknowns = match element {
+        ElementKind::Beam if D == 3 => "three displacements and three rotations a point",
+        ElementKind::Spring if D == 3 => "three displacements a point",
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
         ElementKind::Imaginary => {

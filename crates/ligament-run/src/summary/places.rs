@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use ligament::Model;
+use ligament::setup::{Dim, Dimension};
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::first_bonds::FirstBond;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::{Layout, LoadProgram};
+use ligament_model::Bonds;
 use ligament_output::quantity::place;
 use ligament_output::results::criterion_labels;
 use serde::Serialize;
@@ -18,7 +20,7 @@ pub struct BondEvent {
     /// Tags of the ends of the bond.
     pub ends: [u64; 2],
     /// Middle of the bond, m.
-    pub place: [f64; 2],
+    pub place: Vec<f64>,
     /// Load step or event.
     pub step: usize,
     /// Load factor.
@@ -40,16 +42,20 @@ pub type Resultant = BTreeMap<&'static str, f64>;
 
 impl BondEvent {
     /// What happened to a bond of a model.
-    pub(super) fn new(model: &Model, first: &FirstBond) -> Self {
-        let bonds = &model.system.bonds;
-        let ends = bonds.ends[first.bond as usize];
-        let [a, b] = ends.map(|end| model.system.cloud.positions[end as usize]);
-        let origin = model.system.cloud.origin;
+    pub(super) fn new<const D: usize>(model: &Model<D>, first: &FirstBond) -> Self
+    where
+        Dim: Dimension<D>,
+    {
+        let cloud = Dim::cloud(&model.system);
+        let ends = model.system.ends()[first.bond as usize];
+        let [a, b] = ends.map(|end| cloud.positions[end as usize]);
         let criteria = model.criteria.list.iter().map(|it| it.name);
         let mut labels = criterion_labels(criteria);
         Self {
             ends: ends.map(|end| model.body().tag(end)),
-            place: [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]) + origin[axis]),
+            place: (0..D)
+                .map(|axis| 0.5 * (a[axis] + b[axis]) + cloud.origin[axis])
+                .collect(),
             step: first.step,
             load_factor: first.load_factor,
             displacement: first.displacement,
@@ -67,7 +73,7 @@ impl fmt::Display for BondEvent {
         write!(
             f,
             "{tagged}s {a} and {b} at {}, in step {}, by {criterion}",
-            place(self.place),
+            place(&self.place),
             self.step
         )
     }

@@ -60,13 +60,13 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
         Analysis::Modal(settings) => {
             let vibration = Vibration::new(&model.setup, system)?;
             let analysis = ModalAnalysis::new(&vibration.problem(system), settings)?;
-            memory::of_equations(system, Some(analysis.stiffness()))
+            memory::of_equations(&**system, Some(analysis.stiffness()))
         }
         _ => {
             let loading = Loading::new(&model.setup, system)?;
             let problem = loading.problem(system, &model.criteria);
             let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
-            memory::of_equations(system, equilibrium.stiffness())
+            memory::of_equations(&**system, equilibrium.stiffness())
         }
     })
 }

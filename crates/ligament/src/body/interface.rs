@@ -2,24 +2,34 @@
 
 use std::fmt::Debug;
 
-use ligament_mesh::{Cell, Mesh, NodeField};
+use ligament_mesh::{Cell, Mesh, NodeField, SolidMesh};
+use ligament_model::space::lattice::SolidLattice;
 use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
-/// An edge of a group that is none of the outline of the body, on which a pressure could act.
+use crate::error::coordinates;
+
+/// An edge of a group, of a solid a face, that is none of the outline of the body, on which a pressure could act.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "a pressure acts on the outline of the body, but the edge of this group from node {} to node {}, around ({:.6}, {:.6}), {}",
-    .nodes[0], .nodes[1], .middle[0], .middle[1],
-    if *.cells == 0 { "is no edge of a cell" } else { "has cells on both sides" }
+    "a pressure acts on the outline of the body, but the {side} of this group {}, around ({}), {}",
+    from_node_to_node(.nodes), coordinates(.middle),
+    if *.cells == 0 { format!("is no {side} of a cell") } else { "has cells on both sides".to_owned() }
 )]
 pub struct OffOutline {
-    /// Tags of the nodes of the edge.
-    pub nodes: [u64; 2],
-    /// Middle of the edge, m.
-    pub middle: [f64; 2],
-    /// Number of cells that have the edge.
+    /// What it is: `edge` or `face`.
+    pub side: &'static str,
+    /// Tags of its nodes.
+    pub nodes: Vec<u64>,
+    /// Middle, m.
+    pub middle: Vec<f64>,
+    /// Number of cells that have it.
     pub cells: usize,
+}
+
+fn from_node_to_node(nodes: &[u64]) -> String {
+    let nodes: Vec<String> = nodes.iter().map(|node| format!("node {node}")).collect();
+    format!("from {}", nodes.join(" to "))
 }
 
 /// Origin of a body's points.
@@ -29,17 +39,21 @@ pub enum Origin<'a> {
     Mesh(&'a Mesh),
     /// A lattice with a point at the centre of each cell.
     Lattice(&'a Lattice),
+    /// A mesh of solid cells with a point at each node.
+    SolidMesh(&'a SolidMesh),
+    /// A lattice in space with a point at the centre of each cell.
+    SolidLattice(&'a SolidLattice),
     /// Arrays of points.
     Points,
 }
 
 /// A body as a computation sees it: points, groups and outline, whatever the points come from.
-pub trait Body: Debug + Send + Sync {
+pub trait Body<const D: usize = 2>: Debug + Send + Sync {
     /// Origin of the points.
     fn origin(&self) -> Origin<'_>;
 
     /// Positions of the points, shape (n_points), m.
-    fn positions(&self) -> &[[f64; 2]];
+    fn positions(&self) -> &[[f64; D]];
 
     /// The noun that tags belong to: `node`, `cell` or `point`.
     fn tagged(&self) -> &'static str;
@@ -51,7 +65,7 @@ pub trait Body: Debug + Send + Sync {
     fn n_cells(&self) -> usize;
 
     /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud;
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
     /// Kind of the body's groups, for errors: "physical group in the mesh".
     fn group_kind(&self) -> &'static str;
@@ -68,13 +82,23 @@ pub trait Body: Debug + Send + Sync {
     /// Length that each point of a group stands for, m; empty where the group has no length.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)>;
 
-    /// Outward normals of the outline along a group times their lengths, m, added up at its points: half of an edge of a mesh
-    /// at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
+    /// Area of the surface of a solid that each point of a group stands for, m^2; empty where the group has no area.
+    fn areas_of(&self, _group: &str) -> Vec<(u32, f64)> {
+        Vec::new()
+    }
+
+    /// The other points of the cells at a point; none where there are no cells between points.
+    fn around(&self, _point: u32) -> Vec<u32> {
+        Vec::new()
+    }
+
+    /// Outward normals of the outline along a group times their lengths, m, in space times their areas, m^2, added up at its points: half
+    /// of an edge of a mesh at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
     ///
     /// # Errors
     ///
     /// If an edge of the group is none of the outline.
-    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline>;
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
     /// Cells of a meshed body, whose points are their corners; empty for others.
     fn cells(&self) -> &[Cell] {
@@ -109,7 +133,7 @@ pub trait Body: Debug + Send + Sync {
 
     /// A point in words, and where it is.
     fn place(&self, point: u32) -> String {
-        let [x, y] = self.positions()[point as usize];
-        format!("{} at ({x:.6}, {y:.6})", self.label(point))
+        let position = &self.positions()[point as usize];
+        format!("{} at ({})", self.label(point), coordinates(position))
     }
 }

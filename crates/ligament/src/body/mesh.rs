@@ -98,6 +98,12 @@ impl Body for MeshBody {
         lengths.into_iter().collect()
     }
 
+    fn around(&self, point: u32) -> Vec<u32> {
+        let corners = self.0.cells.iter().map(Cell::corners);
+        let around = corners.filter(|it| it.contains(&point));
+        around.flatten().copied().collect()
+    }
+
     fn cells(&self) -> &[Cell] {
         &self.0.cells
     }
@@ -123,8 +129,9 @@ impl Body for MeshBody {
             let [p, q] = along.map(|node| self.0.positions[node as usize]);
             if cells != 1 {
                 return Err(OffOutline {
-                    nodes: edge.map(|node| self.tag(node)),
-                    middle: [0, 1].map(|axis| 0.5 * (p[axis] + q[axis])),
+                    side: "edge",
+                    nodes: edge.map(|node| self.tag(node)).to_vec(),
+                    middle: (0..2).map(|axis| 0.5 * (p[axis] + q[axis])).collect(),
                     cells,
                 });
             }

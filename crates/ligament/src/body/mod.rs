@@ -4,8 +4,10 @@ mod interface;
 mod lattice;
 mod mesh;
 mod points;
+mod solid_mesh;
 
 pub use interface::{Body, OffOutline, Origin};
 pub use lattice::{CellSet, Hole, LatticeBody, LatticeError};
 pub use mesh::MeshBody;
 pub use points::{Points, PointsError};
+pub use solid_mesh::SolidMeshBody;

@@ -3,17 +3,18 @@
 use ligament_analysis::{
     BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
-use ligament_model::mass::LumpedMass;
-use ligament_model::thermal::FreeStrains;
-use ligament_model::{BondSystem, Bonds, PointCloud};
+use ligament_model::{Bonds, PointCloud};
 
 use super::places::Places;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Load, MaterialRegion, Place, Profile, Setup};
+use crate::setup::{
+    Action, Couple, Dim, Dimension, Displacement, Load, MaterialRegion, Place, Profile, Setup,
+};
 
-/// A force along x and along y and a couple, or their directions.
-type Wrench = [f64; 3];
+/// Forces along the axes and couples about them, or their directions, in the order of the components of the dimension: three in the
+/// plane, six in space.
+type Wrench = [f64; 6];
 
 /// Loads that act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,24 +27,27 @@ pub(super) enum Acting {
     Temperature,
 }
 
-/// Supports and the loads that act on the points with all components of the plane, whichever of them the bonds have; the groups and
+/// Supports and the loads that act on the points with all components of the dimension, whichever of them the bonds have; the groups and
 /// the control are the same whatever acts.
-pub(super) fn boundary(
-    setup: &Setup,
-    cloud: &PointCloud,
+pub(super) fn boundary<const D: usize>(
+    setup: &Setup<D>,
+    cloud: &PointCloud<D>,
     acting: Acting,
-) -> Result<ProportionalLoading, SetupError> {
+) -> Result<ProportionalLoading, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let places = Places { setup, cloud };
     let heating = heating(&places)?;
-    let plane = Layout {
+    let all = Layout {
         n_points: cloud.len(),
-        components: &Component::ALL,
+        components: Dim::COMPONENTS,
     };
-    let mut boundary = ProportionalLoading::new(plane, places.control(heating.as_ref())?);
+    let mut boundary = ProportionalLoading::new(all, places.control(heating.as_ref())?);
     let is_heated = matches!(acting, Acting::All | Acting::Temperature);
     if let Some(Heating { change, strain }) = heating.filter(|_| is_heated) {
         boundary.temperature_change = change;
-        boundary.thermal_strain = FreeStrains::in_plane(strain);
+        boundary.thermal_strain = strain;
     }
     for (index, support) in setup.supports.iter().enumerate() {
         let field = Field::element("supports", index);
@@ -55,13 +59,13 @@ pub(super) fn boundary(
         boundary.report_group(
             &support.name(index),
             points,
-            vec![0.0; Component::ALL.len()],
+            vec![0.0; Dim::COMPONENTS.len()],
         );
     }
     for (index, load) in setup.loads.iter().enumerate() {
         let field = Field::element("loads", index);
         let points = places.points(field, &load.place)?;
-        let mut total = vec![0.0; Component::ALL.len()];
+        let mut total = vec![0.0; Dim::COMPONENTS.len()];
         if acting != Acting::All && acting != Acting::Load(index) {
             boundary.report_group(&load.name, points, total);
             continue;
@@ -75,7 +79,7 @@ pub(super) fn boundary(
             }
         }
         for (point, force) in places.forces(field, load, &points)?.at_points {
-            for ((component, value), sum) in Component::ALL.into_iter().zip(force).zip(&mut total) {
+            for ((&component, value), sum) in Dim::COMPONENTS.iter().zip(force).zip(&mut total) {
                 boundary.add_force(point, component, value);
                 *sum += value;
             }
@@ -86,22 +90,29 @@ pub(super) fn boundary(
 }
 
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
-pub(super) fn couples_have_stiffness(
-    setup: &Setup,
+pub(super) fn couples_have_stiffness<const D: usize>(
+    setup: &Setup<D>,
     boundary: &ProportionalLoading,
-    system: &BondSystem,
-) -> Result<(), SetupError> {
-    let is_couple = |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
+    system: &dyn Bonds,
+) -> Result<(), SetupError>
+where
+    Dim: Dimension<D>,
+{
+    let is_couple = |it: &Load<D>| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
     let (bonds, resisted) = (system.layout(), system.resisted());
+    let rotations = || Dim::COMPONENTS.iter().filter(|it| it.is_rotation());
     let is_idle = |&point: &u32| {
-        let [given, turned] = [boundary.layout, bonds]
-            .map(|layout| layout.degree_of_freedom(point, Component::Rotation));
-        let is_resisted = turned.is_some_and(|dof| resisted[dof]);
-        let acts = |dof: usize| boundary.force[dof] != 0.0 && boundary.prescribed[dof].is_none();
-        given.is_some_and(acts) && !is_resisted
+        rotations().any(|&rotation| {
+            let [given, turned] =
+                [boundary.layout, bonds].map(|layout| layout.degree_of_freedom(point, rotation));
+            let is_resisted = turned.is_some_and(|dof| resisted[dof]);
+            let acts =
+                |dof: usize| boundary.force[dof] != 0.0 && boundary.prescribed[dof].is_none();
+            given.is_some_and(acts) && !is_resisted
+        })
     };
     match (0..bonds.n_points as u32).filter(is_idle).count() {
         0 => Ok(()),
@@ -121,7 +132,10 @@ struct Given {
     size: f64,
 }
 
-impl Places<'_> {
+impl<const D: usize> Places<'_, D>
+where
+    Dim: Dimension<D>,
+{
     /// Prescribes a component times a factor for each point.
     fn prescribe(
         &self,
@@ -172,11 +186,7 @@ impl Places<'_> {
         let factors = self.factors(field, load.profile.as_ref(), &points)?;
         let given = self.forces(field, load, &points)?;
         let motion = match load.action {
-            Action::Displacement(it) => {
-                let [x, y, rotation] = [it.x, it.y, it.rotation].map(|it| it.unwrap_or(0.0));
-                let rotation = if x == 0.0 && y == 0.0 { rotation } else { 0.0 };
-                Some([x, y, rotation])
-            }
+            Action::Displacement(it) => Some(motion::<D>(&it)),
             _ => None,
         };
         let magnitude = motion.map_or(given.size, norm);
@@ -186,14 +196,16 @@ impl Places<'_> {
         let (kind, (points, shape)) = match motion {
             Some(motion) => {
                 let direction = motion.map(|value| value / magnitude);
+                let direction = &direction[..Dim::COMPONENTS.len()];
                 let shape = factors
                     .iter()
-                    .flat_map(|factor| direction.map(|cosine| factor * cosine));
+                    .flat_map(|factor| direction.iter().map(move |cosine| factor * cosine));
                 (ControlKind::Displacement, (points, shape.collect()))
             }
             None => {
                 let (points, forces): (Vec<u32>, Vec<Wrench>) = given.at_points.into_iter().unzip();
-                let shares = forces.as_flattened().iter().map(|value| value / magnitude);
+                let values = forces.iter().flat_map(|it| &it[..Dim::COMPONENTS.len()]);
+                let shares = values.map(|value| value / magnitude);
                 (ControlKind::Force, (points, shares.collect()))
             }
         };
@@ -215,7 +227,7 @@ impl Places<'_> {
         let Some(profile) = profile else {
             return Ok(vec![1.0; points.len()]);
         };
-        let factor = |&point: &u32| profile.at(self.setup.body.positions()[point as usize]);
+        let factor = |&point: &u32| profile.at(&self.setup.body.positions()[point as usize]);
         let factors: Vec<f64> = points.iter().map(factor).collect();
         if factors.iter().all(|&factor| factor == 0.0) {
             return Err(field.part("profile").error(Fault::ZeroProfile));
@@ -223,12 +235,22 @@ impl Places<'_> {
         Ok(factors)
     }
 
-    /// Shares of points in a total: by the length that each stands for in a group that has one, elsewhere by their volumes.
-    pub(super) fn shares(&self, place: &Place, points: &[u32]) -> Vec<(u32, f64)> {
-        let mut weights = match place {
-            Place::Group(group) => self.setup.body.lengths_of(group),
-            _ => Vec::new(),
+    /// What points of a group stand for: areas of a surface, lengths of a curve; none elsewhere.
+    fn extents(&self, place: &Place<D>) -> Vec<(u32, f64)> {
+        let Place::Group(group) = place else {
+            return Vec::new();
         };
+        let areas = self.setup.body.areas_of(group);
+        if areas.is_empty() {
+            self.setup.body.lengths_of(group)
+        } else {
+            areas
+        }
+    }
+
+    /// Shares of points in a total: by the area or length that each stands for in a group that has one, elsewhere by their volumes.
+    pub(super) fn shares(&self, place: &Place<D>, points: &[u32]) -> Vec<(u32, f64)> {
+        let mut weights = self.extents(place);
         if weights.is_empty() {
             let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
             weights = points.iter().map(volume).collect();
@@ -240,38 +262,38 @@ impl Places<'_> {
 
     /// Forces and couples of a load on its points; none where it prescribes a displacement.
     ///
-    /// A total force is spread over a group that has a length by the length that each point stands for, over other places
-    /// by the points' volumes; a force per length goes by the lengths; body forces and all couples go by the volumes. Each
+    /// A total force is spread over a group that has an area or a length by what each point stands for, over other places by the points'
+    /// volumes; a force per length goes by the lengths, one per area by the areas; body forces and all couples go by the volumes. Each
     /// point's share is then multiplied by the profile.
-    fn forces(&self, field: Field, load: &Load, points: &[u32]) -> Result<Given, SetupError> {
-        let curve = match &load.place {
-            Place::Group(group) => self.setup.body.lengths_of(group),
-            _ => Vec::new(),
-        };
+    fn forces(&self, field: Field, load: &Load<D>, points: &[u32]) -> Result<Given, SetupError> {
+        let extents = self.extents(&load.place);
         let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
         let volumes: Vec<(u32, f64)> = points.iter().map(volume).collect();
         let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
         let (weights, density) = match &load.action {
             Action::Displacement(_) => return Ok(Given::default()),
             Action::Pressure(pressure) => return self.pressures(field, load, *pressure),
-            Action::BodyForce(force) => (volumes, in_plane(force)),
+            Action::BodyForce(force) => (volumes, force_alone(force)),
             Action::Acceleration(acceleration) => {
                 let masses = self.masses(points)?;
-                (masses, in_plane(acceleration))
+                (masses, force_alone(acceleration))
             }
-            Action::BodyCouple(couple) => (volumes, [0.0, 0.0, *couple]),
-            Action::ForcePerLength(_) if curve.is_empty() => {
-                return Err(field.part("place").error(Fault::NoLength));
+            Action::BodyCouple(couple) => (volumes, couple_alone::<D>(couple)),
+            Action::ForcePerLength(force) => {
+                (self.lengths(field, &load.place)?, force_alone(force))
             }
-            Action::ForcePerLength(force) => (curve, in_plane(force)),
+            Action::ForcePerArea(force) => (self.areas(field, &load.place)?, force_alone(force)),
             Action::Force(force) => {
-                let weights = if curve.is_empty() { volumes } else { curve };
+                let weights = if extents.is_empty() { volumes } else { extents };
                 let total = size(&weights);
-                (weights, in_plane(force).map(|value| value / total))
+                (weights, force_alone(force).map(|value| value / total))
             }
             Action::Moment(couple) => {
                 let total = size(&volumes);
-                (volumes, [0.0, 0.0, couple / total])
+                (
+                    volumes,
+                    couple_alone::<D>(couple).map(|value| value / total),
+                )
             }
         };
         let total = size(&weights);
@@ -285,6 +307,30 @@ impl Places<'_> {
             at_points: at_points.map(share).collect(),
             size: norm(density.map(|value| value * total)),
         })
+    }
+
+    /// Lengths that the points of a group stand for, m.
+    fn lengths(&self, field: Field, place: &Place<D>) -> Result<Vec<(u32, f64)>, SetupError> {
+        let lengths = match place {
+            Place::Group(group) => self.setup.body.lengths_of(group),
+            _ => Vec::new(),
+        };
+        match lengths.is_empty() {
+            true => Err(field.part("place").error(Fault::NoLength)),
+            false => Ok(lengths),
+        }
+    }
+
+    /// Areas that the points of a group stand for, m^2.
+    fn areas(&self, field: Field, place: &Place<D>) -> Result<Vec<(u32, f64)>, SetupError> {
+        let areas = match place {
+            Place::Group(group) => self.setup.body.areas_of(group),
+            _ => Vec::new(),
+        };
+        match areas.is_empty() {
+            true => Err(field.part("place").error(Fault::NoArea)),
+            false => Ok(areas),
+        }
     }
 
     /// Points with their masses, kg.
@@ -302,14 +348,14 @@ impl Places<'_> {
         };
         let materials = self.setup.materials.iter().enumerate();
         let densities: Vec<f64> = materials.map(density).collect::<Result<_, _>>()?;
-        let mass = LumpedMass::new(self.cloud, &densities).mass;
+        let mass = Dim::masses(self.cloud, &densities).mass;
         Ok((points.iter().map(|&point| (point, mass[point as usize]))).collect())
     }
 
     /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward
-    /// normal n, or at the cell of a lattice whose face it is; n and L are those of the body at rest (a dead load). Each point's
-    /// share is then multiplied by the profile.
-    fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
+    /// normal n, or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. All are those of the body at rest
+    /// (a dead load). Each point's share is then multiplied by the profile.
+    fn pressures(&self, field: Field, load: &Load<D>, pressure: f64) -> Result<Given, SetupError> {
         let place = field.part("place");
         let normals = match &load.place {
             Place::Group(group) => self.setup.body.outline_of(group),
@@ -322,9 +368,9 @@ impl Places<'_> {
         let loaded: Vec<u32> = normals.iter().map(|(point, _)| *point).collect();
         let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
         let per_length = -pressure * self.cloud.thickness;
-        let force = |((point, [x, y]), factor): ((u32, [f64; 2]), f64)| {
+        let force = |((point, normal), factor): ((u32, [f64; D]), f64)| {
             let share = factor * per_length;
-            (point, [share * x, share * y, 0.0])
+            (point, force_alone(&normal.map(|it| share * it)))
         };
         Ok(Given {
             at_points: normals.into_iter().zip(factors).map(force).collect(),
@@ -333,9 +379,46 @@ impl Places<'_> {
     }
 }
 
-/// A force in the plane, without a couple.
-fn in_plane([x, y]: &[f64; 2]) -> Wrench {
-    [*x, *y, 0.0]
+/// A force without a couple.
+fn force_alone<const D: usize>(force: &[f64; D]) -> Wrench {
+    std::array::from_fn(|place| force.get(place).copied().unwrap_or(0.0))
+}
+
+/// A couple without a force: in the plane about z alone.
+fn couple_alone<const D: usize>(couple: &Couple) -> Wrench
+where
+    Dim: Dimension<D>,
+{
+    let about = |component: &Component| match component {
+        Component::RotationX => couple.about[0],
+        Component::RotationY => couple.about[1],
+        Component::Rotation | Component::RotationZ => couple.about[2],
+        Component::X | Component::Y | Component::Z => 0.0,
+    };
+    of_components::<D>(about)
+}
+
+/// What the axis of a curve takes of prescribed motions: the displacements, or the rotations where these are zero.
+fn motion<const D: usize>(given: &Displacement) -> Wrench
+where
+    Dim: Dimension<D>,
+{
+    let is_turned = (given.components()).all(|(it, value)| it.is_rotation() || value == 0.0);
+    let value = |component: &Component| {
+        let mut values = given.components();
+        let value = values.find(|(it, _)| it == component);
+        let value = value.filter(|(it, _)| it.is_rotation() == is_turned);
+        value.map_or(0.0, |(_, value)| value)
+    };
+    of_components::<D>(value)
+}
+
+fn of_components<const D: usize>(value: impl Fn(&Component) -> f64) -> Wrench
+where
+    Dim: Dimension<D>,
+{
+    let components = Dim::COMPONENTS;
+    std::array::from_fn(|place| components.get(place).map_or(0.0, &value))
 }
 
 fn norm(vector: Wrench) -> f64 {

@@ -13,7 +13,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
-use ligament_model::BondSystem;
+use ligament_model::Bonds;
 use ligament_model::failure::Criteria;
 
 use places::Places;
@@ -21,7 +21,7 @@ pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::Setup;
+use crate::setup::{Dim, Dimension, Setup};
 use boundary::{Acting, boundary, couples_have_stiffness};
 use programme::staged;
 use restraints::restrained;
@@ -46,13 +46,17 @@ impl Loading {
     ///
     /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
     /// each other, or a couple acts on nothing.
-    pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
-        let boundary = boundary(setup, &system.cloud, Acting::All)?;
+    pub fn new<const D: usize>(
+        setup: &Setup<D>,
+        system: &<Dim as Dimension<D>>::System,
+    ) -> Result<Self, SetupError>
+    where
+        Dim: Dimension<D>,
+    {
+        let cloud = Dim::cloud(system);
+        let boundary = boundary(setup, cloud, Acting::All)?;
         couples_have_stiffness(setup, &boundary, system)?;
-        let places = Places {
-            setup,
-            cloud: &system.cloud,
-        };
+        let places = Places { setup, cloud };
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
         sections_are_crossed(&probes)?;
@@ -67,7 +71,7 @@ impl Loading {
     }
 
     /// The problem that it makes of the bonds and their failure criteria.
-    pub fn problem(&self, system: &Arc<BondSystem>, criteria: &Arc<Criteria>) -> Problem {
+    pub fn problem(&self, system: &Arc<impl Bonds + 'static>, criteria: &Arc<Criteria>) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
             Some(staged) => staged.clone(),

@@ -1,22 +1,26 @@
 //! Places of a setup looked up in its body: groups, boxes, positions.
 
-use std::f64::consts::SQRT_2;
-
 use ligament_model::PointCloud;
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Place, Reading, Setup};
+use crate::setup::{Dim, Dimension, Place, Reading, Setup};
 
 /// A setup and the points of its body, to look places up in.
 #[derive(Clone, Copy)]
-pub(super) struct Places<'a> {
-    pub(super) setup: &'a Setup,
-    pub(super) cloud: &'a PointCloud,
+pub(super) struct Places<'a, const D: usize>
+where
+    Dim: Dimension<D>,
+{
+    pub(super) setup: &'a Setup<D>,
+    pub(super) cloud: &'a PointCloud<D>,
 }
 
-impl Places<'_> {
+impl<const D: usize> Places<'_, D>
+where
+    Dim: Dimension<D>,
+{
     /// Points of the place of a field, ascending.
-    pub(super) fn points(&self, field: Field, place: &Place) -> Result<Vec<u32>, SetupError> {
+    pub(super) fn points(&self, field: Field, place: &Place<D>) -> Result<Vec<u32>, SetupError> {
         let field = field.part("place");
         match place {
             Place::Everywhere => Ok((0..self.cloud.len() as u32).collect()),
@@ -61,23 +65,24 @@ impl Places<'_> {
     fn require_on_body(
         &self,
         field: Field,
-        position: [f64; 2],
+        position: [f64; D],
         nearest: u32,
     ) -> Result<(), SetupError> {
         let body = &*self.setup.body;
-        let [x, y] = body.positions()[nearest as usize];
-        let corners = body.cells().iter().map(|cell| cell.corners());
-        let around = corners.filter(|it| it.contains(&nearest)).flatten();
+        let place = body.positions()[nearest as usize];
+        let around = body.around(nearest).into_iter();
         let reach = around
-            .map(|&corner| body.positions()[corner as usize])
-            .map(|p| (p[0] - x).hypot(p[1] - y))
-            .fold(SQRT_2 * self.cloud.spacing[nearest as usize], f64::max);
-        let distance = (x - position[0]).hypot(y - position[1]);
+            .map(|corner| distance(body.positions()[corner as usize], place))
+            .fold(
+                (D as f64).sqrt() * self.cloud.spacing[nearest as usize],
+                f64::max,
+            );
+        let distance = distance(place, position);
         if distance <= reach {
             return Ok(());
         }
         Err(field.error(Fault::OffBody {
-            position,
+            position: position.to_vec(),
             nearest: body.place(nearest),
             distance,
         }))
@@ -85,7 +90,13 @@ impl Places<'_> {
 }
 
 /// Marks the points whose bonds never break, shape (n_points).
-pub fn no_fail(setup: &Setup, cloud: &PointCloud) -> Result<Vec<bool>, SetupError> {
+pub fn no_fail<const D: usize>(
+    setup: &Setup<D>,
+    cloud: &PointCloud<D>,
+) -> Result<Vec<bool>, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let places = Places { setup, cloud };
     let mut marked = vec![false; cloud.len()];
     for (index, place) in setup.no_fail.iter().enumerate() {
@@ -97,7 +108,10 @@ pub fn no_fail(setup: &Setup, cloud: &PointCloud) -> Result<Vec<bool>, SetupErro
 }
 
 /// Index of the material of each cell, shape (n_cells): every cell must have exactly one.
-pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
+pub fn material_of_cell<const D: usize>(setup: &Setup<D>) -> Result<Vec<u32>, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let n_cells = setup.body.n_cells();
     let mut material_of_cell = vec![None; n_cells];
     for (index, region) in setup.materials.iter().enumerate() {
@@ -122,7 +136,14 @@ pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
     Ok(covered)
 }
 
-fn cells_of_group(setup: &Setup, field: Field, group: &str) -> Result<Vec<u32>, SetupError> {
+fn cells_of_group<const D: usize>(
+    setup: &Setup<D>,
+    field: Field,
+    group: &str,
+) -> Result<Vec<u32>, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let cells = setup.body.cells_of(group);
     let cells = cells.ok_or_else(|| field.error(unknown_group(setup, group)))?;
     if cells.is_empty() {
@@ -132,10 +153,19 @@ fn cells_of_group(setup: &Setup, field: Field, group: &str) -> Result<Vec<u32>, 
     Ok(cells)
 }
 
-fn unknown_group(setup: &Setup, name: &str) -> Fault {
+fn unknown_group<const D: usize>(setup: &Setup<D>, name: &str) -> Fault
+where
+    Dim: Dimension<D>,
+{
     Fault::UnknownName {
         what: setup.body.group_kind(),
         found: name.to_owned(),
         candidates: setup.body.group_names(),
     }
+}
+
+/// Distance of two positions, m.
+pub(super) fn distance<const D: usize>(from: [f64; D], to: [f64; D]) -> f64 {
+    let squares = from.iter().zip(&to).map(|(a, b)| (b - a).powi(2));
+    squares.sum::<f64>().sqrt()
 }

@@ -6,17 +6,20 @@ use ligament_analysis::{
     Component, Layout, LoadCourse, MotionControl, Part, PartControl, Probe, Programme,
     ProportionalLoading, StagedLoading,
 };
-use ligament_model::{BondSystem, Bonds};
+use ligament_model::Bonds;
 
 use super::boundary::{Acting, boundary};
 use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{self, Analysis, Quantity, Setup, Stage};
+use crate::setup::{self, Analysis, Dim, Dimension, Quantity, Setup, Stage};
 
 /// Shares of a stage that are nearer to each other are one.
 const SAME: f64 = 1e-9;
 
-impl Setup {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
     /// Index of the load that is the axis of the force-displacement curve; None for the temperature.
     pub(crate) fn curve_load(&self) -> Option<usize> {
         match &self.curve {
@@ -44,11 +47,14 @@ impl Setup {
 /// # Errors
 ///
 /// If two loads prescribe a motion of a point.
-pub(super) fn staged(
-    setup: &Setup,
-    system: &BondSystem,
+pub(super) fn staged<const D: usize>(
+    setup: &Setup<D>,
+    system: &<Dim as Dimension<D>>::System,
     probes: &[Probe],
-) -> Result<Option<StagedLoading>, SetupError> {
+) -> Result<Option<StagedLoading>, SetupError>
+where
+    Dim: Dimension<D>,
+{
     if setup.stages.is_empty() {
         return Ok(None);
     }
@@ -58,7 +64,7 @@ pub(super) fn staged(
     let of_temperature = temperature.map(|_| Acting::Temperature);
     let loads: Vec<ProportionalLoading> = (of_loads.chain(of_temperature))
         .map(|acting| {
-            let loading = boundary(setup, &system.cloud, acting)?;
+            let loading = boundary(setup, Dim::cloud(system), acting)?;
             restrained(setup, system, loading, acting)
         })
         .collect::<Result<_, SetupError>>()?;
@@ -76,7 +82,10 @@ pub(super) fn staged(
 }
 
 /// The parts of all stages with what controls them.
-fn controlled_parts(setup: &Setup, layout: Layout, probes: &[Probe]) -> Vec<Part> {
+fn controlled_parts<const D: usize>(setup: &Setup<D>, layout: Layout, probes: &[Probe]) -> Vec<Part>
+where
+    Dim: Dimension<D>,
+{
     let mut parts = parts(setup);
     for part in &mut parts {
         let control = setup.stages[part.stage].control.as_ref();
@@ -104,7 +113,10 @@ fn motion(of: &[(String, f64)], end: f64, layout: Layout, probes: &[Probe]) -> M
 }
 
 /// The parts of all stages, without what controls them.
-fn parts(setup: &Setup) -> Vec<Part> {
+fn parts<const D: usize>(setup: &Setup<D>) -> Vec<Part>
+where
+    Dim: Dimension<D>,
+{
     let names = setup.factor_names();
     let mut parts = Vec::new();
     let mut factors = vec![0.0; names.len()];
@@ -151,11 +163,14 @@ fn add_parts(
 }
 
 /// Refuses points that two loads move: one of them would have to follow two factors.
-fn moved_by_one(
-    setup: &Setup,
+fn moved_by_one<const D: usize>(
+    setup: &Setup<D>,
     layout: Layout,
     loads: &[ProportionalLoading],
-) -> Result<(), SetupError> {
+) -> Result<(), SetupError>
+where
+    Dim: Dimension<D>,
+{
     for dof in 0..layout.n_degrees_of_freedom() {
         let moves = |load: &usize| loads[*load].prescribed[dof].is_some_and(|it| it != 0.0);
         let mut movers = (0..loads.len()).filter(moves);

@@ -1,30 +1,33 @@
 //! Springs, inclined rollers and platens of a setup on the points of its body.
 
-use ligament_analysis::{Component, ProportionalLoading, Restraint, Restraints};
-use ligament_model::{BondSystem, Bonds};
+use ligament_analysis::{ProportionalLoading, Restraint, Restraints};
+use ligament_model::Bonds;
 
 use super::boundary::Acting;
 use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Load, Setup, Support};
+use crate::setup::{Action, Dim, Dimension, Load, Setup, Support};
 
 /// Stiffness of inclined rollers and platens over that of a point against its neighbours: they give way by one in this of what the bonds
 /// of a point do, and a force loses no more digits than it can spare.
 const RIGID: f64 = 1e6;
 
 /// A loading with the components of the bonds alone and the restraints of a setup; far ends move where their loads act.
-pub(super) fn restrained(
-    setup: &Setup,
-    system: &BondSystem,
+pub(super) fn restrained<const D: usize>(
+    setup: &Setup<D>,
+    system: &<Dim as Dimension<D>>::System,
     loading: ProportionalLoading,
     acting: Acting,
-) -> Result<ProportionalLoading, SetupError> {
+) -> Result<ProportionalLoading, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let loading = loading.reduced(system.layout());
     let is_restrained = setup.supports.iter().any(Support::is_restraint);
     if !is_restrained && !setup.loads.iter().any(Load::is_restraint) {
         return Ok(loading);
     }
-    let cloud = &system.cloud;
+    let cloud = Dim::cloud(system);
     let mut restraining = Restraining {
         places: Places { setup, cloud },
         system,
@@ -53,9 +56,12 @@ pub(super) fn restrained(
 }
 
 /// Restraints so far.
-struct Restraining<'a> {
-    places: Places<'a>,
-    system: &'a BondSystem,
+struct Restraining<'a, const D: usize>
+where
+    Dim: Dimension<D>,
+{
+    places: Places<'a, D>,
+    system: &'a <Dim as Dimension<D>>::System,
     /// Stiffness at each point that counts as rigid, shape (n_points), N/m.
     rigid: Vec<f64>,
     list: Vec<Restraint>,
@@ -63,11 +69,14 @@ struct Restraining<'a> {
     driving: Vec<f64>,
 }
 
-impl Restraining<'_> {
-    fn support(&mut self, field: Field, support: &Support) -> Result<(), SetupError> {
+impl<const D: usize> Restraining<'_, D>
+where
+    Dim: Dimension<D>,
+{
+    fn support(&mut self, field: Field, support: &Support<D>) -> Result<(), SetupError> {
         let points = self.places.points(field, &support.place)?;
         let shares = self.places.shares(&support.place, &points);
-        for (component, total) in support.stiffness.components() {
+        for (component, total) in support.stiffness.components.components() {
             for &(point, share) in &shares {
                 let dof = self.system.layout().degree_of_freedom(point, component);
                 let along = dof.map(|dof| (dof as u32, 1.0));
@@ -88,10 +97,10 @@ impl Restraining<'_> {
         Ok(())
     }
 
-    fn load(&mut self, field: Field, load: &Load, acts: bool) -> Result<(), SetupError> {
+    fn load(&mut self, field: Field, load: &Load<D>, acts: bool) -> Result<(), SetupError> {
         let points = self.places.points(field, &load.place)?;
         let motion = match load.action {
-            Action::Displacement(it) => Some([it.x, it.y].map(|it| it.unwrap_or(0.0))),
+            Action::Displacement(it) => Some(it.vector::<D>()),
             _ => None,
         };
         let direction = match (motion, load.action) {
@@ -99,7 +108,7 @@ impl Restraining<'_> {
             (None, Action::Force(force)) => force,
             (None, _) => return Ok(()),
         };
-        let (direction, size) = (unit(direction), direction[0].hypot(direction[1]));
+        let (direction, size) = (unit(direction), length(direction));
         if size == 0.0 {
             return Err(field.error(Fault::ZeroControl));
         }
@@ -132,41 +141,37 @@ impl Restraining<'_> {
         Ok(())
     }
 
-    /// A rigid platen on some points. Their displacements v_i along a direction are a + b s_i with the places s_i across it, from their middle:
-    /// of the others a part e costs k e^2/2, with the stiffness k of a point that counts as rigid. Where it is driven, a costs as much.
+    /// A rigid platen on some points. Their displacements v_i along a direction are a + b s_i with the places s_i across it, from their
+    /// middle, in space with places across it both ways: of the others a part e costs k e^2/2, with the stiffness k of a point that counts
+    /// as rigid. Where it is driven, a costs as much.
     fn platen(
         &mut self,
         field: Field,
         points: &[u32],
-        direction: [f64; 2],
+        direction: [f64; D],
         is_driven: bool,
     ) -> Result<(), SetupError> {
-        let n = points.len() as f64;
-        let across = |&point: &u32| {
-            let [x, y] = self.system.cloud.positions[point as usize];
-            direction[0] * y - direction[1] * x
-        };
-        let places: Vec<f64> = points.iter().map(across).collect();
-        let middle = places.iter().sum::<f64>() / n;
-        let places: Vec<f64> = places.iter().map(|it| it - middle).collect();
-        let squares: f64 = places.iter().map(|it| it * it).sum();
-        let spacing = self.system.cloud.spacing[points[0] as usize];
-        if squares < spacing * spacing {
+        let tilts = self.tilts(points, direction);
+        let spacing = self.places.cloud.spacing[points[0] as usize];
+        if tilts.iter().any(|it| it.squares < spacing * spacing) {
             return Err(field.part("tilts").error(Fault::NoPlaten {
                 points: points.len(),
             }));
         }
+        let n = points.len() as f64;
         let stiffness = points.iter().map(|&it| self.rigid[it as usize]);
         let stiffness = stiffness.fold(0.0, f64::max);
         let mean = if is_driven { 0.0 } else { 1.0 / n };
         let entries = |row: usize| {
-            let places = &places;
-            (0..places.len()).map(move |column| {
+            let tilts = &tilts;
+            (0..points.len()).map(move |column| {
                 let own = if row == column { 1.0 } else { 0.0 };
-                stiffness * (own - mean - places[row] * places[column] / squares)
+                let part = |it: &Tilt| it.places[row] * it.places[column] / it.squares;
+                let others = tilts.iter().fold(own - mean, |rest, it| rest - part(it));
+                stiffness * others
             })
         };
-        let between: Vec<Vec<f64>> = (0..places.len())
+        let between: Vec<Vec<f64>> = (0..points.len())
             .map(|row| entries(row).collect())
             .collect();
         let along: Vec<Vec<(u32, f64)>> = (points.iter())
@@ -190,13 +195,37 @@ impl Restraining<'_> {
         Ok(())
     }
 
+    /// The ways in which some points may tilt about their middle across a direction: one in the plane, two in space, which share nothing.
+    fn tilts(&self, points: &[u32], direction: [f64; D]) -> Vec<Tilt> {
+        let mut tilts: Vec<Tilt> = Vec::new();
+        for across in Dim::across(direction) {
+            let place = |&point: &u32| {
+                let position = self.places.cloud.positions[point as usize].iter();
+                position.zip(across).map(|(x, cosine)| x * cosine).sum()
+            };
+            let places: Vec<f64> = points.iter().map(place).collect();
+            let middle = places.iter().sum::<f64>() / points.len() as f64;
+            let mut places: Vec<f64> = places.iter().map(|it| it - middle).collect();
+            for before in &tilts {
+                let shared = dot(&places, &before.places) / before.squares;
+                let own = places.iter_mut().zip(&before.places);
+                own.for_each(|(own, other)| *own -= shared * other);
+            }
+            tilts.push(Tilt {
+                squares: dot(&places, &places),
+                places,
+            });
+        }
+        tilts
+    }
+
     /// Moves the far ends of the restraints from `first` on: those at some points by a motion times their factors.
-    fn drive(&mut self, first: usize, (points, factors): (&[u32], &[f64]), motion: [f64; 2]) {
+    fn drive(&mut self, first: usize, (points, factors): (&[u32], &[f64]), motion: [f64; D]) {
         let layout = self.system.layout();
         let mut far_ends = vec![0.0; self.driving.len()];
         for (&point, factor) in points.iter().zip(factors) {
-            for (component, value) in [Component::X, Component::Y].into_iter().zip(motion) {
-                if let Some(dof) = layout.degree_of_freedom(point, component) {
+            for (component, value) in Dim::COMPONENTS.iter().zip(motion) {
+                if let Some(dof) = layout.degree_of_freedom(point, *component) {
                     far_ends[dof] = factor * value;
                 }
             }
@@ -211,9 +240,9 @@ impl Restraining<'_> {
     }
 
     /// The displacement of a point along a direction times a factor: its degrees of freedom with their parts in it.
-    fn along(&self, direction: [f64; 2], point: u32, factor: f64) -> Vec<(u32, f64)> {
+    fn along(&self, direction: [f64; D], point: u32, factor: f64) -> Vec<(u32, f64)> {
         let layout = self.system.layout();
-        let parts = [Component::X, Component::Y].into_iter().zip(direction);
+        let parts = Dim::COMPONENTS.iter().copied().zip(direction);
         let parts = parts.filter(|(_, cosine)| *cosine != 0.0);
         let part = |(component, cosine)| {
             let dof = layout.degree_of_freedom(point, component)?;
@@ -223,7 +252,26 @@ impl Restraining<'_> {
     }
 }
 
-fn unit([x, y]: [f64; 2]) -> [f64; 2] {
-    let length = x.hypot(y);
-    [x / length, y / length]
+/// A way in which points may tilt.
+struct Tilt {
+    /// Places of the points from their middle, shape (n_points), m.
+    places: Vec<f64>,
+    /// Sum of their squares, m^2.
+    squares: f64,
+}
+
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+fn unit<const D: usize>(direction: [f64; D]) -> [f64; D] {
+    let length = length(direction);
+    direction.map(|it| it / length)
+}
+
+fn length<const D: usize>(vector: [f64; D]) -> f64 {
+    match vector[..] {
+        [x, y] => x.hypot(y),
+        _ => vector.iter().map(|it| it * it).sum::<f64>().sqrt(),
+    }
 }

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use ligament_analysis::modal::ModalProblem;
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{Component, Supports};
-use ligament_model::{BondSystem, Bonds, LumpedMass};
+use ligament_model::{Bonds, LumpedMass};
 
 use super::places::Places;
 use crate::error::{Field, SetupError};
-use crate::setup::Setup;
+use crate::setup::{Dim, Dimension, Setup};
 
 /// Supports and masses of a model.
 #[derive(Debug)]
@@ -28,18 +28,24 @@ impl Vibration {
     /// # Errors
     ///
     /// If a name of the setup is not in the body.
-    pub fn new(setup: &Setup, system: &BondSystem) -> Result<Self, SetupError> {
+    pub fn new<const D: usize>(
+        setup: &Setup<D>,
+        system: &<Dim as Dimension<D>>::System,
+    ) -> Result<Self, SetupError>
+    where
+        Dim: Dimension<D>,
+    {
         let materials = setup.materials.iter();
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {
             supports: Arc::new(supports(setup, system)?),
-            mass: Arc::new(LumpedMass::new(&system.cloud, &densities)),
+            mass: Arc::new(Dim::masses(Dim::cloud(system), &densities)),
             solver: setup.solver,
         })
     }
 
     /// The problem that it makes of the bonds.
-    pub fn problem(&self, system: &Arc<BondSystem>) -> ModalProblem {
+    pub fn problem(&self, system: &Arc<impl Bonds + 'static>) -> ModalProblem {
         ModalProblem {
             system: system.clone(),
             mass: self.mass.clone(),
@@ -50,8 +56,14 @@ impl Vibration {
 }
 
 /// The supports on the points.
-fn supports(setup: &Setup, system: &BondSystem) -> Result<Supports, SetupError> {
-    let cloud = &system.cloud;
+fn supports<const D: usize>(
+    setup: &Setup<D>,
+    system: &<Dim as Dimension<D>>::System,
+) -> Result<Supports, SetupError>
+where
+    Dim: Dimension<D>,
+{
+    let cloud = Dim::cloud(system);
     let places = Places { setup, cloud };
     let mut supports = Supports::none(system.layout());
     for (index, support) in setup.supports.iter().enumerate() {

@@ -4,29 +4,28 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 
 use ligament_model::correction::patch;
-use ligament_model::horizon::INCLUSION_TOLERANCE;
-use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
+use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic};
 
+use super::dimension::{Dim, Dimension};
 use super::{
-    Action, Alpha, Analysis, Calibration, CorrectionDomain, Form, Horizon, Law, Load, Place,
+    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Law, Load, Place,
 };
-use super::{Reading, Setup, Strains, Surface};
+use super::{Reading, Setup, Surface};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 
 pub(super) type Checked = Result<(), SetupError>;
 
-impl Setup {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
     /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
     ///
     /// # Errors
     ///
     /// If a field is out of range, missing, or does not go with another.
     pub fn check(&self) -> Checked {
-        positive(
-            Field::whole("section").part("thickness"),
-            Some(self.thickness()),
-        )?;
         match self.horizon {
             Horizon::Factor(factor) => require(
                 factor >= 1.0 && factor.is_finite(),
@@ -45,13 +44,10 @@ impl Setup {
         }
         self.check_criteria()?;
         self.check_scatter()?;
-        self.check_strains_of_bonds()?;
-        self.check_rotational_scale()?;
+        Dim::check(self)?;
         self.check_correction()?;
         self.check_load_factors()?;
         self.check_stages()?;
-        self.check_precracks()?;
-        self.check_closing()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
         self.check_restraints()?;
@@ -105,8 +101,7 @@ impl Setup {
             return contradiction(elasticity, reason);
         }
         // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
-        if self.plane() == Plane::Stress
-            || matches!(material.elasticity, Elasticity::Anisotropic(_))
+        if matches!(material.elasticity, Elasticity::Anisotropic(_)) || !Dim::widens(&self.section)
         {
             return Ok(());
         }
@@ -192,7 +187,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Elements with strains of their own need rows and columns, and not all analyses take all of their variants.
+    /// Forces of uniform strains are those of whole cells.
     fn check_patch(&self, field: Field, settings: patch::Settings) -> Checked {
         if matches!(self.body.origin(), Origin::Points) {
             let reason = "the forces of uniform strains are those of the cells of a body, and points from arrays have none: take a mesh or a \
@@ -227,51 +222,6 @@ impl Setup {
         )
     }
 
-    fn check_strains_of_bonds(&self) -> Checked {
-        let Law::MbbPd { form, strains } = self.law else {
-            return Ok(());
-        };
-        let law = Field::whole("law");
-        let Origin::Lattice(lattice) = self.body.origin() else {
-            let reason = "`Law::MbbPd` classes bonds by the rows and columns of a lattice: give `LatticeBody`, or take \
-                          another law";
-            return contradiction(law, reason);
-        };
-        let [shorter, longer] = {
-            let [dx, dy] = lattice.spacing;
-            [dx.min(dy), dx.max(dy)]
-        };
-        let horizon = self.horizon.at_spacing(shorter);
-        if horizon * (1.0 + INCLUSION_TOLERANCE) < longer {
-            let reason = format!(
-                "`Law::MbbPd` takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
-                 of the cells (it is {horizon:?} m)"
-            );
-            return contradiction(Field::whole("horizon"), reason);
-        }
-        let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
-        if form == Form::Pairwise {
-            let reason = if !is_elastic {
-                "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be \
-                 followed: it is for elastic analyses; take `Form::Full`"
-            } else if !self.precracks.is_empty() {
-                "the printed factors are those of whole families: it takes no pre-cracks; take `Form::Full`"
-            } else if strains == Strains::True {
-                "it takes `Strains::Small` alone"
-            } else {
-                return Ok(());
-            };
-            return contradiction(law.part("form"), reason);
-        }
-        let has_steps = matches!(self.analysis, Analysis::Stepped(_));
-        if strains == Strains::True && !is_elastic && !has_steps {
-            let reason = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
-                          load steps; take `Strains::Small`";
-            return contradiction(law.part("strains"), reason);
-        }
-        Ok(())
-    }
-
     fn check_load_factors(&self) -> Checked {
         let Analysis::Stepped(settings) = &self.analysis else {
             return Ok(());
@@ -291,19 +241,6 @@ impl Setup {
             let expected = format!("a number other than the load factor before it, {before:?}");
             let moves = factor.is_finite() && factor != before;
             require(moves, Field::element(list, index), expected, factor)?;
-        }
-        Ok(())
-    }
-
-    fn check_precracks(&self) -> Checked {
-        for (index, crack) in self.precracks.iter().enumerate() {
-            let field = Field::element("precracks", index).part("points");
-            let points = &crack.points;
-            require(points.len() >= 2, field, "two points or more", points)?;
-            for pair in points.windows(2) {
-                let expected = "another point than the one before it";
-                require(pair[0] != pair[1], field, expected, pair[1])?;
-            }
         }
         Ok(())
     }
@@ -329,8 +266,6 @@ impl Setup {
         Ok(())
     }
 }
-
-const NO_COMPONENT: &str = "needs one of `x`, `y`, `rotation` or more";
 
 /// Moduli are positive, and every strain costs energy.
 fn check_constants(field: Field, elasticity: &Elasticity) -> Checked {
@@ -389,7 +324,10 @@ fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {
 }
 
 /// A load does something, along a curve where it is spread along one.
-fn check_load(field: Field, load: &Load) -> Checked {
+fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked
+where
+    Dim: Dimension<D>,
+{
     if let Some(profile) = load.profile {
         require(
             profile.one != profile.zero,
@@ -401,16 +339,24 @@ fn check_load(field: Field, load: &Load) -> Checked {
     let action = field.part("action");
     match load.action {
         Action::Displacement(it) if it.components().next().is_none() => {
-            return contradiction(action, NO_COMPONENT);
+            let names = Dim::COMPONENTS.iter().map(|it| format!("`{}`", it.name()));
+            let names: Vec<String> = names.collect();
+            return contradiction(action, format!("needs one of {} or more", names.join(", ")));
         }
-        Action::Force([0.0, 0.0])
-        | Action::ForcePerLength([0.0, 0.0])
-        | Action::BodyForce([0.0, 0.0])
-        | Action::Acceleration([0.0, 0.0]) => {
-            let reason = "this load does nothing: neither `x` nor `y` is given a value";
-            return contradiction(action, reason);
+        Action::Force(vector)
+        | Action::ForcePerLength(vector)
+        | Action::ForcePerArea(vector)
+        | Action::BodyForce(vector)
+        | Action::Acceleration(vector)
+            if vector == [0.0; D] =>
+        {
+            return contradiction(action, Dim::IDLE_VECTOR);
         }
-        Action::Moment(value) | Action::BodyCouple(value) | Action::Pressure(value) => {
+        Action::Moment(Couple { about }) | Action::BodyCouple(Couple { about }) => {
+            let expected = "other than 0, or the load does nothing";
+            require(about != [0.0; 3], action, expected, about)?;
+        }
+        Action::Pressure(value) => {
             let expected = "other than 0, or the load does nothing";
             require(value != 0.0, action, expected, value)?;
         }
@@ -423,7 +369,14 @@ fn check_load(field: Field, load: &Load) -> Checked {
                 "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
             )
         }
-        (Action::ForcePerLength(_) | Action::Pressure(_), Place::Group(_)) => Ok(()),
+        (
+            Action::ForcePerLength(_) | Action::ForcePerArea(_) | Action::Pressure(_),
+            Place::Group(_),
+        ) => Ok(()),
+        (Action::ForcePerArea(_), _) => contradiction(
+            action,
+            "acts over the surface of a `group`, so the load needs one",
+        ),
         (Action::ForcePerLength(_), _) => contradiction(
             action,
             "acts along the curve of a `group`, so the load needs one",

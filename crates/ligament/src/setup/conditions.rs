@@ -4,74 +4,74 @@ use ligament_analysis::Component;
 
 /// Where on the body something acts.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Place {
+pub enum Place<const D: usize = 2> {
     /// All points.
     Everywhere,
     /// The points of a group of the body.
     Group(String),
-    /// The points in a rectangle: its lower left and its upper right corner, m.
-    Box([[f64; 2]; 2]),
+    /// The points in a rectangle, in space in a box: its lowest and its highest corner, m.
+    Box([[f64; D]; 2]),
     /// The point nearest to a position, m.
-    At([f64; 2]),
+    At([f64; D]),
 }
 
-impl From<&str> for Place {
+impl<const D: usize> From<&str> for Place<D> {
     fn from(group: &str) -> Self {
         Self::Group(group.to_owned())
     }
 }
 
-/// Prescribed displacements; a component that is none is free.
+/// A value for some components of the motion; a component without one is left alone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Displacement {
-    /// Along x, m.
+    /// Displacement along x, m.
     pub x: Option<f64>,
-    /// Along y, m.
+    /// Displacement along y, m.
     pub y: Option<f64>,
-    /// Rotation, rad, counter-clockwise.
+    /// Rotation in the plane, rad, counter-clockwise.
     pub rotation: Option<f64>,
+    /// Displacement along z of a solid, m.
+    pub z: Option<f64>,
+    /// Rotation about x in a solid, rad, right-handed.
+    pub rotation_x: Option<f64>,
+    /// Rotation about y in a solid, rad, right-handed.
+    pub rotation_y: Option<f64>,
+    /// Rotation about z in a solid, rad, right-handed.
+    pub rotation_z: Option<f64>,
 }
 
 /// A support: components of the displacement that are held at zero, or resisted by springs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Support {
+pub struct Support<const D: usize = 2> {
     /// Where it holds.
-    pub place: Place,
-    /// Whether it holds displacements along x.
-    pub x: bool,
-    /// Whether it holds displacements along y.
-    pub y: bool,
-    /// Whether it holds rotations.
-    pub rotation: bool,
+    pub place: Place<D>,
+    /// Components that it holds.
+    pub held: Vec<Component>,
     /// Direction along which displacements are held while they are free across it: the normal of the plane of a roller. It need not
     /// have the length 1.
-    pub normal: Option<[f64; 2]>,
+    pub normal: Option<[f64; D]>,
     /// Springs to the ground.
     pub stiffness: SpringStiffness,
 }
 
-/// Stiffness of springs in total over the points, shared out as a force is; a component without one has no spring.
+/// Stiffness of springs in total over the points, shared out as a force is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpringStiffness {
-    /// Along x, N/m.
-    pub x: Option<f64>,
-    /// Along y, N/m.
-    pub y: Option<f64>,
-    /// Against rotations of the points, N m/rad.
-    pub rotation: Option<f64>,
+    /// Along and about the axes, N/m and N m/rad; a component without a value has no spring.
+    pub components: Displacement,
     /// Along the normal of the support, N/m; without it the normal is held.
     pub normal: Option<f64>,
 }
 
 /// A load as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Load {
+pub struct Load<const D: usize = 2> {
     /// Name, unique among the loads: its reaction goes by it.
     pub name: String,
     /// Where it acts.
-    pub place: Place,
+    pub place: Place<D>,
     /// What acts.
-    pub action: Action,
+    pub action: Action<D>,
     /// How it varies from point to point; without it every point takes its whole share.
     pub profile: Option<Profile>,
     /// Stiffness in total of springs between what moves and the points, where a displacement is given, N/m: what gives way in a testing
@@ -84,23 +84,41 @@ pub struct Load {
 
 /// What a load does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action {
+pub enum Action<const D: usize = 2> {
     /// Prescribed displacements, m and rad.
     Displacement(Displacement),
     /// A force in total over the points, N.
-    Force([f64; 2]),
+    Force([f64; D]),
     /// A force along a group that has a length, N/m.
-    ForcePerLength([f64; 2]),
+    ForcePerLength([f64; D]),
     /// A force in the volume, N/m^3.
-    BodyForce([f64; 2]),
+    BodyForce([f64; D]),
     /// An acceleration that acts on the masses in the volume, as gravity does, m/s^2.
-    Acceleration([f64; 2]),
-    /// A couple in total over the points, counter-clockwise, N m.
-    Moment(f64),
-    /// A couple in the volume, counter-clockwise, N m/m^3.
-    BodyCouple(f64),
+    Acceleration([f64; D]),
+    /// A force over a group of a solid that has an area, N/m^2.
+    ForcePerArea([f64; D]),
+    /// A couple in total over the points, N m.
+    Moment(Couple),
+    /// A couple in the volume, N m/m^3.
+    BodyCouple(Couple),
     /// A pressure on the outline of the body along a group, Pa; a positive one pushes on the body.
     Pressure(f64),
+}
+
+/// A couple about the axes, right-handed; in the plane about z alone, counter-clockwise.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Couple {
+    /// About x, y and z.
+    pub about: [f64; 3],
+}
+
+impl From<f64> for Couple {
+    /// A couple in the plane.
+    fn from(about_z: f64) -> Self {
+        Self {
+            about: [0.0, 0.0, about_z],
+        }
+    }
 }
 
 /// A linear variation of a load: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
@@ -122,17 +140,32 @@ pub enum Axis {
     X,
     /// The y axis.
     Y,
+    /// The z axis of space.
+    Z,
 }
 
-impl Support {
+impl Axis {
+    /// Number of the coordinate.
+    pub fn number(self) -> usize {
+        self as usize
+    }
+
+    /// The displacement along the axis.
+    pub fn displacement(self) -> Component {
+        match self {
+            Self::X => Component::X,
+            Self::Y => Component::Y,
+            Self::Z => Component::Z,
+        }
+    }
+}
+
+impl<const D: usize> Support<D> {
     /// A support that holds some components.
-    pub fn new(place: impl Into<Place>, held: &[Component]) -> Self {
-        let [x, y, rotation] = Component::ALL.map(|component| held.contains(&component));
+    pub fn new(place: impl Into<Place<D>>, held: &[Component]) -> Self {
         Self {
             place: place.into(),
-            x,
-            y,
-            rotation,
+            held: held.to_vec(),
             normal: None,
             stiffness: SpringStiffness::default(),
         }
@@ -141,18 +174,10 @@ impl Support {
     /// Components that it holds; one along an axis where its normal lies there.
     pub fn components(&self) -> impl Iterator<Item = Component> {
         let normal = self.normal.filter(|_| self.stiffness.normal.is_none());
-        let [along_x, along_y] = match normal {
-            Some([x, 0.0]) => [x != 0.0, false],
-            Some([0.0, y]) => [false, y != 0.0],
-            _ => [false; 2],
-        };
-        let held = [
-            (Component::X, self.x || along_x),
-            (Component::Y, self.y || along_y),
-            (Component::Rotation, self.rotation),
-        ];
-        held.into_iter()
-            .filter_map(|(component, holds)| holds.then_some(component))
+        let along = normal.and_then(|it| axis_along(&it));
+        let along = along.map(Axis::displacement);
+        let all = Component::ALL.into_iter().chain(BEYOND_THE_PLANE);
+        all.filter(move |it| self.held.contains(it) || along == Some(*it))
     }
 
     /// Name of the support with this index in the history.
@@ -164,36 +189,54 @@ impl Support {
     }
 }
 
-impl SpringStiffness {
-    /// The springs along components, with their stiffness in total.
-    pub fn components(&self) -> impl Iterator<Item = (Component, f64)> {
-        let given = [
-            (Component::X, self.x),
-            (Component::Y, self.y),
-            (Component::Rotation, self.rotation),
-        ];
-        let springs = given.into_iter();
-        springs.filter_map(|(component, stiffness)| Some((component, stiffness?)))
-    }
+/// Components that only solids have.
+const BEYOND_THE_PLANE: [Component; 4] = [
+    Component::Z,
+    Component::RotationX,
+    Component::RotationY,
+    Component::RotationZ,
+];
+
+/// The axis that a direction lies along, if it lies along one.
+pub(super) fn axis_along(direction: &[f64]) -> Option<Axis> {
+    let mut axes = [Axis::X, Axis::Y, Axis::Z].into_iter().zip(direction);
+    let (axis, _) = axes.find(|(_, cosine)| **cosine != 0.0)?;
+    axes.all(|(_, cosine)| *cosine == 0.0).then_some(axis)
 }
 
 impl Displacement {
-    /// Components that are prescribed, with their values.
+    /// Components that have a value.
     pub fn components(&self) -> impl Iterator<Item = (Component, f64)> {
         let given = [
             (Component::X, self.x),
             (Component::Y, self.y),
             (Component::Rotation, self.rotation),
+            (Component::Z, self.z),
+            (Component::RotationX, self.rotation_x),
+            (Component::RotationY, self.rotation_y),
+            (Component::RotationZ, self.rotation_z),
         ];
         given
             .into_iter()
             .filter_map(|(component, value)| Some((component, value?)))
     }
+
+    /// Values along the first D axes, zero where there is none.
+    pub fn vector<const D: usize>(&self) -> [f64; D] {
+        let along = [self.x, self.y, self.z];
+        std::array::from_fn(|axis| along[axis].unwrap_or(0.0))
+    }
+
+    /// Whether displacements have values and rotations have none.
+    pub(crate) fn is_translation(&self) -> bool {
+        let mut given = self.components().peekable();
+        given.peek().is_some() && given.all(|(component, _)| !component.is_rotation())
+    }
 }
 
-impl Load {
+impl<const D: usize> Load<D> {
     /// A load without a profile, named by its group, or `load` where it acts elsewhere.
-    pub fn new(place: impl Into<Place>, action: Action) -> Self {
+    pub fn new(place: impl Into<Place<D>>, action: Action<D>) -> Self {
         let place = place.into();
         let name = match &place {
             Place::Group(group) => group.clone(),
@@ -212,11 +255,7 @@ impl Load {
 
 impl Profile {
     /// The factor at a position.
-    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
-        let coordinate = match self.along {
-            Axis::X => x,
-            Axis::Y => y,
-        };
-        (coordinate - self.zero) / (self.one - self.zero)
+    pub fn at(&self, position: &[f64]) -> f64 {
+        (position[self.along.number()] - self.zero) / (self.one - self.zero)
     }
 }

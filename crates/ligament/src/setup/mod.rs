@@ -3,10 +3,12 @@
 mod analysis;
 mod check;
 mod check_control;
+mod check_plane;
 mod check_stages;
 mod closing;
 mod conditions;
 mod correction;
+mod dimension;
 mod law;
 mod probe;
 mod restraint;
@@ -18,7 +20,6 @@ mod temperature;
 use std::sync::Arc;
 
 use ligament_analysis::SolverSettings;
-use ligament_model::bonds::precrack::PreCrack;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
@@ -26,23 +27,30 @@ use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 use crate::body::Body;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
-pub use conditions::{Action, Axis, Displacement, Load, Place, Profile, SpringStiffness, Support};
+pub use conditions::{
+    Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support,
+};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
+pub use dimension::{Dim, Dimension};
 pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};
 pub use stage::{Control, Course, Quantity, Stage};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 
-/// Description of a computation: body, section, materials, law, corrections, supports, loads and the analysis.
+/// Description of a computation in the plane, or for D = 3 in space: body, section, materials, law, corrections, supports, loads and the
+/// analysis.
 ///
 /// Lengths are in metres, forces in newtons, all else in SI units. Positions are in the coordinates of the body.
 /// [`Setup::new`] fills in what need not be said; every field can be set afterwards.
 #[derive(Debug, Clone)]
-pub struct Setup {
+pub struct Setup<const D: usize = 2>
+where
+    Dim: Dimension<D>,
+{
     /// Points with their groups: from a mesh, a lattice or arrays.
-    pub body: Arc<dyn Body>,
-    /// Section of the body: what a point of the plane stands for across it.
-    pub section: Section,
+    pub body: Arc<dyn Body<D>>,
+    /// Section of a body in the plane: what a point stands for across it.
+    pub section: <Dim as Dimension<D>>::Section,
     /// Materials: one without a group for the whole body, or one for each of some groups.
     pub materials: Vec<MaterialRegion>,
     /// Bond law.
@@ -56,28 +64,28 @@ pub struct Setup {
     /// Corrections of the bonds.
     pub correction: Correction,
     /// Cracks that are there from the start.
-    pub precracks: Vec<PreCrack>,
+    pub precracks: Vec<<Dim as Dimension<D>>::PreCrack>,
     /// Whether the faces of pre-cracks and of broken bonds carry pressure again where they close; of laws whose points turn.
     pub closing: bool,
     /// Parts of the body where bonds never fail.
-    pub no_fail: Vec<Place>,
+    pub no_fail: Vec<Place<D>>,
     /// Supports of the body; there need be none.
-    pub supports: Vec<Support>,
+    pub supports: Vec<Support<D>>,
     /// Loads as they are at load factor 1.
-    pub loads: Vec<Load>,
+    pub loads: Vec<Load<D>>,
     /// Name of the load that is the axis of the force-displacement curve; without it the first, or the temperature where there is
     /// none.
     pub curve: Option<String>,
     /// Stages one after the other, in which each load follows a factor of its own; without any all loads grow with one load factor.
     pub stages: Vec<Stage>,
     /// Changes of temperature at load factor 1; where several reach, the last holds.
-    pub temperatures: Vec<Temperature>,
+    pub temperatures: Vec<Temperature<D>>,
     /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
     pub criteria: Vec<Choice>,
     /// A property of the materials that varies at random over the body, in an analysis of fracture.
     pub scatter: Option<Scatter>,
     /// Quantities that the history records beside displacement and load.
-    pub probes: Vec<Probe>,
+    pub probes: Vec<Probe<D>>,
     /// Kind of analysis.
     pub analysis: Analysis,
     /// Solver of the equations.
@@ -116,16 +124,16 @@ pub enum Horizon {
     Length(f64),
 }
 
-impl Setup {
-    /// The elastic analysis of a body of one material in plane stress with a thickness of 1 m, horizon factor 3 and the
-    /// correction of the law's paper; nothing holds it and nothing loads it yet.
-    pub fn new(body: impl Body + 'static, material: Material, law: Law) -> Self {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
+    /// The elastic analysis of a body of one material, horizon factor 3 and the correction of the law's paper; nothing holds it and nothing
+    /// loads it yet. A body in the plane is in plane stress and 1 m thick.
+    pub fn new(body: impl Body<D> + 'static, material: Material, law: Law) -> Self {
         Self {
             body: Arc::new(body),
-            section: Section::Plane {
-                state: Plane::Stress,
-                thickness: 1.0,
-            },
+            section: Dim::SECTION,
             materials: vec![MaterialRegion {
                 group: None,
                 material,
@@ -157,7 +165,9 @@ impl Setup {
         let regions = self.materials.iter();
         regions.map(|region| region.material.clone()).collect()
     }
+}
 
+impl Setup {
     /// State of the plane.
     pub fn plane(&self) -> Plane {
         let Section::Plane { state, .. } = self.section;
@@ -173,7 +183,7 @@ impl Setup {
 
 impl Horizon {
     /// Horizons of the points of a cloud.
-    pub fn of_points(self, cloud: &PointCloud) -> Horizons {
+    pub fn of_points<const D: usize>(self, cloud: &PointCloud<D>) -> Horizons {
         match self {
             Self::Factor(factor) => Horizons::from_spacing(&cloud.spacing, factor),
             Self::Length(length) => Horizons::unified(length, cloud.len()),

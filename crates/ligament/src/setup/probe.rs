@@ -2,47 +2,46 @@
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{self, PointField};
-use ligament_model::BondSystem;
-use ligament_model::bonds::precrack;
 
 use super::conditions::Axis;
+use super::dimension::{Dim, Dimension};
 
 /// A number read off the body at every load step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Probe {
+pub struct Probe<const D: usize = 2> {
     /// Name, unique among the probes.
     pub name: String,
     /// Quantity that the probe reads.
-    pub reading: Reading,
+    pub reading: Reading<D>,
 }
 
 /// What a probe reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reading {
+pub enum Reading<const D: usize = 2> {
     /// Displacement of one point relative to another.
     Between {
         /// Two positions, m: the displacement of the point nearest to the second less that nearest to the first.
-        positions: [[f64; 2]; 2],
+        positions: [[f64; D]; 2],
         /// Component read, m or rad.
         component: Component,
     },
     /// A field at a point.
     At {
         /// Position, m; the nearest point is read.
-        position: [f64; 2],
+        position: [f64; D],
         /// Field read.
         field: PointField,
     },
-    /// The force that the bonds carry through a line.
+    /// The force that the bonds carry through a line of the plane, or through a plane of space.
     Section {
-        /// Ends of the line, m.
-        line: [[f64; 2]; 2],
+        /// Ends of the line, m; in space a point of the plane and one before it along its normal.
+        line: [[f64; D]; 2],
         /// Component read, N.
         component: Axis,
     },
 }
 
-impl Reading {
+impl<const D: usize> Reading<D> {
     /// Whether it is a motion of points, or a difference of such.
     pub(crate) fn is_motion(&self) -> bool {
         match self {
@@ -53,10 +52,13 @@ impl Reading {
     }
 }
 
-impl Probe {
+impl<const D: usize> Probe<D>
+where
+    Dim: Dimension<D>,
+{
     /// The probe on the points and bonds of a model.
-    pub(crate) fn on(&self, system: &BondSystem) -> probe::Probe {
-        let nearest = |position: [f64; 2]| system.cloud.nearest_point(position);
+    pub(crate) fn on(&self, system: &<Dim as Dimension<D>>::System) -> probe::Probe {
+        let nearest = |position: [f64; D]| Dim::cloud(system).nearest_point(position);
         let reading = match self.reading {
             Reading::Between {
                 positions,
@@ -69,23 +71,10 @@ impl Probe {
                 point: nearest(position),
                 field,
             },
-            Reading::Section {
-                line: [start, end],
-                component,
-            } => {
-                let component = match component {
-                    Axis::X => Component::X,
-                    Axis::Y => Component::Y,
-                };
-                let (faces, cloud) = (&system.faces, &system.cloud);
-                let cut = faces.cut().iter().filter(|_| faces.close());
-                let ends = system.bonds.ends.iter().copied();
-                let ends = ends.chain(cut.map(|it| it.ends));
-                probe::Reading::SectionForce {
-                    bonds: precrack::crossing_bonds(ends, cloud, start, end),
-                    component,
-                }
-            }
+            Reading::Section { line, component } => probe::Reading::SectionForce {
+                bonds: Dim::crossing(system, line),
+                component: component.displacement(),
+            },
         };
         probe::Probe {
             name: self.name.clone(),

@@ -1,31 +1,37 @@
 //! What supports and loads with springs, rollers and platens must be.
 
 use super::check::{Checked, contradiction, positive};
+use super::conditions::axis_along;
+use super::dimension::{Dim, Dimension};
 use super::{Action, Analysis, Form, Law, Load, Setup, Support};
 use crate::error::Field;
 
-impl Support {
+impl<const D: usize> Support<D> {
     /// Whether it resists without holding still, by springs or along a direction between the axes.
     pub fn is_restraint(&self) -> bool {
-        self.restrained_normal().is_some() || self.stiffness.components().next().is_some()
+        let springs = self.stiffness.components;
+        self.restrained_normal().is_some() || springs.components().next().is_some()
     }
 
     /// The normal, where it has a spring or lies between the axes.
-    pub fn restrained_normal(&self) -> Option<[f64; 2]> {
+    pub fn restrained_normal(&self) -> Option<[f64; D]> {
         let has_spring = self.stiffness.normal.is_some();
         self.normal
-            .filter(|[x, y]| has_spring || (*x != 0.0 && *y != 0.0))
+            .filter(|it| has_spring || axis_along(it).is_none())
     }
 }
 
-impl Load {
+impl<const D: usize> Load<D> {
     /// Whether it acts through springs or a platen.
     pub fn is_restraint(&self) -> bool {
         self.stiffness.is_some() || self.tilts
     }
 }
 
-impl Setup {
+impl<const D: usize> Setup<D>
+where
+    Dim: Dimension<D>,
+{
     pub(super) fn check_restraints(&self) -> Checked {
         for (index, support) in self.supports.iter().enumerate() {
             let field = Field::element("supports", index);
@@ -34,7 +40,8 @@ impl Setup {
                 self.check_takes_restraints(field)?;
             }
             let has_rotations = self.law.rotational_profile().is_some();
-            if support.stiffness.rotation.is_some() && !has_rotations {
+            let mut springs = support.stiffness.components.components();
+            if springs.any(|(it, _)| it.is_rotation()) && !has_rotations {
                 let reason =
                     "points have no rotations under this law: springs against them act on nothing";
                 return contradiction(field.part("stiffness"), reason);
@@ -70,31 +77,26 @@ impl Setup {
     }
 }
 
-fn check_support(field: Field, support: &Support) -> Checked {
+fn check_support<const D: usize>(field: Field, support: &Support<D>) -> Checked {
     let Support {
-        x,
-        y,
-        rotation,
+        held,
         normal,
         stiffness,
         ..
     } = support;
-    for value in [
-        stiffness.x,
-        stiffness.y,
-        stiffness.rotation,
-        stiffness.normal,
-    ] {
+    let springs = stiffness.components.components();
+    for value in springs
+        .map(|(_, value)| Some(value))
+        .chain([stiffness.normal])
+    {
         positive(field.part("stiffness"), value)?;
     }
     if let Some(normal) = normal {
-        if *normal == [0.0; 2] || !normal.iter().all(|it| it.is_finite()) {
-            return contradiction(
-                field.part("normal"),
-                "must be a direction other than [0, 0]",
-            );
+        if *normal == [0.0; D] || !normal.iter().all(|it| it.is_finite()) {
+            let reason = format!("must be a direction other than {:?}", [0; D]);
+            return contradiction(field.part("normal"), reason);
         }
-        if *x || *y {
+        if held.iter().any(|it| !it.is_rotation()) {
             let reason = "a support holds components of the `displacement` or one direction between them, its `normal`: give one of \
                           the two, or two supports";
             return contradiction(field.part("normal"), reason);
@@ -103,15 +105,8 @@ fn check_support(field: Field, support: &Support) -> Checked {
         let reason = "`normal` of the stiffness needs the direction `normal` of the support";
         return contradiction(field.part("stiffness"), reason);
     }
-    let twice = [
-        (x, stiffness.x),
-        (y, stiffness.y),
-        (rotation, stiffness.rotation),
-    ];
-    if twice
-        .iter()
-        .any(|(held, spring)| **held && spring.is_some())
-    {
+    let mut springs = stiffness.components.components();
+    if springs.any(|(component, _)| held.contains(&component)) {
         let reason = "a component is held by `displacement` or by a spring, not by both";
         return contradiction(field.part("stiffness"), reason);
     }
@@ -124,22 +119,22 @@ fn check_support(field: Field, support: &Support) -> Checked {
     }
 }
 
-fn check_load(field: Field, load: &Load) -> Checked {
+fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked {
     positive(field.part("stiffness"), load.stiffness)?;
-    let in_plane = match load.action {
-        Action::Displacement(it) => it.rotation.is_none() && (it.x.is_some() || it.y.is_some()),
+    let moves = match load.action {
+        Action::Displacement(it) => it.is_translation(),
         _ => false,
     };
-    if load.stiffness.is_some() && !in_plane {
-        let reason = "only a `displacement` along x and y goes through springs";
+    if load.stiffness.is_some() && !moves {
+        let reason = "only a `displacement` along the axes goes through springs";
         return contradiction(field.part("stiffness"), reason);
     }
     let is_force = matches!(load.action, Action::Force(_));
-    if load.tilts && !in_plane && !is_force {
-        let reason = "a platen tilts under a `displacement` along x and y or under a `force`";
+    if load.tilts && !moves && !is_force {
+        let reason = "a platen tilts under a `displacement` along the axes or under a `force`";
         return contradiction(field.part("tilts"), reason);
     }
-    if load.tilts && in_plane && load.profile.is_some() {
+    if load.tilts && moves && load.profile.is_some() {
         let reason =
             "a platen moves by the mean of its points: a `profile` goes with a `force` alone";
         return contradiction(field.part("tilts"), reason);

@@ -1,5 +1,6 @@
 //! Strains in space by which energies are compared.
 
+use crate::fixed::EnergyRatio;
 use crate::material::Isotropic;
 
 /// Homogeneous strains of size one, for which the energy at a point is compared with the continuum's.
@@ -33,16 +34,21 @@ impl SolidStrainMode {
         Self::ShearYz,
     ];
 
-    /// Name of the mode in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::UniaxialX => "uniaxial_x",
-            Self::UniaxialY => "uniaxial_y",
-            Self::UniaxialZ => "uniaxial_z",
-            Self::Hydrostatic => "hydrostatic",
-            Self::ShearXy => "shear_xy",
-            Self::ShearXz => "shear_xz",
-            Self::ShearYz => "shear_yz",
+    /// Ratios of energies in the strain (n_points) with the names that results give them.
+    pub fn named(self, at_points: Vec<f64>) -> EnergyRatio {
+        let (field, strain) = match self {
+            Self::UniaxialX => ("energy_ratio_x", "uniaxial x"),
+            Self::UniaxialY => ("energy_ratio_y", "uniaxial y"),
+            Self::UniaxialZ => ("energy_ratio_z", "uniaxial z"),
+            Self::Hydrostatic => ("energy_ratio_hydrostatic", "hydrostatic"),
+            Self::ShearXy => ("energy_ratio_shear_xy", "shear xy"),
+            Self::ShearXz => ("energy_ratio_shear_xz", "shear xz"),
+            Self::ShearYz => ("energy_ratio_shear_yz", "shear yz"),
+        };
+        EnergyRatio {
+            field,
+            strain,
+            at_points,
         }
     }
 

@@ -39,15 +39,20 @@ pub fn negative_shear(
 ) -> Option<NegativeShear> {
     let negative = materials.iter().filter(|it| bending_constant(it) < 0.0);
     let poisson = negative.map(|it| it.poisson).reduce(f64::max)?;
-    let suits =
-        |(of, up_to, _): &&(ShearForm, f64, f64)| form == Some(*of) && horizon_factor <= *up_to;
-    Some(NegativeShear {
-        poisson,
-        unstable_from: UNSTABLE.iter().find(suits).map(|(_, _, from)| *from),
-    })
+    Some(NegativeShear::new(poisson, form, horizon_factor))
 }
 
 impl NegativeShear {
+    /// The warning for a Poisson's ratio above 1/4, see [`negative_shear`].
+    pub fn new(poisson: f64, form: Option<ShearForm>, horizon_factor: f64) -> Self {
+        let suits =
+            |(of, up_to, _): &&(ShearForm, f64, f64)| form == Some(*of) && horizon_factor <= *up_to;
+        Self {
+            poisson,
+            unstable_from: UNSTABLE.iter().find(suits).map(|(_, _, from)| *from),
+        }
+    }
+
     /// Whether bodies of this kind were found to be unstable.
     pub fn is_past_stability(&self) -> bool {
         self.unstable_from.is_none_or(|from| self.poisson >= from)

@@ -3,20 +3,19 @@
 mod field;
 mod table;
 
-use ligament_model::{Elasticity, Material};
+use ligament_model::thermal::FreeStrains;
 
 use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
-use crate::formulation::constants;
-use crate::setup::{Place, Setup, Temperature, TemperatureChange};
+use crate::setup::{Dim, Dimension, Place, Temperature, TemperatureChange};
 
 /// A body that is heated or cooled, at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Heating {
     /// Change of the temperature of each point, shape (n_points), K.
     pub(super) change: Vec<f64>,
-    /// Strain (eps_xx, eps_yy, gamma_xy) that each point would have without stress, shape (n_points, 3).
-    pub(super) strain: Vec<[f64; 3]>,
+    /// Strain that each point would have without stress.
+    pub(super) strain: FreeStrains,
 }
 
 /// What one section says of the points.
@@ -31,7 +30,10 @@ enum Change {
 ///
 /// A temperature holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
 /// one holds. A point with cells of several groups has the mean by its volume in them.
-pub(super) fn heating(places: &Places<'_>) -> Result<Option<Heating>, SetupError> {
+pub(super) fn heating<const D: usize>(places: &Places<'_, D>) -> Result<Option<Heating>, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let (sections, cloud) = (&places.setup.temperatures, places.cloud);
     if sections.is_empty() {
         return Ok(None);
@@ -69,7 +71,13 @@ struct Reach {
 }
 
 impl Reach {
-    fn over(places: &Places<'_>, sections: &[Temperature]) -> Result<Self, SetupError> {
+    fn over<const D: usize>(
+        places: &Places<'_, D>,
+        sections: &[Temperature<D>],
+    ) -> Result<Self, SetupError>
+    where
+        Dim: Dimension<D>,
+    {
         let (body, cloud) = (&places.setup.body, places.cloud);
         let mut of_cell = vec![0; body.n_cells()];
         let mut of_point = vec![0; cloud.len()];
@@ -108,8 +116,11 @@ impl Reach {
     }
 }
 
-impl Places<'_> {
-    fn change(&self, index: usize, section: &Temperature) -> Result<Change, SetupError> {
+impl<const D: usize> Places<'_, D>
+where
+    Dim: Dimension<D>,
+{
+    fn change(&self, index: usize, section: &Temperature<D>) -> Result<Change, SetupError> {
         let field = Field::element("temperatures", index);
         let body = &*self.setup.body;
         Ok(match &section.change {
@@ -149,7 +160,14 @@ impl Missing {
         0.0
     }
 
-    fn refuse(&self, places: &Places<'_>, changes: &[Change]) -> Result<(), SetupError> {
+    fn refuse<const D: usize>(
+        &self,
+        places: &Places<'_, D>,
+        changes: &[Change],
+    ) -> Result<(), SetupError>
+    where
+        Dim: Dimension<D>,
+    {
         let Some((section, point, count)) = self.first else {
             return Ok(());
         };
@@ -167,13 +185,19 @@ impl Missing {
 }
 
 /// Strains of the points (n_points): the mean of their materials by volume.
-fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, SetupError> {
+fn thermal_strain<const D: usize>(
+    places: &Places<'_, D>,
+    change: &[f64],
+) -> Result<FreeStrains, SetupError>
+where
+    Dim: Dimension<D>,
+{
     let (setup, cloud) = (places.setup, places.cloud);
-    let per_kelvin: Vec<Option<[f64; 3]>> = (setup.materials.iter())
-        .map(|it| free_strain(setup, &it.material))
+    let per_kelvin: Vec<Option<Vec<f64>>> = (setup.materials.iter())
+        .map(|it| Dim::free_strain(setup, &it.material))
         .collect();
     let at_point = |(point, &change): (usize, &f64)| {
-        let mut strain = [0.0; 3];
+        let mut strain = [0.0; 6];
         if change == 0.0 {
             return Ok(strain);
         }
@@ -181,7 +205,7 @@ fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, 
             if share == 0.0 {
                 continue;
             }
-            let Some(per_kelvin) = per_kelvin[index] else {
+            let Some(per_kelvin) = &per_kelvin[index] else {
                 let reason = format!(
                     "(in 1/K) because the temperature of {} changes, which has this material",
                     setup.body.place(point as u32)
@@ -200,13 +224,6 @@ fn thermal_strain(places: &Places<'_>, change: &[f64]) -> Result<Vec<[f64; 3]>, 
         }
         Ok(strain)
     };
-    change.iter().enumerate().map(at_point).collect()
-}
-
-/// Strain of a material for one kelvin, with the Poisson's ratio that the law makes of it; none without a coefficient.
-fn free_strain(setup: &Setup, material: &Material) -> Option<[f64; 3]> {
-    let plane = setup.plane();
-    let elasticity = constants(material, &setup.law, plane);
-    let elasticity = elasticity.map_or(material.elasticity, Elasticity::Isotropic);
-    Some(material.expansion?.free_strain(&elasticity, plane))
+    let strains = change.iter().enumerate().map(at_point);
+    Ok(Dim::free_strains(strains.collect::<Result<_, _>>()?))
 }

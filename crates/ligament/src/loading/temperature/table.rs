@@ -4,6 +4,7 @@ use ligament_model::PointCloud;
 
 use crate::body::Body;
 use crate::error::Fault;
+use crate::loading::places::distance;
 use crate::setup::Sample;
 
 /// A sample belongs to a point if it is nearer than this part of the distance to the nearest other point: coordinates may be
@@ -15,12 +16,12 @@ pub(super) const MISSING: &str =
     "the table has no row within a tenth of the distance to the nearest other point";
 
 /// The change at each point (n_points) that a sample belongs to, K; else what is wrong with the samples.
-pub(super) fn at_points(
-    samples: &[Sample],
-    body: &dyn Body,
-    cloud: &PointCloud,
+pub(super) fn at_points<const D: usize>(
+    samples: &[Sample<D>],
+    body: &dyn Body<D>,
+    cloud: &PointCloud<D>,
 ) -> Result<Vec<Option<f64>>, Fault> {
-    let positions: Vec<[f64; 2]> = samples.iter().map(|it| it.position).collect();
+    let positions: Vec<[f64; D]> = samples.iter().map(|it| it.position).collect();
     let nearest = cloud.nearest_points(&positions);
     let mut of_point: Vec<Option<usize>> = vec![None; cloud.len()];
     for (second, &point) in nearest.iter().enumerate() {
@@ -28,8 +29,7 @@ pub(super) fn at_points(
             cloud.local(positions[second]),
             cloud.positions[point as usize],
         );
-        let distance = (there[0] - here[0]).hypot(there[1] - here[1]);
-        if distance > NEARNESS * cloud.spacing[point as usize] {
+        if distance(there, here) > NEARNESS * cloud.spacing[point as usize] {
             continue;
         }
         if let Some(first) = of_point[point as usize].replace(second) {

@@ -1,0 +1,81 @@
+//! Positions and directions of a case: two coordinates in the plane, three in space.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+
+/// Coordinates along x and y, and in space along z.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "Vec<f64>")]
+pub struct Coordinates {
+    along: [f64; 3],
+    count: usize,
+}
+
+impl Coordinates {
+    /// The coordinates, shape (2) or (3).
+    pub fn as_slice(&self) -> &[f64] {
+        &self.along[..self.count]
+    }
+
+    /// The coordinates of a body in D dimensions; the key is where they stand.
+    pub(super) fn of<const D: usize>(&self, key: &KeyPath) -> Result<[f64; D], KeyFault> {
+        let coordinates = self.as_slice();
+        coordinates.try_into().map_err(|_| {
+            let body = match D {
+                2 => "a body in the plane takes two coordinates, [x, y]",
+                _ => "a solid takes three coordinates, [x, y, z]",
+            };
+            KeyFault::new(key.clone(), format!("{body}, found {coordinates:?}"))
+        })
+    }
+}
+
+impl<const D: usize> From<[f64; D]> for Coordinates {
+    /// Two coordinates or three.
+    fn from(coordinates: [f64; D]) -> Self {
+        let along = |axis: usize| coordinates.get(axis).copied().unwrap_or(0.0);
+        Self {
+            along: std::array::from_fn(along),
+            count: D,
+        }
+    }
+}
+
+impl TryFrom<Vec<f64>> for Coordinates {
+    type Error = String;
+
+    fn try_from(coordinates: Vec<f64>) -> Result<Self, String> {
+        match coordinates[..] {
+            [x, y] => Ok([x, y].into()),
+            [x, y, z] => Ok([x, y, z].into()),
+            _ => Err(format!(
+                "must be [x, y], or [x, y, z] in a solid, found {coordinates:?}"
+            )),
+        }
+    }
+}
+
+impl Serialize for Coordinates {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.as_slice().serialize(serializer)
+    }
+}
+
+impl JsonSchema for Coordinates {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Coordinates".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 })
+    }
+}

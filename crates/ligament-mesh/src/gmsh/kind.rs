@@ -1,0 +1,35 @@
+//! What kind of mesh a file holds, told without reading all of it.
+
+use super::cursor::Cursor;
+use super::error::GmshError;
+use super::records::Records;
+use super::sections::{Version, read_format};
+use super::{v2, v4};
+
+/// Whether a Gmsh mesh file is one of solids: whether it has volumes, in files of 4.1 by their entities. Not if it cannot be read.
+pub fn holds_solid(bytes: &[u8]) -> bool {
+    of_sections(&mut Cursor::new(bytes)).unwrap_or(false)
+}
+
+fn of_sections(cursor: &mut Cursor<'_>) -> Result<bool, GmshError> {
+    let version = read_format(cursor)?;
+    let mut records = Records::default();
+    while let Some(name) = cursor.begin_section()? {
+        match (name, version) {
+            ("Entities", Version::V4) => {
+                cursor.begin_row();
+                let mut count = || cursor.size("a number of entities");
+                let [_, _, _, volumes] = [count()?, count()?, count()?, count()?];
+                return Ok(volumes > 0);
+            }
+            ("Elements", Version::V2) => v2::read_elements(cursor, &mut records)?,
+            ("Elements", Version::V4) => v4::read_elements(cursor, &mut records)?,
+            _ => {
+                cursor.skip_section()?;
+                continue;
+            }
+        }
+        return Ok(records.first_solid.is_some());
+    }
+    Ok(false)
+}

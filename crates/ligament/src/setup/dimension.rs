@@ -1,0 +1,163 @@
+//! What a setup has in the plane, and what in space.
+
+use std::fmt::Debug;
+
+use ligament_analysis::Component;
+use ligament_model::bonds::precrack::{self, PreCrack};
+use ligament_model::thermal::FreeStrains;
+use ligament_model::{BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, PointCloud};
+
+use super::{Section, Setup};
+use crate::error::SetupError;
+use crate::formulation::effective_elasticity;
+use crate::model::Model;
+use crate::stage::StageWatcher;
+use crate::warning::Warning;
+
+/// The plane and space: `Dim` is a [`Dimension<2>`](Dimension) and a [`Dimension<3>`](Dimension).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dim;
+
+/// What is there in D dimensions.
+pub trait Dimension<const D: usize>: 'static {
+    /// A crack that is there from the start.
+    type PreCrack: Debug + Clone + PartialEq + Send + Sync;
+
+    /// What a point stands for across the body.
+    type Section: Debug + Clone + Copy + PartialEq + Send + Sync;
+
+    /// Points and bonds.
+    type System: Bonds + 'static;
+
+    /// The usual section.
+    const SECTION: Self::Section;
+
+    /// Components of the motion of a point that turns.
+    const COMPONENTS: &'static [Component];
+
+    /// What is wrong with a vector of zeros.
+    const IDLE_VECTOR: &'static str;
+
+    /// Poisson's ratio of bonds that only resist stretch.
+    fn central_poisson(section: &Self::Section) -> f64;
+
+    /// The warning of a Poisson's ratio above that of central forces; `turns` tells whether points turn.
+    fn negative_shear(setup: &Setup<D>, poisson: f64, turns: bool) -> Warning
+    where
+        Dim: Dimension<D>;
+
+    /// Whether a temperature widens the section by what it does across it.
+    fn widens(section: &Self::Section) -> bool;
+
+    /// Checks what a setup has in these dimensions alone.
+    ///
+    /// # Errors
+    ///
+    /// If a field is out of range, missing, or does not go with another.
+    fn check(setup: &Setup<D>) -> Result<(), SetupError>
+    where
+        Dim: Dimension<D>;
+
+    /// Builds the model of a setup.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong.
+    fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>
+    where
+        Dim: Dimension<D>;
+
+    /// The points of a system.
+    fn cloud(system: &Self::System) -> &PointCloud<D>;
+
+    /// Bonds through a [section](super::Reading::Section), and whether their first end lies before it.
+    fn crossing(system: &Self::System, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
+
+    /// Directions of length one across a direction of length one.
+    fn across(direction: [f64; D]) -> Vec<[f64; D]>;
+
+    /// Components of the strain of a material for one kelvin without stress, with the constants that the law makes of it; none without a
+    /// coefficient.
+    fn free_strain(setup: &Setup<D>, material: &Material) -> Option<Vec<f64>>
+    where
+        Dim: Dimension<D>;
+
+    /// Strains of the points (n_points) from their components, of which there are three in the plane.
+    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains;
+
+    /// Masses from the densities of the materials (n_materials), kg/m^3.
+    fn masses(cloud: &PointCloud<D>, densities: &[f64]) -> LumpedMass;
+}
+
+impl Dimension<2> for Dim {
+    type PreCrack = PreCrack;
+
+    type System = BondSystem;
+
+    type Section = Section;
+
+    const SECTION: Section = Section::Plane {
+        state: Plane::Stress,
+        thickness: 1.0,
+    };
+
+    const COMPONENTS: &'static [Component] = &Component::ALL;
+
+    const IDLE_VECTOR: &'static str =
+        "this load does nothing: neither `x` nor `y` is given a value";
+
+    fn central_poisson(Section::Plane { state, .. }: &Section) -> f64 {
+        Isotropic::central_force_poisson(*state)
+    }
+
+    fn negative_shear(setup: &Setup, poisson: f64, turns: bool) -> Warning {
+        Warning::NegativeShear {
+            poisson,
+            limit: <Dim as Dimension<2>>::central_poisson(&setup.section),
+            turns,
+        }
+    }
+
+    fn widens(Section::Plane { state, .. }: &Section) -> bool {
+        *state == Plane::Strain
+    }
+
+    fn check(setup: &Setup) -> Result<(), SetupError> {
+        setup.check_in_plane()
+    }
+
+    fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
+        Model::in_plane(setup, watcher)
+    }
+
+    fn cloud(system: &BondSystem) -> &PointCloud {
+        &system.cloud
+    }
+
+    fn crossing(system: &BondSystem, [start, end]: [[f64; 2]; 2]) -> Vec<(u32, bool)> {
+        let (faces, cloud) = (&system.faces, &system.cloud);
+        let cut = faces.cut().iter().filter(|_| faces.close());
+        let ends = system.bonds.ends.iter().copied();
+        let ends = ends.chain(cut.map(|it| it.ends));
+        precrack::crossing_bonds(ends, cloud, start, end)
+    }
+
+    fn across([x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+        vec![[-y, x]]
+    }
+
+    fn free_strain(setup: &Setup, material: &Material) -> Option<Vec<f64>> {
+        let plane = setup.plane();
+        let elasticity = effective_elasticity(material, &setup.law, plane);
+        Some(material.expansion?.free_strain(&elasticity, plane).to_vec())
+    }
+
+    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains {
+        let in_plane = components.into_iter().map(|[xx, yy, xy, ..]| [xx, yy, xy]);
+        FreeStrains::in_plane(in_plane.collect())
+    }
+
+    fn masses(cloud: &PointCloud, densities: &[f64]) -> LumpedMass {
+        LumpedMass::new(cloud, densities)
+    }
+}

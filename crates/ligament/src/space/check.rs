@@ -1,0 +1,101 @@
+//! What a setup says of a body in space alone.
+
+use ligament_analysis::Component;
+use ligament_analysis::probe::PointField;
+use ligament_model::Elasticity;
+use ligament_model::law::rotational::RotationalScale;
+
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Action, Law, Reading, Setup, Surface};
+
+type Checked = Result<(), SetupError>;
+
+impl Setup<3> {
+    pub(super) fn check_in_space(&self) -> Checked {
+        self.check_law()?;
+        self.check_motions()?;
+        for (index, region) in self.materials.iter().enumerate() {
+            if !matches!(region.material.elasticity, Elasticity::Isotropic(_)) {
+                let reason = "solids are of isotropic materials: `young` and `poisson`";
+                let field = Field::element("materials", index).part("elasticity");
+                return contradiction(field, reason);
+            }
+        }
+        if self.scatter.is_some() {
+            let reason = "properties that vary at random are known in the plane alone so far: leave them out";
+            return contradiction(Field::whole("scatter"), reason);
+        }
+        if self.closing {
+            let reason =
+                "faces that close are known in the plane alone so far: leave `closing` out";
+            return contradiction(Field::whole("closing"), reason);
+        }
+        if let Surface::Patch(_) = self.correction.surface {
+            let reason = "the patch correction is one of the plane so far: take `Surface::Domain`, `Surface::Volume` or `Surface::None`";
+            return contradiction(Field::whole("correction").part("surface"), reason);
+        }
+        Ok(())
+    }
+
+    fn check_law(&self) -> Checked {
+        let law = Field::whole("law");
+        match self.law {
+            Law::Nhpd
+            | Law::Bbpd { .. }
+            | Law::Pds { .. }
+            | Law::Mppd { .. }
+            | Law::MppdBeam { .. } => {}
+            Law::BbpdConical { .. } | Law::Orthotropic { .. } | Law::MbbPd { .. } => {
+                let reason = format!(
+                    "\"{}\" is a law of the plane: solids take \"nhpd\", \"mppd\", \"mppd-beam\", \"pds\" or \"bbpd\"",
+                    self.law.name()
+                );
+                return contradiction(law, reason);
+            }
+        }
+        match self.rotational_scale {
+            RotationalScale::Factor(_) => Ok(()),
+            RotationalScale::CosseratLength(_) => {
+                let reason = "a Cosserat length is one of the plane: take a factor";
+                contradiction(Field::whole("rotational_scale").part("length"), reason)
+            }
+        }
+    }
+
+    /// Points of a solid turn about three axes.
+    fn check_motions(&self) -> Checked {
+        let reason =
+            "a solid turns about three axes: give `rotation_x`, `rotation_y` or `rotation_z`";
+        for (index, support) in self.supports.iter().enumerate() {
+            let springs = support.stiffness.components.rotation.is_some();
+            if springs || support.held.contains(&Component::Rotation) {
+                return contradiction(Field::element("supports", index), reason);
+            }
+        }
+        for (index, load) in self.loads.iter().enumerate() {
+            if let Action::Displacement(it) = load.action
+                && it.rotation.is_some()
+            {
+                return contradiction(Field::element("loads", index).part("action"), reason);
+            }
+        }
+        for (index, probe) in self.probes.iter().enumerate() {
+            let component = match probe.reading {
+                Reading::Between { component, .. } => Some(component),
+                Reading::At {
+                    field: PointField::Motion(component),
+                    ..
+                } => Some(component),
+                _ => None,
+            };
+            if component == Some(Component::Rotation) {
+                return contradiction(Field::element("probes", index).part("reading"), reason);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn contradiction(field: Field, reason: impl Into<std::borrow::Cow<'static, str>>) -> Checked {
+    Err(field.error(Fault::Contradiction(reason.into())))
+}

@@ -1,0 +1,120 @@
+//! What a setup has in space.
+
+use ligament_analysis::Component;
+use ligament_model::space::SolidSystem;
+use ligament_model::space::law::bbpd;
+use ligament_model::space::law::stability::NegativeShear;
+use ligament_model::thermal::FreeStrains;
+use ligament_model::{Bonds, LumpedMass, Material, PointCloud};
+
+use super::formulation::shear_form;
+use super::precrack::SolidCrack;
+use crate::error::SetupError;
+use crate::model::Model;
+use crate::setup::{Dim, Dimension, Horizon, Setup};
+use crate::stage::StageWatcher;
+use crate::warning::Warning;
+
+/// Horizon over the distance of points that most cases take.
+const USUAL_FACTOR: f64 = 3.0;
+
+impl Dimension<3> for Dim {
+    type PreCrack = SolidCrack;
+
+    /// A point of a solid stands for a volume alone.
+    type Section = ();
+
+    type System = SolidSystem;
+
+    const SECTION: () = ();
+
+    const COMPONENTS: &'static [Component] = &Component::IN_SPACE;
+
+    const IDLE_VECTOR: &'static str =
+        "this load does nothing: none of `x`, `y` and `z` is given a value";
+
+    fn central_poisson((): &()) -> f64 {
+        bbpd::POISSON
+    }
+
+    fn negative_shear(setup: &Setup<3>, poisson: f64, _: bool) -> Warning {
+        let horizon_factor = match setup.horizon {
+            Horizon::Factor(factor) => factor,
+            // A horizon of one length has no factor: it is taken for the usual one.
+            Horizon::Length(_) => USUAL_FACTOR,
+        };
+        Warning::NegativeShearInSpace(NegativeShear::new(
+            poisson,
+            shear_form(&setup.law),
+            horizon_factor,
+        ))
+    }
+
+    fn widens((): &()) -> bool {
+        false
+    }
+
+    fn check(setup: &Setup<3>) -> Result<(), SetupError> {
+        setup.check_in_space()
+    }
+
+    fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
+        Model::in_space(setup, watcher)
+    }
+
+    fn cloud(system: &SolidSystem) -> &PointCloud<3> {
+        &system.cloud
+    }
+
+    /// Bonds whose ends lie on either side of the plane; a point on the plane lies beyond it.
+    fn crossing(system: &SolidSystem, [point, before]: [[f64; 3]; 2]) -> Vec<(u32, bool)> {
+        let cloud = &system.cloud;
+        let [point, before] = [point, before].map(|it| cloud.local(it));
+        let is_before = |end: u32| {
+            let position = cloud.positions[end as usize];
+            let along =
+                (0..3).map(|axis| (position[axis] - point[axis]) * (before[axis] - point[axis]));
+            along.sum::<f64>() > 0.0
+        };
+        let bonds = system.ends().iter().enumerate();
+        bonds
+            .filter_map(|(bond, ends)| {
+                let [first, second] = ends.map(is_before);
+                (first != second).then_some((bond as u32, first))
+            })
+            .collect()
+    }
+
+    fn across(direction: [f64; 3]) -> Vec<[f64; 3]> {
+        let sizes = direction.map(f64::abs);
+        let mut least = [0.0; 3];
+        let smallest = (0..3).min_by(|&one, &other| sizes[one].total_cmp(&sizes[other]));
+        least[smallest.unwrap_or(0)] = 1.0;
+        let one = cross(direction, least);
+        let length = one.iter().map(|it| it * it).sum::<f64>().sqrt();
+        let one = one.map(|it| it / length);
+        vec![one, cross(direction, one)]
+    }
+
+    /// Isotropic materials widen alike along all axes.
+    fn free_strain(_: &Setup<3>, material: &Material) -> Option<Vec<f64>> {
+        let [along, _] = material.expansion?.in_plane;
+        Some(vec![along, along, along, 0.0, 0.0, 0.0])
+    }
+
+    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains {
+        FreeStrains::in_space(components)
+    }
+
+    fn masses(cloud: &PointCloud<3>, densities: &[f64]) -> LumpedMass {
+        LumpedMass::in_space(cloud, densities)
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}

@@ -1,0 +1,175 @@
+//! The formulation that a setup chooses in space: law, calibration and corrections of the bonds.
+
+use ligament_model::bonds::BondSet;
+use ligament_model::correction::{Correction, length};
+use ligament_model::failure::Criteria;
+use ligament_model::law::rotational::{self, RotationalScale};
+use ligament_model::space::correction::{
+    SolidStrainMode, axes, energy_ratios, partial_volume, surface,
+};
+use ligament_model::space::criteria::{self, NoSolidLimit, SolidBasis};
+use ligament_model::space::law::{ShearForm, bbpd, calibration, mppd, nhpd, pds};
+use ligament_model::space::{SolidElement, SolidSystem};
+use ligament_model::{
+    BondStiffness, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, PointCloud,
+};
+
+use crate::error::{Fault, Field, SetupError};
+use crate::setup::{Alpha, Calibration, CorrectionDomain, Law, Setup, Surface};
+
+/// Law, calibration and corrections of a setup on the points of its body in space.
+#[derive(Debug, Clone)]
+pub(super) struct SolidFormulation<'a> {
+    setup: &'a Setup<3>,
+    cloud: &'a PointCloud<3>,
+    horizons: &'a Horizons,
+    /// Elastic constants that the law makes of those of each material, shape (n_materials).
+    constants: Vec<Isotropic>,
+}
+
+/// Kinematics of the bonds of a law.
+pub(super) fn element(law: &Law) -> SolidElement {
+    match law.element() {
+        ElementKind::Beam => SolidElement::Beam,
+        _ => SolidElement::Spring,
+    }
+}
+
+/// Form of the shear stiffness of a law whose points turn; none of others.
+pub(super) fn shear_form(law: &Law) -> Option<ShearForm> {
+    match law {
+        Law::MppdBeam { .. } => Some(ShearForm::Falling),
+        Law::Nhpd | Law::Mppd { .. } => Some(ShearForm::Constant),
+        _ => None,
+    }
+}
+
+/// Elastic constants that the law makes of those of each material, shape (n_materials).
+fn constants(setup: &Setup<3>) -> Vec<Isotropic> {
+    let given = setup.materials.iter();
+    let given = given.filter_map(|it| it.material.elasticity.isotropic());
+    given
+        .map(|it| match setup.law.fixes_poisson() {
+            true => bbpd::central(&it),
+            false => it,
+        })
+        .collect()
+}
+
+impl<'a> SolidFormulation<'a> {
+    pub(super) fn new(
+        setup: &'a Setup<3>,
+        cloud: &'a PointCloud<3>,
+        horizons: &'a Horizons,
+    ) -> Self {
+        Self {
+            setup,
+            cloud,
+            horizons,
+            constants: constants(setup),
+        }
+    }
+
+    /// Whether pre-cracks cut bonds before these are corrected.
+    pub(super) fn cuts_first(&self) -> bool {
+        self.setup.correction.domain == CorrectionDomain::Cracked
+    }
+
+    /// Factors alpha of the bonds, shape (n_bonds).
+    pub(super) fn alpha(&self, bonds: &BondSet<3>) -> Vec<f64> {
+        match self.setup.correction.alpha {
+            Alpha::None => vec![1.0; bonds.len()],
+            Alpha::PartialVolume => partial_volume::partial_volume_factors(bonds, self.cloud),
+            Alpha::Length => length::length_factors(bonds, self.cloud),
+        }
+    }
+
+    /// Stiffness densities of the bonds with factors alpha (n_bonds).
+    pub(super) fn stiffness(&self, bonds: &BondSet<3>, alpha: &[f64]) -> BondStiffness {
+        let (cloud, materials) = (self.cloud, &self.constants);
+        let stiffness = match self.setup.law {
+            Law::Bbpd { .. } => bbpd::stiffness(bonds, cloud, materials),
+            Law::Pds { .. } => pds::stiffness(bonds, cloud, materials),
+            Law::Mppd {
+                rotational_stiffness,
+                ..
+            } => mppd::stiffness(bonds, cloud, materials, rotational_stiffness),
+            Law::MppdBeam { .. } => nhpd::stiffness(bonds, cloud, materials, ShearForm::Falling),
+            _ => nhpd::stiffness(bonds, cloud, materials, ShearForm::Constant),
+        };
+        let stiffness = match self.setup.law.calibration() {
+            Some(Calibration::Discrete) => {
+                calibration::calibrated(stiffness, alpha, bonds, cloud, materials)
+            }
+            Some(Calibration::Integral) | None => stiffness,
+        };
+        match self.setup.rotational_scale {
+            RotationalScale::Factor(factor) => rotational::scaled(stiffness, factor),
+            RotationalScale::CosseratLength(_) => stiffness,
+        }
+    }
+
+    /// The correction of bonds with stiffness densities and factors alpha (n_bonds).
+    pub(super) fn correction(
+        &self,
+        bonds: &BondSet<3>,
+        stiffness: &BondStiffness,
+        alpha: Vec<f64>,
+    ) -> Correction {
+        match self.setup.correction.surface {
+            Surface::Domain(iteration) => {
+                let sweeps = iteration.sweeps(bonds.len());
+                axes::iterate(bonds, self.cloud, stiffness, alpha, &self.constants, sweeps)
+            }
+            Surface::Volume => {
+                let factors = surface::surface_factors(bonds, self.cloud, self.horizons, &alpha);
+                Correction::fixed(alpha, factors)
+            }
+            Surface::None | Surface::Patch(_) => Correction::fixed(alpha, vec![1.0; bonds.len()]),
+        }
+    }
+
+    /// Energies of the points in uniform strains over the continuum's.
+    pub(super) fn energy_ratios(
+        &self,
+        bonds: &BondSet<3>,
+        stiffness: &BondStiffness,
+        correction: &Correction,
+    ) -> Vec<EnergyRatio> {
+        let ratios = energy_ratios(bonds, self.cloud, stiffness, correction, &self.constants);
+        let named = SolidStrainMode::ALL.into_iter().zip(ratios);
+        named.map(|(strain, ratios)| strain.named(ratios)).collect()
+    }
+}
+
+/// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.
+///
+/// # Errors
+///
+/// If a criterion exists in the plane alone, the strengths of a material leave it without a limit, or the fracture energy leaves nothing
+/// after the limit.
+pub(super) fn criteria(
+    setup: &Setup<3>,
+    system: &SolidSystem,
+    fixed: &FixedFields,
+) -> Result<Criteria, SetupError> {
+    if !setup.analysis.is_fracture() {
+        return Ok(Criteria::default());
+    }
+    let basis = SolidBasis {
+        system,
+        no_fail: &fixed.no_fail,
+        materials: &setup.materials(),
+        constants: constants(setup),
+        scatter: fixed.scatter.as_ref(),
+    };
+    criteria::criteria(&setup.criteria, &basis).map_err(|(place, reason)| {
+        let field = Field::element("criteria", place);
+        match reason {
+            NoSolidLimit::NoLimit(no_limit) => field.error(Fault::NoLimit(no_limit)),
+            NoSolidLimit::PlaneOnly(reason) => field
+                .part("kind")
+                .error(Fault::Contradiction(reason.to_string().into())),
+        }
+    })
+}

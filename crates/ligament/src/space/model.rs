@@ -1,0 +1,184 @@
+//! From a solid body to its discrete model: the page of [`crate::model`] in space.
+
+use std::sync::Arc;
+
+use ligament_model::correction::Correction;
+use ligament_model::space::SolidSystem;
+use ligament_model::space::hole::bonds_across;
+use ligament_model::space::outline::{bonds_outside, spacing_inside};
+use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
+use ligament_model::{
+    Absence, AbsentBond, BondSet, BondStiffness, EnergyRatio, FixedFields, PointCloud,
+};
+
+use super::formulation::{self, SolidFormulation};
+use super::precrack::surfaces;
+use super::soundness::{require_connected, require_distinct, require_numbers};
+use crate::body::Origin;
+use crate::error::SetupError;
+use crate::loading;
+use crate::model::{Model, absent_bonds, precrack_share, with_cut};
+use crate::setup::Setup;
+use crate::stage::{Finding, StageWatcher, stage};
+use crate::warning;
+
+impl Model<3> {
+    /// Builds the model of a setup in space.
+    pub(super) fn in_space(
+        setup: Setup<3>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
+        setup.check()?;
+        let material_of_cell = loading::material_of_cell(&setup)?;
+        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
+        let horizons = setup.horizon.of_points(&cloud);
+        let (bonds, absent) = stage(watcher, "bonds", || {
+            inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
+        });
+        require_connected(&setup, &cloud, &horizons, &bonds)?;
+        watcher.found(&Finding::Bonds {
+            points: cloud.len(),
+            bonds: bonds.len(),
+            across_voids: absent.len(),
+        });
+        let surfaces = surfaces(&setup)?;
+        let (is_cut, touched) = stage(watcher, "pre-cracks", || {
+            precracked(&surfaces, &bonds, &cloud)
+        });
+        let precrack_share = precrack_share(&bonds, &is_cut);
+        let absent = with_cut(absent, &bonds, &is_cut);
+        let Corrected {
+            bonds,
+            stiffness,
+            correction,
+            energy_ratios,
+        } = stage(watcher, "correction", || {
+            correct(
+                &SolidFormulation::new(&setup, &cloud, &horizons),
+                bonds,
+                &is_cut,
+            )
+        });
+        watcher.found(&Finding::Correction(
+            &setup.correction,
+            correction.report.as_ref(),
+        ));
+        let fixed = FixedFields {
+            horizon: horizons.radius,
+            precrack_share,
+            energy_ratios,
+            domain_factor: correction.domain_factor.clone(),
+            shear_ratio: correction.shear_ratio.clone(),
+            patch_residual: correction.patch_residual().to_vec(),
+            no_fail: loading::no_fail(&setup, &cloud)?,
+            scatter: None,
+            absent,
+        };
+        let system = stage(watcher, "rigidities", || {
+            let element = formulation::element(&setup.law);
+            let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
+            SolidSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
+        });
+        require_numbers(&*setup.body, &system)?;
+        let limits = || formulation::criteria(&setup, &system, &fixed);
+        let criteria = stage(watcher, "criteria", limits)?;
+        let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
+        let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
+        Ok(Self {
+            warnings,
+            correction_range: correction.domain_factor_range(),
+            correction: correction.report,
+            setup,
+            system: Arc::new(system),
+            fixed,
+            criteria: Arc::new(criteria),
+        })
+    }
+}
+
+/// The points of the body, with the index of the material of each cell (n_cells).
+fn points(setup: &Setup<3>, material_of_cell: &[u32]) -> Result<PointCloud<3>, SetupError> {
+    let body = &*setup.body;
+    let cloud = body.cloud(1.0, material_of_cell, setup.materials.len());
+    require_distinct(body, &cloud)?;
+    match body.origin() {
+        Origin::SolidMesh(mesh) if !setup.bonds_through_voids => Ok(PointCloud {
+            spacing: spacing_inside(&mesh.cells, &cloud),
+            ..cloud
+        }),
+        _ => Ok(cloud),
+    }
+}
+
+/// The bonds inside the body, and those that its voids part.
+fn inside_body(
+    setup: &Setup<3>,
+    bonds: BondSet<3>,
+    cloud: &PointCloud<3>,
+) -> (BondSet<3>, Vec<AbsentBond>) {
+    let crosses = match setup.body.origin() {
+        Origin::SolidLattice(lattice) => bonds_across(&lattice.holes, &bonds, cloud),
+        Origin::SolidMesh(mesh) if !setup.bonds_through_voids => {
+            bonds_outside(&mesh.cells, &bonds, cloud)
+        }
+        _ => return (bonds, Vec::new()),
+    };
+    if !crosses.contains(&true) {
+        return (bonds, Vec::new());
+    }
+    let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
+    let absent = absent_bonds(&bonds, &crosses, Absence::Void);
+    (bonds.retained(&keep), absent)
+}
+
+/// For each bond, whether a pre-crack cuts it (n_bonds), and how many only touch one.
+fn precracked(
+    surfaces: &[SolidPreCrack],
+    bonds: &BondSet<3>,
+    cloud: &PointCloud<3>,
+) -> (Vec<bool>, usize) {
+    let is_cut = cut_bonds(surfaces, bonds, cloud);
+    let touched = count_touched_bonds(surfaces, bonds, cloud, &is_cut);
+    (is_cut, touched)
+}
+
+/// Bonds that pre-cracks leave, with their stiffness and correction.
+struct Corrected {
+    bonds: BondSet<3>,
+    stiffness: BondStiffness,
+    correction: Correction,
+    energy_ratios: Vec<EnergyRatio>,
+}
+
+/// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other way round if the
+/// setup says so.
+fn correct(formulation: &SolidFormulation<'_>, bonds: BondSet<3>, is_cut: &[bool]) -> Corrected {
+    let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
+    if formulation.cuts_first() {
+        return of_bonds(formulation, bonds.retained(&survives));
+    }
+    let whole = of_bonds(formulation, bonds);
+    if !is_cut.contains(&true) {
+        return whole;
+    }
+    Corrected {
+        bonds: whole.bonds.retained(&survives),
+        stiffness: whole.stiffness.retained(&survives),
+        correction: whole.correction.retained(&survives),
+        energy_ratios: whole.energy_ratios,
+    }
+}
+
+fn of_bonds(formulation: &SolidFormulation<'_>, bonds: BondSet<3>) -> Corrected {
+    let alpha = formulation.alpha(&bonds);
+    let stiffness = formulation.stiffness(&bonds, &alpha);
+    let correction = formulation.correction(&bonds, &stiffness, alpha);
+    let stiffness = stiffness.with_shear(&correction.shear_ratio);
+    let energy_ratios = formulation.energy_ratios(&bonds, &stiffness, &correction);
+    Corrected {
+        bonds,
+        stiffness,
+        correction,
+        energy_ratios,
+    }
+}
