@@ -115,11 +115,3 @@ fn cells_open_along_the_crack_of_a_stored_run() {
         "nothing is broken there"
     );
 }
-
-#[test]
-fn zz_probe() {
-    for (name, body) in [("mesh", block([12, 5, 7], 0.2)), ("boxes", boxes([12, 5, 7]))] {
-        let folder = std::path::PathBuf::from("/tmp/sr-pics").join(name);
-        write_results(&folder, &body);
-    }
-}
