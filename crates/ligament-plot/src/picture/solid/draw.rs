@@ -23,7 +23,7 @@ const EDGE: (&str, f64) = ("#303030", 0.55);
 const FAINT: (&str, f64) = ("#9a9a9a", 0.4);
 
 /// Width of the rim of each piece in its own colour, pixels: no seam is left between two.
-const SEAM: f64 = 0.25;
+const SEAM: f64 = 0.5;
 
 /// Length of the arrows that show the axes, pixels.
 const ARROW: f64 = 15.0;

@@ -19,6 +19,9 @@ use crate::picture::request::{CrackDrawing, SolidRequest};
 /// Fields that a crack surface has of its own, in the order of a jump.
 const OF_CRACK: [&str; 2] = ["opening", "sliding"];
 
+/// Boxes up to which all faces are drawn where a crack is.
+const MOST_WHOLE: usize = 100_000;
+
 /// A solid with displacements and a field of its points.
 struct Solid<'a> {
     body: SolidBody,
@@ -154,11 +157,14 @@ impl Solid<'_> {
                 sharing.entry(middle).or_default().push(number as u32);
             }
         }
+        // Through the steps between boxes that a crack moved apart one sees what lies behind.
+        let shows_all = links.is_some() && boxes.len() <= MOST_WHOLE;
         let mut named: HashMap<[i64; 3], u32> = HashMap::new();
         let mut outside = Vec::new();
         for number in 0..boxes.len() {
             for (middle, face, corners) in faces_of(number) {
                 let is_open = match *sharing[&middle].as_slice() {
+                    [_, _] if shows_all => true,
                     [one, other] => links.is_some_and(|it| it.between([one, other]).is_cut()),
                     _ => true,
                 };
@@ -189,7 +195,7 @@ impl Solid<'_> {
         let tetrahedra = Tetrahedra::new(&self.body.grid);
         let nodes = tetrahedra.nodes.iter();
         let distances: Vec<f64> = nodes.map(|it| section.distance(*it)).collect();
-        let mut scene = self.on_level(&tetrahedra, &distances, 0.0, true);
+        let mut scene = self.on_level(&tetrahedra, &distances, 0.0);
         scene.edges = sharp_edges(&scene.places, &scene.triangles);
         if with_edges {
             self.add_edges(&mut scene);
@@ -203,19 +209,13 @@ impl Solid<'_> {
         let points = tetrahedra.points.iter();
         let values: Option<Vec<f64>> = points.map(|it| self.value(*it)).collect();
         let values = values.ok_or(PictureError::NoLevel)?;
-        let mut scene = self.on_level(&tetrahedra, &values, level, false);
+        let mut scene = self.on_level(&tetrahedra, &values, level);
         self.add_edges(&mut scene);
         Ok(scene)
     }
 
-    /// Where values of the nodes of tetrahedra have a level, with the field if it is wanted.
-    fn on_level(
-        &self,
-        tetrahedra: &Tetrahedra,
-        values: &[f64],
-        level: f64,
-        with_field: bool,
-    ) -> Scene {
+    /// Where values of the nodes of tetrahedra have a level, with the field.
+    fn on_level(&self, tetrahedra: &Tetrahedra, values: &[f64], level: f64) -> Scene {
         let found = level_set(&tetrahedra.corners, values, level);
         let mut scene = Scene::default();
         for (ends, share) in &found.places {
@@ -225,7 +225,7 @@ impl Solid<'_> {
             let moved = points.map(|it| self.displacement[it as usize]);
             let at = |of: [[f64; 3]; 2]| [0, 1, 2].map(|axis| between([of[0][axis], of[1][axis]]));
             let [one, other] = points.map(|it| self.value(it));
-            let value = one.zip(other).filter(|_| with_field);
+            let value = one.zip(other);
             scene.push(at(nodes), at(moved), value.map(|(a, b)| between([a, b])));
         }
         scene.triangles = found.triangles;
