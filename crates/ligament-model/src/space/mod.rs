@@ -37,6 +37,7 @@ pub mod shape;
 pub mod stress;
 mod sweep;
 pub mod system;
+pub mod uniform_strain;
 mod vector;
 
 pub use element::SolidElement;

@@ -44,7 +44,8 @@ impl Model<3> {
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            correct(&setup, &cloud, &horizons, &bonds)
+            let formulation = SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell);
+            correct(&formulation, &bonds)
         });
         watcher.found(&Finding::Correction(
             &setup.correction,
@@ -125,19 +126,13 @@ struct Corrected {
     energy_ratios: Vec<EnergyRatio>,
 }
 
-fn correct(
-    setup: &Setup<3>,
-    cloud: &PointCloud<3>,
-    horizons: &Horizons,
-    bonds: &BondSet<3>,
-) -> Corrected {
-    let formulation = SolidFormulation::new(setup, cloud, horizons);
+fn correct(formulation: &SolidFormulation<'_>, bonds: &BondSet<3>) -> Corrected {
     let alpha = formulation.alpha(bonds);
     let stiffness = formulation.stiffness(bonds, &alpha);
     let correction = formulation.correction(bonds, &stiffness, alpha);
     let energy_ratios = formulation.energy_ratios(bonds, &stiffness, &correction);
     Corrected {
-        stiffness,
+        stiffness: stiffness.with_shear(&correction.shear_ratio),
         correction,
         energy_ratios,
     }
