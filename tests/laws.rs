@@ -388,7 +388,10 @@ fn discrete_calibration_gives_surfaces_their_energy() {
         let setting = format!("model.calibration={calibration}");
         let settings = [setting.as_str(), "correction.surface=none"];
         let ratios = square("mppd-beam", &settings).model.fixed.energy_ratios;
-        ratios.into_iter().map(|it| it.at_points).collect::<Vec<_>>()
+        ratios
+            .into_iter()
+            .map(|it| it.at_points)
+            .collect::<Vec<_>>()
     });
     let mean = |ratios: &[f64]| ratios.iter().sum::<f64>() / ratios.len() as f64;
     let least = |ratios: &[f64]| ratios.iter().copied().fold(f64::INFINITY, f64::min);

@@ -20,7 +20,7 @@ pub enum SetupError {
     #[error(
         "conjugate gradients cannot solve these equations: {0}; let solver.method be \"direct\" or \"auto\""
     )]
-    NotIterative(Unfit),
+    NotIterative(#[from] Unfit),
     /// The exact path was asked for with bonds that soften.
     #[error(
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"

@@ -8,7 +8,6 @@ use ligament_model::Bonds;
 use thiserror::Error;
 
 use crate::dissection;
-use crate::error::SetupError;
 use crate::unknowns::Unknowns;
 
 /// How the equations are solved; what is left open is chosen for the problem.
@@ -44,9 +43,9 @@ pub enum Method {
 /// Why a method was chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
-    /// It was named.
+    /// The settings name the method.
     Named,
-    /// Something was named that only a factor has: the word for it.
+    /// The settings name something that only a factor has, by this word.
     NamedForFactor(&'static str),
     /// Conjugate gradients cannot solve these equations.
     Unfit(Unfit),
@@ -84,7 +83,7 @@ pub enum Unfit {
     /// The forces are not linear in the displacements.
     #[error("the forces of the bonds are not linear in the displacements")]
     NotLinear,
-    /// Something was named that only a factor has.
+    /// The settings name something that only a factor has.
     #[error("solver.{0} is about a factor, of which there is none")]
     NamedForFactor(&'static str),
     /// The analysis needs a factor.
@@ -179,11 +178,11 @@ impl SolverSettings {
     /// # Errors
     ///
     /// If conjugate gradients were named and cannot solve them.
-    pub fn chosen_method(&self, system: &dyn Bonds) -> Result<(Method, Reason), SetupError> {
+    pub fn chosen_method(&self, system: &dyn Bonds) -> Result<(Method, Reason), Unfit> {
         match self.method {
             Some(Method::Direct) => Ok((Method::Direct, Reason::Named)),
             Some(Method::Iterative) => match self.unfit(system) {
-                Some(unfit) => Err(SetupError::NotIterative(unfit)),
+                Some(unfit) => Err(unfit),
                 None => Ok((Method::Iterative, Reason::Named)),
             },
             None => Ok(self.suitable_method(system)),

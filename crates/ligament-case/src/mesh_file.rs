@@ -47,10 +47,7 @@ pub fn read_any_mesh(path: &Path) -> Result<AnyMesh, MeshFileError> {
     read(path, gmsh::parse_any)
 }
 
-fn read<T>(
-    path: &Path,
-    parse: fn(&[u8]) -> Result<T, GmshError>,
-) -> Result<T, MeshFileError> {
+fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, MeshFileError> {
     let read = input_file::read(path);
     let bytes = read.map_err(|source| MeshFileError::Read {
         path: path.to_owned(),

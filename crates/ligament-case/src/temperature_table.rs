@@ -22,7 +22,10 @@ fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample<D>)>, (usize, S
         .filter(|(_, text)| !text.is_empty() && !text.starts_with('#'));
     let axes = &["x", "y", "z"][..D];
     let names: Vec<String> = axes.iter().map(|axis| format!("`{axis}`")).collect();
-    let expected = format!("the first row must name the columns {} (m) and `change` (K)", names.join(", "));
+    let expected = format!(
+        "the first row must name the columns {} (m) and `change` (K)",
+        names.join(", ")
+    );
     let Some((line, header)) = lines.next() else {
         return Err((1, format!("the file is empty: {expected}")));
     };
@@ -31,7 +34,10 @@ fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample<D>)>, (usize, S
         let place = names.iter().position(|&name| name == wanted);
         place.ok_or_else(|| (line, format!("there is no column `{wanted}`: {expected}")))
     };
-    let along: Vec<usize> = axes.iter().map(|axis| column(axis)).collect::<Result<_, _>>()?;
+    let along: Vec<usize> = axes
+        .iter()
+        .map(|axis| column(axis))
+        .collect::<Result<_, _>>()?;
     let of_change = column("change")?;
     let row = |(line, text): (usize, &str)| {
         let values: Vec<&str> = text.split(',').map(str::trim).collect();

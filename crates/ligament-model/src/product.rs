@@ -48,6 +48,12 @@ pub(crate) fn over_parts<const M: usize>(
         });
 }
 
+/// Adds a force to a sum.
+#[inline(always)]
+pub(crate) fn add_to<const M: usize>(sum: &mut [f64; M], force: [f64; M]) {
+    *sum = std::array::from_fn(|place| sum[place] + force[place]);
+}
+
 impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// The product of the stiffness of the bonds that are left with motions, shape (M n_points) both.
     pub(crate) fn multiply(self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
@@ -55,8 +61,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
             for bond in of_part {
                 if let Some(element) = self.left(bonds, bond) {
                     element.forces(&element.deformation(motions), |point, force| {
-                        let sum = &mut sums[point as usize];
-                        *sum = std::array::from_fn(|place| sum[place] + force[place]);
+                        add_to(&mut sums[point as usize], force);
                     });
                 }
             }

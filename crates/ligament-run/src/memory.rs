@@ -113,10 +113,7 @@ pub fn foresee_lattice(case: &CaseFile, lattice: &LatticeSection) -> Result<(), 
 /// # Errors
 ///
 /// With both numbers.
-pub fn foresee_model<const D: usize>(
-    case: &CaseFile,
-    setup: &Setup<D>,
-) -> Result<(), TooLarge>
+pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup<D>) -> Result<(), TooLarge>
 where
     Dim: Dimension<D>,
 {
@@ -129,7 +126,8 @@ where
         Horizon::Length(length) => {
             let extent = |axis: usize| {
                 let along = positions.iter().map(|it| it[axis]);
-                along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+                along.clone().fold(f64::NEG_INFINITY, f64::max)
+                    - along.fold(f64::INFINITY, f64::min)
             };
             let box_of_body: f64 = (0..D).map(extent).product();
             ball * length.powi(D as i32) * points / box_of_body

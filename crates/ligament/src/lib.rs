@@ -55,7 +55,7 @@ pub mod prelude;
 pub mod run;
 pub mod setup;
 mod soundness;
-mod space;
+pub mod space;
 pub mod stage;
 pub mod suggestion;
 pub mod units;

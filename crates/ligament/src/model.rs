@@ -6,7 +6,9 @@ use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
-use ligament_model::correction::{Continuum, Correction, CorrectionReport, StrainMode, energy_ratios};
+use ligament_model::correction::{
+    Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
+};
 use ligament_model::failure::Criteria;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
@@ -220,7 +222,11 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
 }
 
 /// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.
-fn with_cut(mut absent: Vec<AbsentBond>, bonds: &BondSet, is_cut: &[bool]) -> Vec<AbsentBond> {
+pub(crate) fn with_cut<const D: usize>(
+    mut absent: Vec<AbsentBond>,
+    bonds: &BondSet<D>,
+    is_cut: &[bool],
+) -> Vec<AbsentBond> {
     absent.extend(absent_bonds(bonds, is_cut, Absence::PreCrack));
     absent.sort_unstable_by_key(|it| it.ends);
     absent
@@ -314,7 +320,7 @@ fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
 }
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
-fn precrack_share(bonds: &BondSet, is_cut: &[bool]) -> Vec<f64> {
+pub(crate) fn precrack_share<const D: usize>(bonds: &BondSet<D>, is_cut: &[bool]) -> Vec<f64> {
     let n_points = bonds.incidence.n_points();
     if !is_cut.contains(&true) {
         return vec![0.0; n_points];

@@ -115,7 +115,9 @@ fn require_whole(
         parts: parts.count(),
         of_body: of_mesh.count(),
         places: worst.map(|it| body.place(it)),
-        along: (0..2).map(|axis| (to[axis] - from[axis]).abs() / length(&worst)).collect(),
+        along: (0..2)
+            .map(|axis| (to[axis] - from[axis]).abs() / length(&worst))
+            .collect(),
         length: length(&worst),
         horizon: radius(&worst),
         remedy: match setup.horizon {

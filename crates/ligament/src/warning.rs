@@ -72,7 +72,8 @@ pub enum Warning {
     #[error(
         "the domain correction did not converge in {sweeps} sweeps (last change {last_change:.2e}): {off} of {n_points} points have \
          energies off by more than {ENERGY_TOLERANCE}, the worst by {error:.1e} ({worst} at {}); more \
-         correction.max_sweeps may help", place(position)
+         correction.max_sweeps may help",
+        place(position)
     )]
     NotConverged {
         /// Number of sweeps.
@@ -247,7 +248,11 @@ where
     warnings
 }
 
-fn small_horizon<const D: usize>(setup: &Setup<D>, spacing: &[f64], fixed: &FixedFields) -> Option<Warning>
+fn small_horizon<const D: usize>(
+    setup: &Setup<D>,
+    spacing: &[f64],
+    fixed: &FixedFields,
+) -> Option<Warning>
 where
     Dim: Dimension<D>,
 {
@@ -304,11 +309,17 @@ fn not_met<const D: usize>(body: &dyn Body<D>, report: &patch::Report) -> Warnin
     }
 }
 
-fn not_converged<const D: usize>(body: &dyn Body<D>, correction: &DomainReport, fixed: &FixedFields) -> Warning {
+fn not_converged<const D: usize>(
+    body: &dyn Body<D>,
+    correction: &DomainReport,
+    fixed: &FixedFields,
+) -> Warning {
     let n_points = fixed.horizon.len();
     let along_axes = &fixed.energy_ratios[..D];
     let error = |point: usize| {
-        let errors = along_axes.iter().map(|it| (it.at_points[point] - 1.0).abs());
+        let errors = along_axes
+            .iter()
+            .map(|it| (it.at_points[point] - 1.0).abs());
         errors.fold(0.0, f64::max)
     };
     let off = (0..n_points)

@@ -1,71 +1,135 @@
 //! How near to equilibrium a state is, and how near it is to come.
 
-use super::equations::Equations;
-use super::iterate::Iterate;
-use super::residual::{Extents, RESIDUAL_TOLERANCE, Residual, Scales};
+use ligament_model::Bonds;
+
+use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, Residual, Scales};
 use crate::breakage::Breakage;
-use crate::internal::InternalForces;
+use crate::load_program::LoadProgram;
 use crate::state::State;
 use crate::tangent::Left;
+use crate::unknowns::{Layout, Unknowns};
 
 /// Share of a residual that is sought to which a solver that iterates goes: the next residual is measured against other forces.
 const SURELY: f64 = 0.3;
 
-impl Equations {
-    /// F - K u relative to what may act at each degree of freedom, and what of it rests on holds.
+/// Share of the tolerance of a solver that iterates that it may leave of the force along whose solution a run goes on.
+const LINE: f64 = 0.1;
+
+/// What forces out of balance are judged by.
+pub(super) struct Accuracy {
+    pub(super) local_stiffness: LocalStiffness,
+    /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
+    loaded: Vec<u32>,
+    /// Largest forces and moments that met at a point so far: a body that is unloaded keeps their rounding.
+    pub(super) largest_extents: Extents,
+    /// Tolerance of a solver that iterates.
+    tolerance: Option<f64>,
+}
+
+/// A state with its loads and unknowns.
+#[derive(Clone, Copy)]
+pub(super) struct Loaded<'a> {
+    pub(super) loads: &'a dyn LoadProgram,
+    pub(super) unknowns: &'a Unknowns,
+    pub(super) state: &'a State,
+}
+
+impl Accuracy {
+    /// Nothing is known yet of the forces in a body; `tolerance` is that of a solver that iterates.
+    pub(super) fn new(system: &dyn Bonds, loads: &dyn LoadProgram, tolerance: Option<f64>) -> Self {
+        let of_bonds = LocalStiffness::new(system);
+        Self {
+            local_stiffness: of_bonds.restrained_by(loads.restraints()),
+            loaded: loaded(loads),
+            largest_extents: Extents::default(),
+            tolerance,
+        }
+    }
+
+    /// Takes other loads.
+    pub(super) fn load_with(&mut self, loads: &dyn LoadProgram) {
+        self.loaded = loaded(loads);
+    }
+
+    /// Forces out of balance at the unknowns (n_unknowns) relative to what may act there, and what of them rests on holds.
     pub(super) fn residual(
         &self,
-        state: &State,
-        internal: &InternalForces,
+        at: Loaded<'_>,
         extents: Extents,
-        displacement: f64,
+        out_of_balance: Vec<f64>,
     ) -> Residual {
-        let given = self.given(state);
-        let scales = self.scales(&given, extents, displacement);
-        let out_of_balance = self.external_less(state, internal);
-        let of_unknowns = (self.degrees_of_freedom().iter().copied()).zip(out_of_balance);
+        let given = self.given(at);
+        let scales = self.scales(at, &given, extents);
+        let dofs = at.unknowns.degrees_of_freedom().iter().copied();
+        let of_unknowns = dofs.zip(out_of_balance);
         // No bond resists these: what loads them is carried by nothing.
-        let is_known = |dof: usize| self.unknowns.number(dof).is_none();
+        let is_known = |dof: usize| at.unknowns.number(dof).is_none();
         let of_others = given.iter().filter(|(dof, _)| is_known(*dof as usize));
         let of_others = of_others.copied();
         scales.residual(of_unknowns.chain(of_others), |dof| {
-            state.held[dof] || is_known(dof)
+            at.state.held[dof] || is_known(dof)
         })
-    }
-
-    /// The given forces of a state, by degree of freedom.
-    fn given(&self, state: &State) -> Vec<(u32, f64)> {
-        let forces = self.problem.loads.forces(state.load_factor, &self.loaded);
-        self.loaded.iter().copied().zip(forces).collect()
-    }
-
-    /// What may act in a body with some extents and a largest displacement, m, under given forces.
-    fn scales(&self, given: &[(u32, f64)], extents: Extents, displacement: f64) -> Scales<'_> {
-        let given = given.iter().copied();
-        (self.local_stiffness).scales(extents, self.largest_extents, given, displacement)
     }
 
     /// Relative residual that is sought after a breakage, or without one.
     pub(super) fn sought(&self, breakage: &Breakage) -> f64 {
-        let tolerance = self.solver.tolerance();
-        let tolerance = tolerance.filter(|_| !breakage.bonds.is_empty());
+        let tolerance = self.tolerance.filter(|_| !breakage.bonds.is_empty());
         tolerance.map_or(RESIDUAL_TOLERANCE, |it| it.max(RESIDUAL_TOLERANCE))
     }
 
-    /// What a solver may leave of the force out of balance in an iterate of a state, so that the relative residual is one that is
-    /// sought.
-    pub(super) fn left(&self, state: &State, iterate: &Iterate, sought: f64) -> Left {
-        if self.solver.tolerance().is_none() {
+    /// What a solver may leave of the force out of balance, so that the relative residual is one that is sought.
+    pub(super) fn left(&self, at: Loaded<'_>, extents: Extents, sought: f64) -> Left {
+        if self.tolerance.is_none() {
             return Left::Share(0.0);
         }
-        let displacement = self.largest_displacement(state);
-        let given = self.given(state);
-        let scales = self.scales(&given, iterate.extents, displacement);
+        let given = self.given(at);
+        let scales = self.scales(at, &given, extents);
         let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
             // Nothing is known yet of what acts there: the next residual tells.
             0.0 => f64::INFINITY,
             size => size,
         };
-        Left::AtMost(self.degrees_of_freedom().iter().map(of_unknown).collect())
+        let dofs = at.unknowns.degrees_of_freedom().iter();
+        Left::AtMost(dofs.map(of_unknown).collect())
     }
+
+    /// What a solver may leave of a force along whose solution a run goes on.
+    pub(super) fn left_of_line(&self) -> Left {
+        Left::Share(LINE * self.tolerance.unwrap_or_default())
+    }
+
+    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
+    /// iterates, what its tolerance makes of it.
+    pub(super) fn rounding(&self, layout: Layout, state: &State) -> Vec<f64> {
+        let tolerance = self.tolerance.unwrap_or_default();
+        let times = (tolerance / RESIDUAL_TOLERANCE).max(1.0);
+        let displacement = largest_displacement(layout, state);
+        self.local_stiffness.rounding(times * displacement)
+    }
+
+    /// The given forces of a state, by degree of freedom.
+    fn given(&self, at: Loaded<'_>) -> Vec<(u32, f64)> {
+        let forces = at.loads.forces(at.state.load_factor, &self.loaded);
+        self.loaded.iter().copied().zip(forces).collect()
+    }
+
+    /// What may act in a body with some extents under given forces.
+    fn scales(&self, at: Loaded<'_>, given: &[(u32, f64)], extents: Extents) -> Scales<'_> {
+        let displacement = largest_displacement(at.unknowns.layout(), at.state);
+        let given = given.iter().copied();
+        (self.local_stiffness).scales(extents, self.largest_extents, given, displacement)
+    }
+}
+
+/// The largest displacement of a point of a state along an axis, m.
+pub(super) fn largest_displacement(layout: Layout, state: &State) -> f64 {
+    let displacements = layout.displacements(&state.displacement);
+    displacements.fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+/// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
+fn loaded(loads: &dyn LoadProgram) -> Vec<u32> {
+    let mut loaded = loads.loaded_degrees_of_freedom();
+    loaded.retain(|&dof| !loads.is_prescribed(dof as usize));
+    loaded
 }

@@ -26,7 +26,7 @@ pub(super) fn balance(
 ) -> Result<Attempt, ObserverError> {
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
-    let sought = equations.sought(breakage);
+    let sought = equations.accuracy.sought(breakage);
     let largest = equations
         .solver
         .tolerance()

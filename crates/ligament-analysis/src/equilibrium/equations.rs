@@ -6,9 +6,10 @@ use std::time::Instant;
 use ligament_linalg::FactorKind;
 use ligament_model::deformation::Deformations;
 
+use super::accuracy::{Accuracy, Loaded, largest_displacement};
 use super::iterate::Iterate;
 use super::precedents::Precedents;
-use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, ROUNDING, Residual};
+use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -31,9 +32,6 @@ use crate::unknowns::{Layout, Unknowns};
 /// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
 
-/// Share of the tolerance of a solver that iterates that it may leave of the force along whose solution a run goes on.
-const LINE: f64 = 0.1;
-
 /// The equations of a problem and their solver.
 pub(super) struct Equations {
     pub(super) problem: Problem,
@@ -44,11 +42,7 @@ pub(super) struct Equations {
     pub(super) solver: Box<dyn TangentSolver>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
-    pub(super) local_stiffness: LocalStiffness,
-    /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
-    pub(super) loaded: Vec<u32>,
-    /// Largest forces and moments that met at a point so far: a body that is unloaded keeps their rounding.
-    pub(super) largest_extents: Extents,
+    pub(super) accuracy: Accuracy,
     /// Largest stiffness of a point against displacements, N/m.
     stiffest: f64,
     /// Pairs across cracks, where faces close.
@@ -70,7 +64,7 @@ impl Equations {
             solver,
         } = Solving::new(system, &unknowns, problem.solver)?;
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
-        let of_bonds = LocalStiffness::new(&**system);
+        let accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
         Ok(Self {
             // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
             energy_tolerance: if system.is_linear() && system.has_energy() {
@@ -78,10 +72,8 @@ impl Equations {
             } else {
                 0.0
             },
-            stiffest: of_bonds.largest(),
-            local_stiffness: of_bonds.restrained_by(loads.restraints()),
-            loaded: loaded(&**loads),
-            largest_extents: Extents::default(),
+            stiffest: LocalStiffness::new(&**system).largest(),
+            accuracy,
             contact: Contact::default(),
             precedents: Precedents::default(),
             costs: Costs {
@@ -98,14 +90,14 @@ impl Equations {
 
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub(super) fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
-        self.loaded = loaded(&*loads);
+        self.accuracy.load_with(&*loads);
         self.problem.loads = loads;
     }
 
     /// Appends what is not made of the problem.
     pub(super) fn write(&self, out: &mut Vec<u8>) {
         let Self {
-            largest_extents,
+            accuracy,
             costs,
             solver,
             problem,
@@ -113,13 +105,11 @@ impl Equations {
             stiffness: _,
             choice: _,
             energy_tolerance: _,
-            local_stiffness: _,
-            loaded: _,
             stiffest: _,
             contact: _,
             precedents,
         } = self;
-        largest_extents.write(out);
+        accuracy.largest_extents.write(out);
         costs.write(out);
         solver.write(out);
         if problem.criteria.soften() {
@@ -133,7 +123,7 @@ impl Equations {
         state: &State,
         from: &mut &[u8],
     ) -> Result<Balanced, CheckpointError> {
-        self.largest_extents = Serial::read(from)?;
+        self.accuracy.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
         self.solver.restore(from)?;
         if self.problem.criteria.soften() {
@@ -150,7 +140,7 @@ impl Equations {
         self.unknowns.degrees_of_freedom()
     }
 
-    fn layout(&self) -> Layout {
+    pub(super) fn layout(&self) -> Layout {
         self.unknowns.layout()
     }
 
@@ -247,7 +237,9 @@ impl Equations {
     ) -> Result<Vec<f64>, Unbalanced> {
         mechanisms.extend(self.make_ready(state, iterate)?);
         let force = self.out_of_balance(state, iterate);
-        let left = self.left(state, iterate, sought);
+        let left = self
+            .accuracy
+            .left(self.loaded(state), iterate.extents, sought);
         self.solve(state, force, left)
     }
 
@@ -306,9 +298,10 @@ impl Equations {
             stored_energy,
             expansion_energy,
         } = swept;
-        let extents = self.local_stiffness.extents(&sizes);
-        let displacement = self.largest_displacement(state);
-        let residual = self.residual(state, &internal, extents, displacement);
+        let extents = self.accuracy.local_stiffness.extents(&sizes);
+        let displacement = largest_displacement(self.layout(), state);
+        let out_of_balance = self.external_less(state, &internal);
+        let residual = (self.accuracy).residual(self.loaded(state), extents, out_of_balance);
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
         let cancelled = CANCELLED * of_expansions;
@@ -345,8 +338,7 @@ impl Equations {
     ) -> Result<Vec<f64>, Unbalanced> {
         self.prepare_solver(state)?;
         let (mut growth, force) = self.rate(state, loads);
-        let share = LINE * self.solver.tolerance().unwrap_or_default();
-        let solution = self.solve(state, force, Left::Share(share))?;
+        let solution = self.solve(state, force, self.accuracy.left_of_line())?;
         for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
             growth[dof as usize] = value;
         }
@@ -384,34 +376,30 @@ impl Equations {
     }
 
     /// External less internal forces at the unknowns, shape (n_unknowns).
-    pub(super) fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
+    fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
         let (dofs, displacement) = (self.degrees_of_freedom(), &state.displacement);
         let loads = &self.problem.loads;
         loads.external_less(state.load_factor, displacement, internal, dofs)
     }
 
-    pub(super) fn largest_displacement(&self, state: &State) -> f64 {
-        let displacements = self.layout().displacements(&state.displacement);
-        displacements.fold(0.0, |largest, value| largest.max(value.abs()))
-    }
-
-    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
-    /// iterates, what its tolerance makes of it.
-    pub(super) fn rounding(&self, state: &State) -> Vec<f64> {
-        let displacement = self.largest_displacement(state);
-        let tolerance = self.solver.tolerance();
-        let times = tolerance.map_or(1.0, |it| (it / RESIDUAL_TOLERANCE).max(1.0));
-        self.local_stiffness.rounding(times * displacement)
+    /// A state with the loads and the unknowns.
+    fn loaded<'a>(&'a self, state: &'a State) -> Loaded<'a> {
+        Loaded {
+            loads: &*self.problem.loads,
+            unknowns: &self.unknowns,
+            state,
+        }
     }
 
     /// The larger of the largest force at a point in a state, N, and what counts of the one before.
     pub(super) fn largest_force(&self, now: f64) -> f64 {
-        now.max(self.largest_extents.unloaded_force())
+        now.max(self.accuracy.largest_extents.unloaded_force())
     }
 
     /// Keeps the size of the forces of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
-        self.largest_extents = self.largest_extents.or(extents);
+        let largest = &mut self.accuracy.largest_extents;
+        *largest = largest.or(extents);
     }
 
     /// Makes the solver ready for an iterate of a state. Gives the points of mechanisms that are held from now on.
@@ -457,11 +445,4 @@ impl Equations {
             Unbalanced::VanishingPivot { place }
         }
     }
-}
-
-/// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
-fn loaded(loads: &dyn LoadProgram) -> Vec<u32> {
-    let mut loaded = loads.loaded_degrees_of_freedom();
-    loaded.retain(|&dof| !loads.is_prescribed(dof as usize));
-    loaded
 }

@@ -45,7 +45,7 @@ pub(super) fn imbalance(
     for (dof, force) in balanced.closed.iter().flat_map(contact::end_forces) {
         external[dof] -= force;
     }
-    let rounding = equations.rounding(state);
+    let rounding = equations.accuracy.rounding(layout, state);
     let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
     let of_points = external
         .chunks(n_components)

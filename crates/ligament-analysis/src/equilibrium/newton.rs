@@ -29,7 +29,7 @@ pub(super) fn balance(
 ) -> Result<Attempt, ObserverError> {
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
-    let sought = equations.sought(breakage);
+    let sought = equations.accuracy.sought(breakage);
     let is_exact = equations.solver.tolerance().is_none();
     let mut previous_energy = f64::NAN;
     let mut iterations = usize::from(equations.follow(state, breakage));

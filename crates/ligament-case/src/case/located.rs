@@ -119,6 +119,7 @@ impl Case {
                 return element;
             }
             ("materials", Some(_)) => missing_key(field),
+            ("precracks", Some("surface")) => self.precracks[index].surface_key(),
             ("precracks", Some("points")) => &self.points_key(index),
             (_, Some("place")) => self.place_key(field.name, index),
             (_, Some("action")) => self.loads[index].action_key(),

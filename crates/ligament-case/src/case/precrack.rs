@@ -1,6 +1,5 @@
 //! `[[precrack]]`: cracks and slots that are there from the start.
 
-use std::convert::Infallible;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 use schemars::JsonSchema;
@@ -10,8 +9,9 @@ use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, first_given, missing};
-use super::values::{not_exactly_one, refuse, require};
+use super::values::{not_exactly_one, one_of, refuse, require};
 use super::word::Word;
+use ligament::space::{CrackSurface, SolidCrack};
 use ligament_model::bonds::precrack::{Ends, PreCrack};
 
 /// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
@@ -84,8 +84,47 @@ impl Precrack {
         Ok(PreCrack { points, ends })
     }
 
-    pub(super) fn in_space(&self, key: &KeyPath) -> Result<Infallible, KeyFault> {
-        Err(KeyFault::new(key.clone(), "no pre-cracks in space yet"))
+    pub(super) fn in_space(&self, key: &KeyPath) -> Result<SolidCrack, KeyFault> {
+        let of_lines = [
+            ("length", self.length.is_some()),
+            ("angle", self.angle.is_some()),
+        ];
+        refuse(
+            key,
+            of_lines,
+            "a solid",
+            "it belongs to pre-cracks in the plane, which are lines",
+        )?;
+        let points = self.points.as_ref().map(|points| {
+            let key = key.child("points");
+            let corners = points.iter().enumerate();
+            let corners = corners.map(|(index, it)| it.of(&key.child(index)));
+            corners.collect::<Result<_, _>>().map(CrackSurface::Polygon)
+        });
+        let disk = self.centre.map(|centre| {
+            let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
+            Ok(CrackSurface::Disk {
+                centre: centre.of(&key.child("centre"))?,
+                normal: normal.of(&key.child("normal"))?,
+                radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
+            })
+        });
+        let group = self.group.clone().map(|it| Ok(CrackSurface::Group(it)));
+        let surface = one_of(
+            key,
+            [("points", points), ("centre", disk), ("group", group)],
+        )??;
+        let ends = self.ends.0;
+        Ok(SolidCrack { surface, ends })
+    }
+
+    /// Key of the surface of a pre-crack of a solid.
+    pub(crate) fn surface_key(&self) -> &'static str {
+        let given = [
+            ("points", self.points.is_some()),
+            ("centre", self.centre.is_some()),
+        ];
+        first_given(given).unwrap_or("group")
     }
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {

@@ -10,6 +10,7 @@ mod modal;
 mod model;
 mod patch_test;
 mod restraints;
+mod solid_patch_test;
 mod told;
 
 use std::io::{self, Write};
@@ -18,19 +19,19 @@ use std::path::Path;
 use ligament_analysis::connectivity::Fragments;
 use ligament_output::results::point_grid;
 
-use ligament::run::on_threads;
 use ligament::Model;
+use ligament::run::on_threads;
 use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_case::case::CaseFile;
-use ligament_run::disk;
 use ligament_model::Bonds;
+use ligament_run::disk;
 use ligament_run::model::{build_model, build_model_in_space};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::{Stage, Stages};
 
 use entry::{entry, megabytes};
-use told::Told;
 pub use extent::Extent;
+use told::Told;
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
 pub fn check(

@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use ligament_case::case::CaseFile;
 use ligament::setup::{Dim, Dimension};
+use ligament_case::case::CaseFile;
 use ligament_model::{Bonds, Elasticity, Plane};
 use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
@@ -141,7 +141,11 @@ where
     writeln!(out, "strain energy of the points over the continuum's")?;
     for ratios in &model.fixed.energy_ratios {
         let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());
-        entry(out, ratios.strain, format!("{min:.4} to {max:.4}, mean {mean:.4}"))?;
+        entry(
+            out,
+            ratios.strain,
+            format!("{min:.4} to {max:.4}, mean {mean:.4}"),
+        )?;
     }
     Ok(())
 }

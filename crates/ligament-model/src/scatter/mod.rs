@@ -7,6 +7,7 @@
 
 mod distribution;
 mod gaussian;
+mod gaussian_in_space;
 mod random;
 
 use rayon::prelude::*;
@@ -14,6 +15,7 @@ use rayon::prelude::*;
 pub use distribution::Distribution;
 
 use gaussian::RandomWaves;
+use gaussian_in_space::RandomWavesInSpace;
 
 /// A property of the material that varies at random.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,20 +61,45 @@ pub struct Factors {
 impl Scatter {
     /// Factors at positions (n_points, 2), m.
     pub fn factors(&self, positions: &[[f64; 2]]) -> Factors {
-        let factor = |normal: f64| self.distribution.factor(normal);
-        let at_points = if self.correlation_length > 0.0 {
+        if self.correlation_length > 0.0 {
             let waves = RandomWaves::new(self.seed, self.correlation_length);
-            let values = positions.par_iter().map(|&it| factor(waves.at(it)));
-            values.collect()
-        } else {
-            let points = 0..positions.len() as u64;
-            points
-                .map(|point| factor(random::normal(self.seed, point)))
-                .collect()
-        };
+            return self.of_places(positions, |it| waves.at(it));
+        }
+        self.of_numbers(positions.len())
+    }
+
+    /// Factors at positions in space (n_points, 3), m.
+    pub fn factors_in_space(&self, positions: &[[f64; 3]]) -> Factors {
+        if self.correlation_length > 0.0 {
+            let waves = RandomWavesInSpace::new(self.seed, self.correlation_length);
+            return self.of_places(positions, |it| waves.at(it));
+        }
+        self.of_numbers(positions.len())
+    }
+
+    /// Factors from the normal value of each place.
+    fn of_places<const D: usize>(
+        &self,
+        positions: &[[f64; D]],
+        value: impl Fn([f64; D]) -> f64 + Sync,
+    ) -> Factors {
+        let factors = positions
+            .par_iter()
+            .map(|&it| self.distribution.factor(value(it)));
         Factors {
             of: self.of,
-            at_points,
+            at_points: factors.collect(),
+        }
+    }
+
+    /// Factors from a normal value for each number of a point.
+    fn of_numbers(&self, n_points: usize) -> Factors {
+        let points = 0..n_points as u64;
+        let factors =
+            points.map(|point| self.distribution.factor(random::normal(self.seed, point)));
+        Factors {
+            of: self.of,
+            at_points: factors.collect(),
         }
     }
 }

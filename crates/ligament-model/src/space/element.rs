@@ -122,7 +122,7 @@ impl SpringBond {
     }
 
     /// Force on the end B for a stretch and a shear, N.
-    #[inline]
+    #[inline(always)]
     fn force(&self, deformation: &SpaceDeformation) -> [f64; 3] {
         let per_length = 1.0 / self.length;
         let axial = self.axial_rigidity * deformation.stretch * per_length;
@@ -134,7 +134,7 @@ impl SpringBond {
 impl SolidKinematics<3> for SpringBond {
     const COMPONENTS: [Component; 3] = [Component::X, Component::Y, Component::Z];
 
-    #[inline]
+    #[inline(always)]
     fn new(bonds: &BondSet<3>, rigidities: &Rigidities, bond: usize) -> Self {
         Self {
             length: bonds.length[bond],
@@ -159,7 +159,7 @@ impl SolidKinematics<3> for SpringBond {
     }
 
     /// Deformation for the displacements of the ends: s = n . du/l, gamma = P du/l.
-    #[inline]
+    #[inline(always)]
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> SpaceDeformation {
         let n = self.direction;
         let per_length = 1.0 / self.length;
@@ -178,7 +178,7 @@ impl SolidKinematics<3> for SpringBond {
             + self.shear_rigidity * dot(one.shear, other.shear))
     }
 
-    #[inline]
+    #[inline(always)]
     fn end_forces(&self, deformation: &SpaceDeformation) -> [[f64; 3]; 2] {
         let force = self.force(deformation);
         [force.map(|value| -value), force]
@@ -255,7 +255,7 @@ impl BeamBond {
 impl SolidKinematics<6> for BeamBond {
     const COMPONENTS: [Component; 6] = Component::IN_SPACE;
 
-    #[inline]
+    #[inline(always)]
     fn new(bonds: &BondSet<3>, rigidities: &Rigidities, bond: usize) -> Self {
         Self {
             springs: SpringBond::new(bonds, rigidities, bond),
@@ -278,7 +278,7 @@ impl SolidKinematics<6> for BeamBond {
 
     /// Deformation for the displacements and rotations of the ends: s = n . du/l, gamma = P du/l - 1/2 (phi_A + phi_B) x n,
     /// dphi = phi_B - phi_A.
-    #[inline]
+    #[inline(always)]
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> SpaceDeformation {
         let without_rotations = self.springs.deformation(end_a, end_b);
         let mean = [3, 4, 5].map(|k| 0.5 * (end_a[k] + end_b[k]));
@@ -297,7 +297,7 @@ impl SolidKinematics<6> for BeamBond {
     }
 
     /// Forces -+(A s n + S gamma)/l and moments -S/2 n x gamma -+ R dphi at A and B.
-    #[inline]
+    #[inline(always)]
     fn end_forces(&self, deformation: &SpaceDeformation) -> [[f64; 6]; 2] {
         let [x, y, z] = self.springs.force(deformation);
         let half_shear = -0.5 * self.springs.shear_rigidity;

@@ -13,6 +13,7 @@
 //! |---|---|
 //! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
 //! | bonds across holes, and out of a mesh | [`hole`], [`outline`] |
+//! | pre-cracks | [`precrack`] |
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
 //! | failure criteria with their limits | [`criteria`] |
@@ -30,6 +31,7 @@ pub mod lattice;
 pub mod law;
 mod mass;
 pub mod outline;
+pub mod precrack;
 mod predicates;
 mod product;
 mod rigid_motions;

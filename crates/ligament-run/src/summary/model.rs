@@ -1,14 +1,12 @@
 //! The discrete model in numbers and words, whatever is then done with it.
 
-use ligament_model::{Bonds, ElementKind};
 use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::scatter::Scattered;
+use ligament_model::{Bonds, ElementKind};
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{
-    Alpha, Calibration, Correction, Dim, Dimension, Form, Open, Setup, Surface,
-};
+use ligament::setup::{Alpha, Calibration, Correction, Dim, Dimension, Form, Open, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 

@@ -53,7 +53,9 @@ impl BondEvent {
         let mut labels = criterion_labels(criteria);
         Self {
             ends: ends.map(|end| model.body().tag(end)),
-            place: (0..D).map(|axis| 0.5 * (a[axis] + b[axis]) + cloud.origin[axis]).collect(),
+            place: (0..D)
+                .map(|axis| 0.5 * (a[axis] + b[axis]) + cloud.origin[axis])
+                .collect(),
             step: first.step,
             load_factor: first.load_factor,
             displacement: first.displacement,

@@ -168,7 +168,10 @@ impl Body<3> for SolidMeshBody {
     fn rim(&self) -> Vec<bool> {
         let mut marked = vec![false; self.0.positions.len()];
         let outer = Faces::new(&self.0.cells, marked.len()).outer();
-        let nodes: BTreeSet<u32> = outer.iter().flat_map(|it| it.face.corners().to_vec()).collect();
+        let nodes: BTreeSet<u32> = outer
+            .iter()
+            .flat_map(|it| it.face.corners().to_vec())
+            .collect();
         nodes.iter().for_each(|&node| marked[node as usize] = true);
         marked
     }
@@ -192,9 +195,8 @@ impl SolidMeshBody {
     fn off_outline(&self, face: &Cell, cells: usize) -> OffOutline {
         let corners = face.corners();
         let positions = corners.iter().map(|&node| self.0.positions[node as usize]);
-        let mean = |axis: usize| {
-            positions.clone().map(|it| it[axis]).sum::<f64>() / corners.len() as f64
-        };
+        let mean =
+            |axis: usize| positions.clone().map(|it| it[axis]).sum::<f64>() / corners.len() as f64;
         OffOutline {
             side: "face",
             nodes: corners.iter().map(|&node| self.tag(node)).collect(),

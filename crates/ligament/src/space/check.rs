@@ -22,8 +22,13 @@ impl Setup<3> {
                 return contradiction(field, reason);
             }
         }
+        if self.scatter.is_some() {
+            let reason = "properties that vary at random are known in the plane alone so far: leave them out";
+            return contradiction(Field::whole("scatter"), reason);
+        }
         if self.closing {
-            let reason = "faces that close are known in the plane alone so far: leave `closing` out";
+            let reason =
+                "faces that close are known in the plane alone so far: leave `closing` out";
             return contradiction(Field::whole("closing"), reason);
         }
         let is_patch = matches!(self.correction.surface, Surface::Patch(_));
@@ -38,7 +43,11 @@ impl Setup<3> {
     fn check_law(&self) -> Checked {
         let law = Field::whole("law");
         match self.law {
-            Law::Nhpd | Law::Bbpd { .. } | Law::Pds { .. } | Law::Mppd { .. } | Law::MppdBeam { .. } => {}
+            Law::Nhpd
+            | Law::Bbpd { .. }
+            | Law::Pds { .. }
+            | Law::Mppd { .. }
+            | Law::MppdBeam { .. } => {}
             Law::BbpdConical { .. } | Law::Orthotropic { .. } | Law::MbbPd { .. } => {
                 let reason = format!(
                     "\"{}\" is a law of the plane: solids take \"nhpd\", \"mppd\", \"mppd-beam\", \"pds\" or \"bbpd\"",
@@ -58,7 +67,8 @@ impl Setup<3> {
 
     /// Points of a solid turn about three axes.
     fn check_motions(&self) -> Checked {
-        let reason = "a solid turns about three axes: give `rotation_x`, `rotation_y` or `rotation_z`";
+        let reason =
+            "a solid turns about three axes: give `rotation_x`, `rotation_y` or `rotation_z`";
         for (index, support) in self.supports.iter().enumerate() {
             let springs = support.stiffness.components.rotation.is_some();
             if springs || support.held.contains(&Component::Rotation) {

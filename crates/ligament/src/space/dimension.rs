@@ -1,15 +1,16 @@
 //! What a setup has in space.
 
 use ligament_analysis::Component;
+use ligament_model::space::SolidSystem;
 use ligament_model::space::law::bbpd;
 use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::thermal::FreeStrains;
 use ligament_model::{Bonds, LumpedMass, Material, PointCloud};
-use ligament_model::space::SolidSystem;
 
+use super::formulation::shear_form;
+use super::precrack::SolidCrack;
 use crate::error::SetupError;
 use crate::model::Model;
-use super::formulation::shear_form;
 use crate::setup::{Dim, Dimension, Horizon, Setup};
 use crate::stage::StageWatcher;
 use crate::warning::Warning;
@@ -18,7 +19,7 @@ use crate::warning::Warning;
 const USUAL_FACTOR: f64 = 3.0;
 
 impl Dimension<3> for Dim {
-    type PreCrack = std::convert::Infallible;
+    type PreCrack = SolidCrack;
 
     /// A point of a solid stands for a volume alone.
     type Section = ();
@@ -71,7 +72,8 @@ impl Dimension<3> for Dim {
         let [point, before] = [point, before].map(|it| cloud.local(it));
         let is_before = |end: u32| {
             let position = cloud.positions[end as usize];
-            let along = (0..3).map(|axis| (position[axis] - point[axis]) * (before[axis] - point[axis]));
+            let along =
+                (0..3).map(|axis| (position[axis] - point[axis]) * (before[axis] - point[axis]));
             along.sum::<f64>() > 0.0
         };
         let bonds = system.ends().iter().enumerate();

@@ -17,7 +17,7 @@ use ligament_model::{
 
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Alpha, Calibration, Law, Setup, Surface};
+use crate::setup::{Alpha, Calibration, CorrectionDomain, Law, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body in space.
 #[derive(Debug, Clone)]
@@ -73,6 +73,11 @@ impl<'a> SolidFormulation<'a> {
             material_of_cell,
             constants: constants(setup),
         }
+    }
+
+    /// Whether pre-cracks cut bonds before these are corrected.
+    pub(super) fn cuts_first(&self) -> bool {
+        self.setup.correction.domain == CorrectionDomain::Cracked
     }
 
     /// Factors alpha of the bonds, shape (n_bonds).
@@ -187,9 +192,9 @@ pub(super) fn criteria(
         let field = Field::element("criteria", place);
         match reason {
             NoSolidLimit::NoLimit(no_limit) => field.error(Fault::NoLimit(no_limit)),
-            NoSolidLimit::PlaneOnly(reason) => {
-                field.part("kind").error(Fault::Contradiction(reason.to_string().into()))
-            }
+            NoSolidLimit::PlaneOnly(reason) => field
+                .part("kind")
+                .error(Fault::Contradiction(reason.to_string().into())),
         }
     })
 }

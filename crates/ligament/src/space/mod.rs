@@ -4,4 +4,8 @@ mod check;
 mod dimension;
 mod formulation;
 mod model;
+pub(crate) mod patch_test;
+mod precrack;
 mod soundness;
+
+pub use precrack::{CrackSurface, SolidCrack};

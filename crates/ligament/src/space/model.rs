@@ -6,16 +6,18 @@ use ligament_model::correction::Correction;
 use ligament_model::space::SolidSystem;
 use ligament_model::space::hole::bonds_across;
 use ligament_model::space::outline::{bonds_outside, spacing_inside};
+use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, EnergyRatio, FixedFields, Horizons, PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, EnergyRatio, FixedFields, PointCloud,
 };
 
 use super::formulation::{self, SolidFormulation};
+use super::precrack::surfaces;
 use super::soundness::{require_connected, require_distinct, require_numbers};
 use crate::body::Origin;
 use crate::error::SetupError;
 use crate::loading;
-use crate::model::{Model, absent_bonds};
+use crate::model::{Model, absent_bonds, precrack_share, with_cut};
 use crate::setup::Setup;
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning;
@@ -39,13 +41,23 @@ impl Model<3> {
             bonds: bonds.len(),
             across_voids: absent.len(),
         });
+        let surfaces = surfaces(&setup)?;
+        let (is_cut, touched) = stage(watcher, "pre-cracks", || {
+            precracked(&surfaces, &bonds, &cloud)
+        });
+        let precrack_share = precrack_share(&bonds, &is_cut);
+        let absent = with_cut(absent, &bonds, &is_cut);
         let Corrected {
+            bonds,
             stiffness,
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            let formulation = SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell);
-            correct(&formulation, &bonds)
+            correct(
+                &SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell),
+                bonds,
+                &is_cut,
+            )
         });
         watcher.found(&Finding::Correction(
             &setup.correction,
@@ -53,7 +65,7 @@ impl Model<3> {
         ));
         let fixed = FixedFields {
             horizon: horizons.radius,
-            precrack_share: vec![0.0; cloud.len()],
+            precrack_share,
             energy_ratios,
             domain_factor: correction.domain_factor.clone(),
             shear_ratio: correction.shear_ratio.clone(),
@@ -71,7 +83,7 @@ impl Model<3> {
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
         let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
-        let warnings = warning::of_model(&setup, spacing, report, &fixed, 0);
+        let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
         Ok(Self {
             warnings,
             correction_range: correction.domain_factor_range(),
@@ -119,19 +131,51 @@ fn inside_body(
     (bonds.retained(&keep), absent)
 }
 
-/// Stiffness and correction of the bonds.
+/// For each bond, whether a pre-crack cuts it (n_bonds), and how many only touch one.
+fn precracked(
+    surfaces: &[SolidPreCrack],
+    bonds: &BondSet<3>,
+    cloud: &PointCloud<3>,
+) -> (Vec<bool>, usize) {
+    let is_cut = cut_bonds(surfaces, bonds, cloud);
+    let touched = count_touched_bonds(surfaces, bonds, cloud, &is_cut);
+    (is_cut, touched)
+}
+
+/// Bonds that pre-cracks leave, with their stiffness and correction.
 struct Corrected {
+    bonds: BondSet<3>,
     stiffness: BondStiffness,
     correction: Correction,
     energy_ratios: Vec<EnergyRatio>,
 }
 
-fn correct(formulation: &SolidFormulation<'_>, bonds: &BondSet<3>) -> Corrected {
-    let alpha = formulation.alpha(bonds);
-    let stiffness = formulation.stiffness(bonds, &alpha);
-    let correction = formulation.correction(bonds, &stiffness, alpha);
-    let energy_ratios = formulation.energy_ratios(bonds, &stiffness, &correction);
+/// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other way round if the
+/// setup says so.
+fn correct(formulation: &SolidFormulation<'_>, bonds: BondSet<3>, is_cut: &[bool]) -> Corrected {
+    let survives: Vec<bool> = is_cut.iter().map(|cut| !cut).collect();
+    if formulation.cuts_first() {
+        return of_bonds(formulation, bonds.retained(&survives));
+    }
+    let whole = of_bonds(formulation, bonds);
+    if !is_cut.contains(&true) {
+        return whole;
+    }
     Corrected {
+        bonds: whole.bonds.retained(&survives),
+        stiffness: whole.stiffness.retained(&survives),
+        correction: whole.correction.retained(&survives),
+        energy_ratios: whole.energy_ratios,
+    }
+}
+
+fn of_bonds(formulation: &SolidFormulation<'_>, bonds: BondSet<3>) -> Corrected {
+    let alpha = formulation.alpha(&bonds);
+    let stiffness = formulation.stiffness(&bonds, &alpha);
+    let correction = formulation.correction(&bonds, &stiffness, alpha);
+    let energy_ratios = formulation.energy_ratios(&bonds, &stiffness, &correction);
+    Corrected {
+        bonds,
         stiffness: stiffness.with_shear(&correction.shear_ratio),
         correction,
         energy_ratios,

@@ -33,12 +33,23 @@ pub struct SolidPatchTest {
     pub place: [f64; 3],
 }
 
-/// The patch test of the body of a model.
+/// The patch test of the body of a model, without its pre-cracks.
 ///
 /// # Errors
 ///
 /// If the body is no mesh, or the free body has no equilibrium.
 pub fn solid_patch_test(model: &Model<3>) -> Result<SolidPatchTest, Untested> {
+    if model.cut_bonds() == 0 {
+        return of_whole_body(model);
+    }
+    let setup = Setup {
+        precracks: Vec::new(),
+        ..model.setup.clone()
+    };
+    of_whole_body(&Model::<3>::build(setup, &mut ())?)
+}
+
+fn of_whole_body(model: &Model<3>) -> Result<SolidPatchTest, Untested> {
     let Model { setup, system, .. } = model;
     if !matches!(setup.body.origin(), Origin::SolidMesh(_)) {
         return Err(Untested::NoCells);

@@ -22,7 +22,9 @@ pub(super) fn require_distinct(
     let from = cloud.positions[point];
     let squared = |other: &usize| {
         let to = cloud.positions[*other];
-        (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>()
+        (0..3)
+            .map(|axis| (to[axis] - from[axis]).powi(2))
+            .sum::<f64>()
     };
     let others = (0..cloud.len()).filter(|other| *other != point);
     let other = others.min_by(|one, other| squared(one).total_cmp(&squared(other)));
@@ -56,12 +58,12 @@ pub(super) fn require_connected(
         std::array::from_fn(|axis| (to[axis] - from[axis]).abs())
     };
     let length = |ends: [u32; 2]| along(ends).iter().map(|it| it * it).sum::<f64>().sqrt();
-    let radius = |[from, to]: [u32; 2]| {
-        horizons.radius[from as usize].max(horizons.radius[to as usize])
-    };
+    let radius =
+        |[from, to]: [u32; 2]| horizons.radius[from as usize].max(horizons.radius[to as usize]);
     let excess = |ends: &[u32; 2]| length(*ends) / radius(*ends);
     let edges = mesh.cells.iter().flat_map(|cell| cell.edges());
-    let torn = edges.filter(|ends| parts.part(ends[0]) != parts.part(ends[1]) && excess(ends) > 1.0);
+    let torn =
+        edges.filter(|ends| parts.part(ends[0]) != parts.part(ends[1]) && excess(ends) > 1.0);
     let Some(worst) = torn.max_by(|one, other| excess(one).total_cmp(&excess(other))) else {
         return Ok(());
     };

@@ -1,7 +1,7 @@
-//! Conjugate gradients with two levels: A-DEF2 (Tang, Nabben, Vuik and Erlangga 2009).
+//! Conjugate gradients with two levels: A-DEF2 (Tang 2009).
 //!
 //! With block Jacobi M^-1 and the coarse correction Q = Z E^-1 Z^T the preconditioner takes a force r to M^-1 r + Q (r - K M^-1 r). The
-//! iteration begins at Q f: from elsewhere it stalls. The coefficient of the directions is that of Polak and Ribiere, which holds
+//! iteration begins at Q f: from elsewhere it stalls. The coefficient of the search is that of Polak and Ribiere, which holds
 //! where bonds broke since the coarse stiffness was made.
 
 use rayon::prelude::*;
@@ -38,8 +38,17 @@ pub(super) struct Found {
     pub(super) iterations: usize,
     /// Decades by which the norm of the force out of balance fell.
     pub(super) decades: f64,
-    /// Whether a direction was met along which the stiffness is not positive.
+    /// Whether the stiffness was positive along every way.
     pub(super) is_definite: bool,
+}
+
+/// What is kept of the last step.
+#[derive(Clone, Copy)]
+struct Last {
+    /// Size of the step along its way.
+    step: f64,
+    /// Work of the force before it on what the preconditioner made of that force.
+    work: f64,
 }
 
 /// The iteration on its way.
@@ -65,11 +74,10 @@ pub(super) fn solve(
     let mut iteration = Iteration::begun(operator, levels, force);
     let norm = dot_of_chunks(&iteration.force, &iteration.force);
     iteration.go_to_coarse_solution();
-    let mut direction = vec![0.0; iteration.force.len()];
+    let mut way = vec![0.0; iteration.force.len()];
     let mut pushed = vec![0.0; iteration.force.len()];
     let (mut iterations, mut is_definite) = (0, true);
-    // The last step, and what the preconditioned force did along the force before it.
-    let mut last: Option<[f64; 2]> = None;
+    let mut last: Option<Last> = None;
     let rounding = Limit::Norm(ROUNDING * norm.sqrt());
     while iterations < ITERATION_LIMIT
         && !iteration.is_within(limit)
@@ -83,25 +91,25 @@ pub(super) fn solve(
             work = dot_of_chunks(&conditioned, &iteration.force);
             last = None;
         }
-        let share = last.map_or(0.0, |[step, before]| {
-            -step * dot_of_chunks(&conditioned, &pushed) / before
+        let share = last.map_or(0.0, |last| {
+            -last.step * dot_of_chunks(&conditioned, &pushed) / last.work
         });
-        (direction.par_chunks_mut(CHUNK))
+        (way.par_chunks_mut(CHUNK))
             .zip(conditioned.par_chunks(CHUNK))
-            .for_each(|(direction, conditioned)| {
-                for (direction, value) in direction.iter_mut().zip(conditioned) {
-                    *direction = value + share * *direction;
+            .for_each(|(way, conditioned)| {
+                for (way, value) in way.iter_mut().zip(conditioned) {
+                    *way = value + share * *way;
                 }
             });
-        operator.multiply(&direction, &mut pushed);
-        let curvature = dot_of_chunks(&direction, &pushed);
+        operator.multiply(&way, &mut pushed);
+        let curvature = dot_of_chunks(&way, &pushed);
         if curvature.is_nan() || curvature <= 0.0 {
             is_definite = false;
             break;
         }
-        let step = dot_of_chunks(&direction, &iteration.force) / curvature;
-        iteration.go(step, &direction, &pushed);
-        last = Some([step, work]);
+        let step = dot_of_chunks(&way, &iteration.force) / curvature;
+        iteration.go(step, &way, &pushed);
+        last = Some(Last { step, work });
         iterations += 1;
     }
     let left = dot_of_chunks(&iteration.force, &iteration.force);
@@ -201,14 +209,14 @@ impl<'a> Iteration<'a> {
             });
     }
 
-    /// Goes a step along a direction, which pushes back by some forces.
-    fn go(&mut self, step: f64, direction: &[f64], pushed: &[f64]) {
+    /// Goes a step along a way, which pushes back by some forces.
+    fn go(&mut self, step: f64, way: &[f64], pushed: &[f64]) {
         (self.motions.par_chunks_mut(CHUNK))
-            .zip(direction.par_chunks(CHUNK))
+            .zip(way.par_chunks(CHUNK))
             .zip(self.force.par_chunks_mut(CHUNK))
             .zip(pushed.par_chunks(CHUNK))
-            .for_each(|(((motions, direction), force), pushed)| {
-                for (motion, value) in motions.iter_mut().zip(direction) {
+            .for_each(|(((motions, way), force), pushed)| {
+                for (motion, value) in motions.iter_mut().zip(way) {
                     *motion += step * value;
                 }
                 for (force, value) in force.iter_mut().zip(pushed) {

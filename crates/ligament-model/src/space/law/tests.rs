@@ -263,3 +263,37 @@ fn discrete_calibration_needs_no_integral() {
         assert!((found / far - 1.0).abs() < 1e-9, "{found}");
     }
 }
+
+/// A bond across the interface of two materials is two halves in series: 2/(1/k_1 + 1/k_2), once for the whole bond. One from the interface
+/// into a material is of that material.
+#[test]
+fn bonds_across_an_interface_are_in_series() {
+    let positions = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.5, 0.0]];
+    let cloud = PointCloud {
+        material_shares: vec![1.0, 0.0, 1.0, 0.0, 0.5, 0.5, 0.0, 1.0],
+        ..PointCloud::from_points(&positions, &[1.0; 4], 1.0, &[0, 0, 0, 1], 2)
+    };
+    let bonds = BondSet::<3>::search(&cloud, &crate::horizon::Horizons::unified(2.5, 4));
+    let stiff = Isotropic {
+        young: 12.0,
+        ..MATERIAL
+    };
+    let materials = [MATERIAL, stiff];
+    let found = nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant).in_series();
+    let [soft, hard] = materials.map(|it| axial_constant(&it) / 2.5_f64.powi(4));
+    let of = |ends: [u32; 2]| {
+        let bond = bonds.ends.iter().position(|it| *it == ends);
+        bond.map(|bond| found.axial[bond])
+    };
+    let close = |found: Option<f64>, expected: f64| {
+        assert!(
+            found.is_some_and(|it| (it / expected - 1.0).abs() < 1e-14),
+            "{found:?} {expected}"
+        );
+    };
+    close(of([0, 1]), soft);
+    close(of([1, 2]), soft);
+    close(of([2, 3]), hard);
+    close(of([1, 3]), 2.0 / (1.0 / soft + 1.0 / hard));
+    assert_eq!(of([0, 3]), None);
+}

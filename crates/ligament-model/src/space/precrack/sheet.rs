@@ -1,0 +1,328 @@
+//! A crack of triangles.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::UnfitCrack;
+use crate::shape::{cross as cross2, crosses_itself};
+use crate::space::predicates::above;
+use crate::space::vector::{cross, dot, minus, norm};
+
+/// Distance of a corner of a polygon from its plane, over the size of the polygon, that counts as none.
+const FLATNESS: f64 = 1e-6;
+
+/// A surface of triangles, neighbours with their fronts on the same side.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sheet {
+    points: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    /// Whether two triangles have an edge of each: from the first corner to the second, and so on.
+    is_inner_edge: Vec<[bool; 3]>,
+    /// Whether a point is no end of an edge of the rim.
+    is_inner_point: Vec<bool>,
+}
+
+impl Sheet {
+    pub(super) fn new(points: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, UnfitCrack> {
+        if triangles.is_empty() {
+            return Err(UnfitCrack::TooFewCorners { corners: 0 });
+        }
+        for (number, nodes) in triangles.iter().enumerate() {
+            if let Some(&point) = nodes.iter().find(|node| **node as usize >= points.len()) {
+                let triangle = number;
+                return Err(UnfitCrack::NoSuchPoint { triangle, point });
+            }
+            let [a, b, c] = nodes.map(|node| points[node as usize]);
+            let size = norm(minus(b, a)).max(norm(minus(c, a)));
+            let area = norm(cross(minus(b, a), minus(c, a)));
+            if area.is_nan() || area <= 1e-12 * size * size {
+                let triangle = Some(number);
+                return Err(UnfitCrack::NoArea { triangle });
+            }
+        }
+        let triangles = turned_alike(triangles);
+        let mut at_edge: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+        for edge in triangles.iter().flat_map(|nodes| edges(*nodes)) {
+            *at_edge.entry(ascending(edge)).or_default() += 1;
+        }
+        let is_inner = |edge: [u32; 2]| at_edge.get(&ascending(edge)).is_some_and(|n| *n > 1);
+        let mut is_inner_point = vec![true; points.len()];
+        for (edge, count) in &at_edge {
+            for &end in edge {
+                is_inner_point[end as usize] &= *count > 1;
+            }
+        }
+        let is_inner_edge = triangles.iter().map(|nodes| edges(*nodes).map(is_inner));
+        Ok(Self {
+            is_inner_edge: is_inner_edge.collect(),
+            points,
+            triangles,
+            is_inner_point,
+        })
+    }
+
+    /// A plane polygon, cut into triangles ear by ear.
+    pub(super) fn polygon(corners: &[[f64; 3]]) -> Result<Self, UnfitCrack> {
+        if corners.len() < 3 {
+            let corners = corners.len();
+            return Err(UnfitCrack::TooFewCorners { corners });
+        }
+        let next = corners.iter().skip(1).zip(corners.iter().skip(2));
+        let areas = next.map(|(b, c)| cross(minus(*b, corners[0]), minus(*c, corners[0])));
+        let normal = areas.fold([0.0; 3], |sum, it| [0, 1, 2].map(|k| sum[k] + it[k]));
+        let from_first = corners
+            .iter()
+            .map(|corner| norm(minus(*corner, corners[0])));
+        let size = from_first.fold(0.0, f64::max);
+        let area = norm(normal);
+        if area.is_nan() || area <= 1e-12 * size * size {
+            return Err(UnfitCrack::NoArea { triangle: None });
+        }
+        for (corner, position) in corners.iter().enumerate() {
+            let distance = dot(normal, minus(*position, corners[0])).abs() / area;
+            if distance > FLATNESS * size {
+                return Err(UnfitCrack::NotPlane { corner, distance });
+            }
+        }
+        let flat: Vec<[f64; 2]> = corners.iter().map(|it| flattened(*it, normal)).collect();
+        if crosses_itself(&flat) {
+            return Err(UnfitCrack::CrossesItself);
+        }
+        Self::new(corners.to_vec(), ears(&flat))
+    }
+
+    pub(super) fn moved(&self, by: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        let points = self.points.iter().map(|point| by(*point));
+        Self {
+            points: points.collect(),
+            ..self.clone()
+        }
+    }
+
+    pub(super) fn n_triangles(&self) -> u32 {
+        self.triangles.len() as u32
+    }
+
+    fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
+        self.triangles[triangle as usize].map(|node| self.points[node as usize])
+    }
+
+    pub(super) fn bounds(&self, triangle: u32) -> [[f64; 3]; 2] {
+        let [a, b, c] = self.corners(triangle);
+        let pick = |pick: fn(f64, f64) -> f64| [0, 1, 2].map(|k| pick(pick(a[k], b[k]), c[k]));
+        [pick(f64::min), pick(f64::max)]
+    }
+
+    /// Where the line of a bond meets a triangle.
+    fn contact(&self, triangle: u32, [a, b]: [[f64; 3]; 2]) -> Contact {
+        let [p, q, r] = self.corners(triangle);
+        let sides = [[p, q], [q, r], [r, p]].map(|[from, to]| above(a, b, from, to));
+        if sides.iter().any(|it| *it > 0.0) && sides.iter().any(|it| *it < 0.0) {
+            return Contact::None;
+        }
+        let is_inner_edge = self.is_inner_edge[triangle as usize];
+        let nodes = self.triangles[triangle as usize];
+        let is_inner = match sides.map(|it| it == 0.0) {
+            [false, false, false] => true,
+            [true, false, false] => is_inner_edge[0],
+            [false, true, false] => is_inner_edge[1],
+            [false, false, true] => is_inner_edge[2],
+            [true, true, false] => self.is_inner_point[nodes[1] as usize],
+            [false, true, true] => self.is_inner_point[nodes[2] as usize],
+            [true, false, true] => self.is_inner_point[nodes[0] as usize],
+            [true, true, true] => return Contact::None,
+        };
+        if is_inner {
+            Contact::Inside
+        } else {
+            Contact::Rim
+        }
+    }
+
+    pub(super) fn cuts(&self, triangle: u32, bond: [[f64; 3]; 2]) -> bool {
+        let [p, q, r] = self.corners(triangle);
+        let [start, end] = bond.map(|point| above(p, q, r, point) >= 0.0);
+        start != end && self.contact(triangle, bond) == Contact::Inside
+    }
+
+    pub(super) fn touches(&self, triangle: u32, bond: [[f64; 3]; 2]) -> bool {
+        let [p, q, r] = self.corners(triangle);
+        let [start, end] = bond.map(|point| above(p, q, r, point));
+        let is_parted = (start > 0.0 && end < 0.0) || (start < 0.0 && end > 0.0);
+        is_parted && self.contact(triangle, bond) == Contact::Rim
+    }
+
+    /// Whether a triangle has a point in common with a bond, or comes no farther away than `slack` (m).
+    pub(super) fn meets(&self, triangle: u32, bond: [[f64; 3]; 2], slack: f64) -> bool {
+        let [p, q, r] = self.corners(triangle);
+        let [start, end] = bond.map(|point| above(p, q, r, point));
+        let is_parted = (start >= 0.0) != (end >= 0.0);
+        // Apart from each other, the nearest points are an end of the bond or on an edge of the triangle.
+        (is_parted && self.contact(triangle, bond) != Contact::None)
+            || [[p, q], [q, r], [r, p]]
+                .into_iter()
+                .any(|edge| gap(bond, edge) <= slack)
+            || bond
+                .into_iter()
+                .any(|point| height_over([p, q, r], point) <= slack)
+    }
+
+    pub(super) fn crossing(&self, triangle: u32, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
+        let [p, q, r] = self.corners(triangle);
+        let normal = cross(minus(q, p), minus(r, p));
+        let sides = [[p, q], [q, r], [r, p]].map(|[from, to]| above(a, b, from, to));
+        let sum: f64 = sides.iter().sum();
+        let least = sides
+            .iter()
+            .map(|it| it / sum)
+            .fold(f64::INFINITY, f64::min);
+        let depth = if least.is_finite() {
+            least
+        } else {
+            f64::NEG_INFINITY
+        };
+        (normal.map(|it| it / norm(normal)), depth)
+    }
+}
+
+/// What the line of a bond has in common with a triangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Contact {
+    None,
+    /// A point of the rim of the surface.
+    Rim,
+    /// A point inside of the surface.
+    Inside,
+}
+
+/// The triangles, turned so that neighbours go along their common edge in opposite directions, from the first of those that hang
+/// together on.
+fn turned_alike(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    let mut at_edge: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    for (number, nodes) in triangles.iter().enumerate() {
+        for edge in edges(*nodes) {
+            at_edge.entry(ascending(edge)).or_default().push(number);
+        }
+    }
+    let mut left: BTreeSet<usize> = (0..triangles.len()).collect();
+    let mut open = Vec::new();
+    while let Some(first) = left.pop_first() {
+        open.push(first);
+        while let Some(number) = open.pop() {
+            for edge in edges(triangles[number]) {
+                for &other in &at_edge[&ascending(edge)] {
+                    if !left.remove(&other) {
+                        continue;
+                    }
+                    if edges(triangles[other]).contains(&edge) {
+                        triangles[other].swap(1, 2);
+                    }
+                    open.push(other);
+                }
+            }
+        }
+    }
+    triangles
+}
+
+/// The triangles of a polygon that does not cross itself, counter-clockwise or clockwise as it is.
+fn ears(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
+    let n = corners.len();
+    let doubled: f64 = (1..n - 1)
+        .map(|k| cross2(corners[0], corners[k], corners[k + 1]))
+        .sum();
+    let turn = |a: usize, b: usize, c: usize| {
+        doubled.signum() * cross2(corners[a], corners[b], corners[c])
+    };
+    let mut left: Vec<usize> = (0..n).collect();
+    let mut triangles = Vec::new();
+    while left.len() > 3 {
+        let m = left.len();
+        let is_ear = |place: usize| {
+            let [a, b, c] = [
+                left[(place + m - 1) % m],
+                left[place],
+                left[(place + 1) % m],
+            ];
+            // Nothing may lie in the ear, nor next to nowhere off the side that it leaves.
+            let is_free = |&k: &usize| {
+                let beyond = turn(c, a, k) < -FLATNESS * doubled.abs();
+                [a, b, c].contains(&k) || beyond || turn(a, b, k) < 0.0 || turn(b, c, k) < 0.0
+            };
+            turn(a, b, c) > 0.0 && left.iter().all(is_free)
+        };
+        // A corner on a straight side is no ear, but goes with one of its neighbours; were there none, rounding would have bent a side.
+        let place = (0..m).find(|place| is_ear(*place)).unwrap_or_default();
+        let [a, b, c] = [
+            left[(place + m - 1) % m],
+            left[place],
+            left[(place + 1) % m],
+        ];
+        triangles.push([a, b, c].map(|k| k as u32));
+        left.remove(place);
+    }
+    triangles.push([left[0], left[1], left[2]].map(|k| k as u32));
+    triangles
+}
+
+/// A point by the two coordinates in which a surface of this normal is widest, right-handed about it or its opposite.
+fn flattened(point: [f64; 3], normal: [f64; 3]) -> [f64; 2] {
+    let [x, y, z] = normal.map(f64::abs);
+    if x >= y && x >= z {
+        [point[1], point[2]]
+    } else if y >= z {
+        [point[2], point[0]]
+    } else {
+        [point[0], point[1]]
+    }
+}
+
+/// Distance between two segments, m.
+fn gap([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2]) -> f64 {
+    let (u, v, w) = (minus(b, a), minus(q, p), minus(a, p));
+    let across = cross(u, v);
+    let size = dot(across, across);
+    let between = |place: f64| (0.0..=1.0).contains(&place);
+    // The common perpendicular, where it stands on both.
+    let places = [
+        -dot(cross(w, v), across) / size,
+        -dot(cross(w, u), across) / size,
+    ];
+    if size > 0.0 && places.into_iter().all(between) {
+        return dot(w, across).abs() / size.sqrt();
+    }
+    let ends = [
+        distance_to([p, q], a),
+        distance_to([p, q], b),
+        distance_to([a, b], p),
+        distance_to([a, b], q),
+    ];
+    ends.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Distance of a point from a segment, m.
+fn distance_to([p, q]: [[f64; 3]; 2], point: [f64; 3]) -> f64 {
+    let (way, from_start) = (minus(q, p), minus(point, p));
+    let place = (dot(from_start, way) / dot(way, way)).clamp(0.0, 1.0);
+    norm([0, 1, 2].map(|k| from_start[k] - place * way[k]))
+}
+
+/// Height of a point over or under a triangle, m; infinite where it stands over or under none of its points.
+fn height_over([p, q, r]: [[f64; 3]; 3], point: [f64; 3]) -> f64 {
+    let normal = cross(minus(q, p), minus(r, p));
+    let is_over = [[p, q], [q, r], [r, p]]
+        .into_iter()
+        .all(|[from, to]| dot(cross(minus(to, from), minus(point, from)), normal) >= 0.0);
+    if is_over {
+        dot(normal, minus(point, p)).abs() / norm(normal)
+    } else {
+        f64::INFINITY
+    }
+}
+
+fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
+}
+
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
