@@ -48,7 +48,7 @@ pub(super) fn shear_form(law: &Law) -> Option<ShearForm> {
 }
 
 /// Elastic constants that the law makes of those of each material, shape (n_materials).
-fn constants(setup: &Setup<3>) -> Vec<Isotropic> {
+pub(super) fn constants(setup: &Setup<3>) -> Vec<Isotropic> {
     let given = setup.materials.iter();
     let given = given.filter_map(|it| it.material.elasticity.isotropic());
     given
