@@ -99,7 +99,9 @@ impl SolidUniformStrains {
             shear_modulus: [3, 4, 5].map(|axis| 0.5 / of_body[(axis, axis)]),
         };
         let all = constants.young.iter().chain(&constants.shear_modulus);
-        all.into_iter().all(|it| it.is_finite()).then_some(constants)
+        all.into_iter()
+            .all(|it| it.is_finite())
+            .then_some(constants)
     }
 }
 
@@ -188,7 +190,14 @@ fn mean_strains(
 /// Stretch of a bond of this direction in the six strains.
 fn projected([a, b, c]: [f64; 3]) -> [f64; 6] {
     let root = std::f64::consts::SQRT_2;
-    [a * a, b * b, c * c, root * a * b, root * a * c, root * b * c]
+    [
+        a * a,
+        b * b,
+        c * c,
+        root * a * b,
+        root * a * c,
+        root * b * c,
+    ]
 }
 
 /// Displacement of a point.

@@ -59,5 +59,10 @@ fn gradients([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     let is_positive = dot(e, cross(f, g)) > 0.0;
     let sixth = if is_positive { 1.0 / 6.0 } else { -1.0 / 6.0 };
     let [b, c, d] = [cross(f, g), cross(g, e), cross(e, f)].map(|it| it.map(|part| sixth * part));
-    [[0, 1, 2].map(|axis| -(b[axis] + c[axis] + d[axis])), b, c, d]
+    [
+        [0, 1, 2].map(|axis| -(b[axis] + c[axis] + d[axis])),
+        b,
+        c,
+        d,
+    ]
 }

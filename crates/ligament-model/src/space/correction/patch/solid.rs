@@ -73,7 +73,11 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
         let body_factor = energy(cloud, forces) / of_bonds.sum::<f64>();
         let place = |point: u32, bond: u32| {
             let bond = bond as usize;
-            let sign = if bonds.ends[bond][0] == point { 1.0 } else { -1.0 };
+            let sign = if bonds.ends[bond][0] == point {
+                1.0
+            } else {
+                -1.0
+            };
             let direction = bonds.direction[bond].map(|cosine| sign * cosine);
             (direction, -0.5 * bonds.length[bond])
         };
