@@ -31,4 +31,4 @@ pub use field::NodeField;
 pub use group::Group;
 pub use mesh::Mesh;
 pub use remark::Remark;
-pub use solid::{Faces, Side, SolidCell, SolidMesh};
+pub use solid::{Faces, OffSurface, Side, SolidCell, SolidMesh};

@@ -3,7 +3,9 @@
 mod cell;
 mod faces;
 mod mesh;
+mod surface;
 
 pub use cell::SolidCell;
 pub use faces::{Faces, Side};
 pub use mesh::SolidMesh;
+pub use surface::OffSurface;

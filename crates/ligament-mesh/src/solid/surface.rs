@@ -1,0 +1,233 @@
+//! What acts on surfaces and curves of a solid mesh, at its nodes.
+
+use std::collections::BTreeMap;
+
+use thiserror::Error;
+
+use super::faces::Faces;
+use super::mesh::SolidMesh;
+use crate::cell::Cell;
+
+/// A face that is none of the outline of the body, on which a pressure could act.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "a pressure acts on the outline of the body, but the face of this group with the nodes {}, around ({:.6}, {:.6}, {:.6}), {}",
+    .nodes.iter().map(u64::to_string).collect::<Vec<_>>().join(", "), .middle[0], .middle[1], .middle[2],
+    if *.cells == 0 { "is the face of no cell" } else { "has cells on both sides" }
+)]
+pub struct OffSurface {
+    /// Tags of the nodes of the face.
+    pub nodes: Vec<u64>,
+    /// Middle of the face, m.
+    pub middle: [f64; 3],
+    /// Number of cells that have the face.
+    pub cells: usize,
+}
+
+impl SolidMesh {
+    /// Outward normals of the outline on some faces times their areas, m², added up at their nodes, ascending. A face that stands
+    /// there twice counts once.
+    ///
+    /// A triangle gives a third to each corner, a quadrangle the mean of what the triangles of its two splits give: force and moment of a
+    /// uniform pressure on a flat face are right.
+    ///
+    /// # Errors
+    ///
+    /// If a face is none of the outline.
+    pub fn outward_areas(&self, faces: &[Cell]) -> Result<Vec<(u32, [f64; 3])>, OffSurface> {
+        let of_cells = Faces::new(&self.cells, self.positions.len());
+        let mut areas: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
+        for face in once(faces) {
+            let sides = of_cells.sides_at(&face);
+            let [side] = sides.as_slice() else {
+                return Err(self.off_surface(&face, sides.len()));
+            };
+            for (corners, weight) in thirds(&side.face) {
+                let area = Cell::Triangle(corners).area_vector(&self.positions);
+                for corner in corners {
+                    let sum = areas.entry(corner).or_default();
+                    *sum = [0, 1, 2].map(|axis| sum[axis] + weight * area[axis]);
+                }
+            }
+        }
+        Ok(areas.into_iter().collect())
+    }
+
+    /// Area that each node of some faces stands for, m², ascending by the nodes; shared as by [`SolidMesh::outward_areas`], but the
+    /// faces may lie inside of the body.
+    pub fn areas_at_nodes(&self, faces: &[Cell]) -> Vec<(u32, f64)> {
+        let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
+        for face in once(faces) {
+            for (corners, weight) in thirds(&face) {
+                let [x, y, z] = Cell::Triangle(corners).area_vector(&self.positions);
+                for corner in corners {
+                    *areas.entry(corner).or_default() += weight * (x * x + y * y + z * z).sqrt();
+                }
+            }
+        }
+        areas.into_iter().collect()
+    }
+
+    /// Length that each node of some edges stands for, m, ascending by the nodes: half of each edge.
+    pub fn lengths_at_nodes(&self, edges: &[[u32; 2]]) -> Vec<(u32, f64)> {
+        let mut edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let mut lengths: BTreeMap<u32, f64> = BTreeMap::new();
+        for edge in edges {
+            let [p, q] = edge.map(|node| self.positions[node as usize]);
+            let squares = (0..3).map(|axis| (q[axis] - p[axis]).powi(2));
+            let half = 0.5 * squares.sum::<f64>().sqrt();
+            for node in edge {
+                *lengths.entry(node).or_default() += half;
+            }
+        }
+        lengths.into_iter().collect()
+    }
+
+    /// Marks of the nodes on the outline, those of faces that one cell has alone, shape (n_nodes).
+    pub fn is_on_outline(&self) -> Vec<bool> {
+        let mut marked = vec![false; self.positions.len()];
+        for side in Faces::new(&self.cells, self.positions.len()).outer() {
+            for &node in side.face.corners() {
+                marked[node as usize] = true;
+            }
+        }
+        marked
+    }
+
+    fn off_surface(&self, face: &Cell, cells: usize) -> OffSurface {
+        let corners = face.corners();
+        let mean = |axis: usize| {
+            let sum: f64 = corners
+                .iter()
+                .map(|&node| self.positions[node as usize][axis])
+                .sum();
+            sum / corners.len() as f64
+        };
+        OffSurface {
+            nodes: corners
+                .iter()
+                .map(|&node| self.node_tags[node as usize])
+                .collect(),
+            middle: [0, 1, 2].map(mean),
+            cells,
+        }
+    }
+}
+
+/// The faces, each once.
+fn once(faces: &[Cell]) -> Vec<Cell> {
+    let key = |face: &Cell| {
+        let mut key = [u32::MAX; 4];
+        key[..face.corners().len()].copy_from_slice(face.corners());
+        key.sort_unstable();
+        key
+    };
+    let mut faces = faces.to_vec();
+    faces.sort_by_key(key);
+    faces.dedup_by_key(|face| key(face));
+    faces
+}
+
+/// The triangles of a face, of a quadrangle those of both splits, and the part of each that one of its corners takes.
+fn thirds(face: &Cell) -> Vec<([u32; 3], f64)> {
+    match *face {
+        Cell::Triangle(corners) => vec![(corners, 1.0 / 3.0)],
+        Cell::Quadrangle([a, b, c, d]) => [[a, b, c], [a, c, d], [b, c, d], [b, d, a]]
+            .map(|corners| (corners, 1.0 / 6.0))
+            .to_vec(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solid::SolidCell;
+
+    /// A frustum of a pyramid, from a square of side 4 to one of side 2 at a height of 3, and a tetrahedron below it.
+    fn frustum() -> SolidMesh {
+        let at = |half: f64, z: f64| {
+            [
+                [-half, -half, z],
+                [half, -half, z],
+                [half, half, z],
+                [-half, half, z],
+            ]
+        };
+        let mut positions = [at(2.0, 0.0), at(1.0, 3.0)].concat();
+        positions.push([0.0, 0.0, -2.0]);
+        SolidMesh {
+            node_tags: (11..20).collect(),
+            positions,
+            cells: vec![
+                SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]),
+                SolidCell::Pyramid([0, 3, 2, 1, 8]),
+            ],
+            ..SolidMesh::default()
+        }
+    }
+
+    /// Force and moment of a unit pressure on a trapezium, by hand: its middle lies (b + 2a)/(3(a + b)) of the height over its base.
+    #[test]
+    fn a_pressure_keeps_force_and_moment() {
+        let mesh = frustum();
+        let side = [
+            Cell::Quadrangle([5, 4, 0, 1]),
+            Cell::Quadrangle([0, 1, 5, 4]),
+        ];
+        let areas = mesh.outward_areas(&side).expect("faces of the outline");
+        let nodes: Vec<u32> = areas.iter().map(|(node, _)| *node).collect();
+        assert_eq!(nodes, [0, 1, 4, 5]);
+        let mut force = [0.0; 3];
+        let mut moment = 0.0;
+        for (node, area) in &areas {
+            force = [0, 1, 2].map(|axis| force[axis] + area[axis]);
+            moment += area[1] * mesh.positions[*node as usize][2];
+        }
+        // Mean side 3, height 3 in z, and a rise of 1 outwards.
+        assert_eq!(force[0], 0.0);
+        assert!(
+            (force[1] + 9.0).abs() < 1e-14 && (force[2] - 3.0).abs() < 1e-14,
+            "{force:?}"
+        );
+        assert!((moment + 9.0 * 4.0 / 3.0).abs() < 1e-14, "{moment}");
+        let area: f64 = mesh
+            .areas_at_nodes(&side)
+            .iter()
+            .map(|(_, area)| area)
+            .sum();
+        assert!((area - 90.0_f64.sqrt()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn faces_inside_or_of_no_cell_are_named() {
+        let mesh = frustum();
+        let refusal = |face: Cell| {
+            mesh.outward_areas(&[face])
+                .expect_err("no face of the outline")
+        };
+        let inside = refusal(Cell::Quadrangle([0, 1, 2, 3]));
+        assert_eq!(
+            (inside.cells, inside.nodes, inside.middle),
+            (2, vec![11, 12, 13, 14], [0.0; 3])
+        );
+        let none = refusal(Cell::Triangle([0, 1, 2]));
+        assert!(
+            none.cells == 0 && none.to_string().contains("11, 12, 13"),
+            "{none}"
+        );
+        assert_eq!(
+            mesh.areas_at_nodes(&[Cell::Quadrangle([0, 1, 2, 3])]),
+            [(0, 4.0), (1, 4.0), (2, 4.0), (3, 4.0)]
+        );
+    }
+
+    #[test]
+    fn edges_give_half_of_their_length() {
+        let mesh = frustum();
+        let lengths = mesh.lengths_at_nodes(&[[0, 1], [2, 1], [1, 0]]);
+        assert_eq!(lengths, [(0, 2.0), (1, 4.0), (2, 2.0)]);
+        assert_eq!(mesh.is_on_outline(), [true; 9]);
+    }
+}
