@@ -58,8 +58,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
-        "28:18: support.1.displacement.z: unknown key `z` in `support.1.displacement`; valid keys: \
-         `x`, `y`, `rotation`"
+        "28:16: support.1.displacement: a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids"
     );
     assert!(error_with("[output]", "[outputt]").starts_with(
         "57:2: outputt: unknown key `outputt` in the case file; did you mean `output`?"
@@ -98,7 +97,7 @@ fn the_solver_is_auto_or_a_table_of_its_keys() {
     assert_eq!(
         error_with_solver("[solver]\nfactorization = \"llt\""),
         "4:1: solver.factorization: unknown key `factorization` in [solver]; did you mean \
-         `factorisation`? valid keys: `factorisation`, `ordering`, `update`, `rebuild_every`, \
+         `factorisation`? valid keys: `method`, `tolerance`, `factorisation`, `ordering`, `update`, `rebuild_every`, \
          `threads`, `memory`"
     );
     for (setting, message) in [
@@ -385,7 +384,7 @@ fn keys_that_exclude_each_other_are_listed() {
             "displacement = { y = -4.0e-4 }",
             "force = { y = 1 }\nforce_per_length = { y = 1 }"
         ),
-        "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, \
+        "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, `force_per_area`, \
          `body_force`, `acceleration`, `moment`, `body_couple`, `pressure`; found `force`, `force_per_length`"
     );
 }
