@@ -41,7 +41,15 @@ const ARROWS: [(&str, &[&str]); 14] = [
             "ligament-output",
         ],
     ),
-    ("ligament-plot", &["ligament", "ligament-output"]),
+    (
+        "ligament-plot",
+        &[
+            "ligament",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+        ],
+    ),
     ("ligament-report", &["ligament-output", "ligament-plot"]),
     (
         "ligament-study",

@@ -8,7 +8,9 @@ use ligament_cli::explain::{self, Position, Subject};
 use ligament_plot::picture::Target as Picture;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
-use ligament_plot::picture::{CrackDrawing, FieldRequest, Magnification, draw_fields};
+use ligament_plot::picture::{
+    CrackDrawing, FieldRequest, Magnification, SolidRequest, draw_fields,
+};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use ligament_study::calibrate::line;
@@ -132,6 +134,7 @@ impl Results {
             range: None,
             map: None,
             columns: None,
+            solid: SolidRequest::default(),
             target: target(),
         });
         let curves = draw_curves(&CurveRequest {

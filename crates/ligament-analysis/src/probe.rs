@@ -35,11 +35,11 @@ pub enum Reading {
         /// Field.
         field: PointField,
     },
-    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N. Only bonds of two points
-    /// count.
+    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N; in space through a plane, what
+    /// the part before it exerts on the part behind. Only bonds of two points count.
     SectionForce {
-        /// Bonds that cross the line, ascending, and whether their first end lies on the left; bonds that pre-cracks cut are numbered on
-        /// from the others.
+        /// Bonds that cross the line, ascending, and whether their first end lies on the left or behind; bonds that pre-cracks cut are
+        /// numbered on from the others.
         bonds: Vec<(u32, bool)>,
         /// Component: x or y.
         component: Component,

@@ -11,10 +11,13 @@ use ligament_analysis::{
     Attempt, Bonds, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
 };
 use ligament_model::correction::patch::{self, CellForces};
+use ligament_model::layout::Layout;
 use ligament_model::moduli::EngineeringConstants;
 use ligament_model::uniform_strain::{self, UniformStrains};
 use ligament_model::{BondSystem, Elasticity, Plane};
 use thiserror::Error;
+
+pub use crate::space::patch_test::{SolidPatchTest, solid_patch_test};
 
 use crate::body::Origin;
 use crate::error::SetupError;
@@ -25,7 +28,7 @@ use crate::run::Unobserved;
 use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};
 
 /// Strains that the body is given: so small that strains over distances after the deformation are none others.
-const SIZE: f64 = 1e-6;
+pub(crate) const SIZE: f64 = 1e-6;
 
 /// What a body makes of uniform strains.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,7 +119,7 @@ fn displacements(
     forces: &CellForces,
 ) -> Result<[Vec<f64>; 3], Untested> {
     let [along_x, along_y, in_shear] =
-        uniform_strain::loads(system, forces).map(|force| loading(system, force));
+        uniform_strain::loads(system, forces).map(|force| free_loading(system.layout(), force));
     let problem = Problem {
         system: system.clone(),
         criteria: Arc::default(),
@@ -142,7 +145,7 @@ fn displacements(
 }
 
 /// Forces (n_degrees_of_freedom) on a body that nothing holds.
-fn loading(system: &BondSystem, force: Vec<f64>) -> Arc<ProportionalLoading> {
+pub(crate) fn free_loading(layout: Layout, force: Vec<f64>) -> Arc<ProportionalLoading> {
     let control = Control {
         kind: ControlKind::Force,
         points: Vec::new(),
@@ -151,7 +154,7 @@ fn loading(system: &BondSystem, force: Vec<f64>) -> Arc<ProportionalLoading> {
     };
     Arc::new(ProportionalLoading {
         force,
-        ..ProportionalLoading::new(system.layout(), control)
+        ..ProportionalLoading::new(layout, control)
     })
 }
 

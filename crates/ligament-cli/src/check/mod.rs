@@ -10,6 +10,7 @@ mod modal;
 mod model;
 mod patch_test;
 mod restraints;
+mod solid_patch_test;
 mod told;
 
 use std::io::{self, Write};

@@ -8,7 +8,7 @@ use ligament::{Model, Setup};
 use ligament_model::Material;
 use ligament_run::stages::Stages;
 
-use super::{Extent, criteria, model, patch_test};
+use super::{Extent, criteria, model, patch_test, solid_patch_test};
 
 /// What is told of a model in D dimensions.
 pub(super) trait Told<const D: usize>
@@ -72,11 +72,11 @@ impl Told<3> for Dim {
     }
 
     fn patch_test(
-        _: &mut dyn Write,
-        _: Extent,
-        _: &Model<3>,
-        _: &mut Stages,
+        out: &mut dyn Write,
+        extent: Extent,
+        model: &Model<3>,
+        stages: &mut Stages,
     ) -> anyhow::Result<()> {
-        Ok(())
+        Ok(solid_patch_test::write(out, extent, model, stages)?)
     }
 }

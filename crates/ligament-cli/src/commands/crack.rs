@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_model::surfaces::CrackSurface;
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
@@ -103,43 +104,7 @@ impl CrackArgs {
         let steps = choice.steps(&self.results, &cracks.steps())?;
         let step = steps.first().map_or(0, |it| it.step);
         let surface = write_surface(&self.results, &cracks, step)?;
-        let parts = surface.parts();
-        let (area, count) = (quantity(surface.area(), "m^2"), parts.len());
-        writeln!(
-            out,
-            "step {step}: crack surface of {area} in {count} part(s)"
-        )?;
-        if let Some(plane) = surface.best_plane() {
-            let [x, y, z] = plane.normal.map(|it| format!("{it:.3}"));
-            let away = quantity(plane.largest_distance, "m");
-            writeln!(
-                out,
-                "  best plane with the normal ({x}, {y}, {z}): the surface is {away} from it at most"
-            )?;
-        }
-        for (number, part) in (1..).zip(&parts).take(TOLD) {
-            let [low, high] = part.extent;
-            let sides = [0, 1, 2].map(|axis| quantity(high[axis] - low[axis], "m"));
-            let precrack = match part.precrack > 0.0 {
-                true => format!(", with {} of a pre-crack", quantity(part.precrack, "m^2")),
-                false => String::new(),
-            };
-            let area = quantity(part.area, "m^2");
-            writeln!(
-                out,
-                "  {number:<3} {area}, extent {}{precrack}",
-                sides.join(" x ")
-            )?;
-        }
-        if count > TOLD {
-            let rest = parts[TOLD..].iter().map(|it| it.area).sum::<f64>();
-            writeln!(
-                out,
-                "  and {} smaller parts of {} together",
-                count - TOLD,
-                quantity(rest, "m^2")
-            )?;
-        }
+        tell(&mut out, step, &surface)?;
         let names = SURFACE_FILES
             .into_iter()
             .filter(|it| self.results.join(it).is_file());
@@ -151,4 +116,46 @@ impl CrackArgs {
             self.results.display()
         )?)
     }
+}
+
+/// Tells area, plane and parts of a surface.
+fn tell(out: &mut dyn Write, step: usize, surface: &CrackSurface) -> std::io::Result<()> {
+    let parts = surface.parts();
+    let (area, count) = (quantity(surface.area(), "m^2"), parts.len());
+    writeln!(
+        out,
+        "step {step}: crack surface of {area} in {count} part(s)"
+    )?;
+    if let Some(plane) = surface.best_plane() {
+        let [x, y, z] = plane.normal.map(|it| format!("{it:.3}"));
+        let away = quantity(plane.largest_distance, "m");
+        writeln!(
+            out,
+            "  best plane with the normal ({x}, {y}, {z}): the surface is {away} from it at most"
+        )?;
+    }
+    for (number, part) in (1..).zip(&parts).take(TOLD) {
+        let [low, high] = part.extent;
+        let sides = [0, 1, 2].map(|axis| quantity(high[axis] - low[axis], "m"));
+        let precrack = match part.precrack > 0.0 {
+            true => format!(", with {} of a pre-crack", quantity(part.precrack, "m^2")),
+            false => String::new(),
+        };
+        let area = quantity(part.area, "m^2");
+        writeln!(
+            out,
+            "  {number:<3} {area}, extent {}{precrack}",
+            sides.join(" x ")
+        )?;
+    }
+    if count > TOLD {
+        let rest = parts[TOLD..].iter().map(|it| it.area).sum::<f64>();
+        writeln!(
+            out,
+            "  and {} smaller parts of {} together",
+            count - TOLD,
+            quantity(rest, "m^2")
+        )?;
+    }
+    Ok(())
 }

@@ -13,7 +13,8 @@ use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
 use ligament_plot::picture::{
-    CrackDrawing, FieldRequest, Format, Magnification, Target, animate, draw_each, draw_fields,
+    CrackDrawing, FieldRequest, Format, Magnification, Section, SolidRequest, Target, View,
+    animate, draw_each, draw_fields,
 };
 
 pub(super) const EXAMPLES: &str = "\
@@ -27,6 +28,9 @@ Examples:
   ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
   ligament plot results/disk --animate crack.gif --field damage --fps 12
   ligament plot results/plate-modes                         the first six modes
+  ligament plot results/beam --view -40,20 --crack          a solid, opened along its crack
+  ligament plot results/beam --crack=lines --out crack.png  the crack of a solid as a surface, by its opening
+  ligament plot results/beam --section z=0.05 --field stress_virial.xx
 
 Fields are those of the VTU files: of a vector the norm, or NAME.x and NAME.y; of a stress NAME.xx
 and so on. A name that does not exist lists those that do. Values are in SI units.";
@@ -54,7 +58,8 @@ pub struct PlotArgs {
     #[arg(long, value_name = "FACTOR", default_value = "auto", allow_negative_numbers = true, value_parser = magnification)]
     pub scale: Magnification,
     /// Draw cracks: `bonds`, the broken bonds coloured by criterion, with those that a pre-crack cut; `lines`, the crack path with
-    /// its tips and the pre-cracks, on the undeformed body with axes in mm [without a value: bonds]
+    /// its tips and the pre-cracks, on the undeformed body with axes in mm; of a solid `bonds`, the cells opened along the crack, and
+    /// `lines`, the crack surface by its opening [without a value: bonds]
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "bonds", value_parser = crack_drawings())]
     pub crack: Option<CrackDrawing>,
     /// Draw the lines of a CSV file x,y in m over the undeformed body; empty rows part lines
@@ -63,6 +68,15 @@ pub struct PlotArgs {
     /// Draw this part of the deformed body alone, m
     #[arg(long = "box", value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = window)]
     pub window: Option<[[f64; 2]; 2]>,
+    /// See a solid from x, y, z, iso, or AZIMUTH,ELEVATION in degrees [default: iso; a section from its normal]
+    #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
+    pub view: Option<View>,
+    /// Draw the section of a solid by a plane: x=0.05, y=.. or z=.. in m, or a point and a normal PX,PY,PZ,NX,NY,NZ
+    #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
+    pub section: Option<Section>,
+    /// Draw the surface in a solid on which the field has this value, in SI units
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, conflicts_with = "section", value_parser = number)]
+    pub iso: Option<f64>,
     /// Bands of colour [default: about 16, with round levels]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256))]
     pub levels: Option<u32>,
@@ -76,7 +90,7 @@ pub struct PlotArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub columns: Option<u32>,
     /// Draw curves over the load history in place of bodies: reaction over displacement
-    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "lines", "window", "levels", "range", "map", "columns"])]
+    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "lines", "window", "levels", "range", "map", "columns", "view", "section", "iso"])]
     pub curve: bool,
     /// Column of history.csv along x
     #[arg(
@@ -159,6 +173,11 @@ impl PlotArgs {
                 range: self.range,
                 map: self.map,
                 columns: self.columns.map(|it| it as usize),
+                solid: SolidRequest {
+                    view: self.view,
+                    section: self.section,
+                    level: self.iso,
+                },
                 target,
             };
             match self.animate {

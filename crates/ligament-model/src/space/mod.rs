@@ -41,6 +41,7 @@ pub mod soundness;
 pub mod stress;
 mod sweep;
 pub mod system;
+pub mod uniform_strain;
 mod vector;
 
 pub use element::SolidElement;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
-use super::crack::CrackSurface;
+use super::surface::CrackSurface;
 
 /// A connected part of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::crack::CrackSurface;
 use super::measures::area_vector;
+use super::surface::CrackSurface;
 
 /// Sweeps over all places: traces up to some four edges long disappear.
 const SWEEPS: usize = 20;

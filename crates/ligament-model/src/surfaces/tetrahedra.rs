@@ -1,8 +1,5 @@
 //! The tetrahedra between the points of a solid.
 
-use super::lattice;
-use crate::grid::{BodyGrid, Canvas};
-
 /// Tetrahedra whose corners are nodes, and the points that nodes belong to.
 ///
 /// In a mesh a node is a point. On a lattice a point at the outside has more nodes, on the faces of its box, so that surfaces reach
@@ -25,26 +22,6 @@ pub struct Tetrahedra {
 pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
 impl Tetrahedra {
-    /// The tetrahedra of a body; none in the plane, and of boxes that do not fit together.
-    pub fn new(grid: &BodyGrid) -> Self {
-        match &grid.canvas {
-            Canvas::Solid(cells) => {
-                let numbered = (0..).zip(cells);
-                let all = numbered.flat_map(|(cell, it)| it.tetrahedra().map(move |of| (of, cell)));
-                let (corners, cells) = all.unzip();
-                Self {
-                    nodes: grid.positions.clone(),
-                    points: (0..grid.positions.len() as u32).collect(),
-                    corners,
-                    cells,
-                    held: vec![false; grid.positions.len()],
-                }
-            }
-            Canvas::Boxes(boxes) => lattice::between_boxes(boxes),
-            Canvas::Between(_) | Canvas::Around(_) => Self::default(),
-        }
-    }
-
     /// Those that have an edge between two points for which this holds, with the same nodes.
     pub fn with_edges(&self, is_meant: impl Fn([u32; 2]) -> bool) -> Self {
         let mut held = self.held.clone();

@@ -87,7 +87,7 @@ impl SolidCracks {
     }
 
     /// What connects the points in the state of a step, or of the last one before it.
-    pub(super) fn links(&self, step: usize) -> Links {
+    pub fn links(&self, step: usize) -> Links {
         let until = self.records.iter().take_while(|it| it.step <= step);
         let mut links = self.at_first.clone();
         if let Some(record) = until.last() {
@@ -100,6 +100,34 @@ impl SolidCracks {
     /// The crack in the state of a step, smoothed.
     pub fn surface(&self, step: usize) -> CrackSurface {
         crack_surface(&self.tetrahedra, &self.links(step)).smoothed()
+    }
+
+    /// The tetrahedra in which something is cut at some time.
+    pub fn tetrahedra(&self) -> &Tetrahedra {
+        &self.tetrahedra
+    }
+
+    /// Opening and sliding at each place of a surface for displacements of the points (n_points, m), shape (n_places), m: the jump
+    /// along the normal of the surface and in it, the mean over the pairs that are parted there; positive openings part.
+    pub fn jumps(&self, surface: &CrackSurface, displacement: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        let positions = &self.body.grid.positions;
+        let places = surface.parted.iter().zip(surface.normals());
+        let of_place = |(pairs, normal): (&Vec<[u32; 2]>, [f64; 3])| {
+            let along = |vector: [f64; 3]| -> f64 { (0..3).map(|k| vector[k] * normal[k]).sum() };
+            let of_pair = |pair: &[u32; 2]| {
+                let [a, b] = pair.map(|it| it as usize);
+                let less = |of: &[[f64; 3]]| [0, 1, 2].map(|k| of[b][k] - of[a][k]);
+                let (jump, from) = (less(displacement), less(positions));
+                let across = along(jump);
+                let square: f64 = jump.iter().map(|it| it * it).sum();
+                let opening = if along(from) < 0.0 { -across } else { across };
+                [opening, (square - across * across).max(0.0).sqrt()]
+            };
+            let count = pairs.len() as f64;
+            let all: Vec<[f64; 2]> = pairs.iter().map(of_pair).collect();
+            [0, 1].map(|place| all.iter().map(|it| it[place]).sum::<f64>() / count)
+        };
+        places.map(of_place).collect()
     }
 
     /// Step in which each pair parted.

@@ -112,7 +112,7 @@ fn write_grid(
         return remove_file(path);
     }
     let jumps = match fields {
-        Some(file) => jumps(cracks, surface, &cracks.body.vectors(file, "displacement")?),
+        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, "displacement")?),
         None => vec![[f64::NAN; 2]; surface.places.len()],
     };
     let [opening, sliding]: [Vec<f64>; 2] =
@@ -153,28 +153,6 @@ fn write_grid(
         ],
     };
     vtu::write_vtu(path, &grid)
-}
-
-/// Opening and sliding at each place, shape (n_places), m.
-fn jumps(cracks: &SolidCracks, surface: &CrackSurface, displacement: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    let positions = &cracks.body.grid.positions;
-    let places = surface.parted.iter().zip(surface.normals());
-    let of_place = |(pairs, normal): (&Vec<[u32; 2]>, [f64; 3])| {
-        let along = |vector: [f64; 3]| -> f64 { (0..3).map(|k| vector[k] * normal[k]).sum() };
-        let of_pair = |pair: &[u32; 2]| {
-            let [a, b] = pair.map(|it| it as usize);
-            let less = |of: &[[f64; 3]]| [0, 1, 2].map(|k| of[b][k] - of[a][k]);
-            let (jump, from) = (less(displacement), less(positions));
-            let across = along(jump);
-            let square: f64 = jump.iter().map(|it| it * it).sum();
-            let opening = if along(from) < 0.0 { -across } else { across };
-            [opening, (square - across * across).max(0.0).sqrt()]
-        };
-        let count = pairs.len() as f64;
-        let all: Vec<[f64; 2]> = pairs.iter().map(of_pair).collect();
-        [0, 1].map(|place| all.iter().map(|it| it[place]).sum::<f64>() / count)
-    };
-    places.map(of_place).collect()
 }
 
 /// The surface as binary STL: 80 bytes of words, the number of triangles, and of each its normal and corners as single numbers.

@@ -44,9 +44,10 @@ impl Field {
         let all = file.required_numbers(location, base)?;
         let values = match (part, count) {
             (None, 1) => all,
-            (None | Some("magnitude"), 3) if names.is_empty() => {
-                all.chunks_exact(3).map(|v| v[0].hypot(v[1])).collect()
-            }
+            (None | Some("magnitude"), 3) if names.is_empty() => all
+                .chunks_exact(3)
+                .map(|v| v[0].hypot(v[1]).hypot(v[2]))
+                .collect(),
             (part, _) => {
                 let known = component_names(count, names);
                 let place = part.and_then(|part| known.iter().position(|it| it == part));
@@ -79,7 +80,7 @@ fn component_names(count: usize, names: &[String]) -> Vec<String> {
     match (count, names) {
         (1, _) => Vec::new(),
         // The third component of a vector in the plane is zero.
-        (3, []) => ["x", "y", "magnitude"].map(str::to_owned).to_vec(),
+        (3, []) => ["x", "y", "z", "magnitude"].map(str::to_owned).to_vec(),
         (_, []) => (0..count).map(|it| it.to_string()).collect(),
         _ => names.to_vec(),
     }
@@ -111,7 +112,7 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
 /// SI unit of a field of the results, without its component; `-` for a number without a unit.
 pub fn unit_of(field: &str) -> &'static str {
     match field {
-        "displacement" | "horizon" | "nearest_distance" => "m",
+        "displacement" | "horizon" | "nearest_distance" | "opening" | "sliding" => "m",
         "rotation" => "rad",
         "reaction" => "N",
         "strain_energy_density" | "dissipated_energy_density" => "J/m^3",

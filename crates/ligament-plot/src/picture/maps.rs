@@ -125,6 +125,7 @@ impl Maps {
                 relate_to_largest(&mut field);
             }
             Panel {
+                solid: None,
                 title: vec![[it.title.clone(), it.title.clone()]],
                 positions: it.body.deformed(factor),
                 body: it.body.clone(),

@@ -24,6 +24,7 @@ pub mod profile;
 mod request;
 pub mod select;
 mod series;
+mod solid;
 mod source;
 mod strip;
 mod style;
@@ -40,8 +41,9 @@ pub use field::unit_of;
 pub use fields::draw_fields;
 pub use lines::stored_precracks;
 pub use of_run::{asks_for_pictures, draw_run};
-pub use request::{CrackDrawing, FieldRequest, Magnification};
+pub use request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
 pub use series::{animate, draw_each};
+pub use solid::{Section, View};
 pub use target::{Format, Target};
 
 use crate::plots::PlotError;
@@ -106,6 +108,15 @@ pub enum PictureError {
     /// A solid in a kind of picture that shows bodies in the plane.
     #[error("{0} draws bodies in the plane, and this one is a solid")]
     Solid(&'static str),
+    /// A view, section or level for a body in the plane.
+    #[error("{0} has a body in the plane; --view, --section and --iso are for solids")]
+    Plane(PathBuf),
+    /// A level without a field.
+    #[error("--iso needs a field of the points: name one with --field")]
+    NoLevel,
+    /// Lines over a solid.
+    #[error("--with-lines and --box are for bodies in the plane, and this one is a solid")]
+    LinesOfSolid,
     /// There is no history to choose or to draw from in the folder.
     #[error("{0} has no history.csv with the outputs, so none can be chosen by the displacement")]
     NoHistory(PathBuf),

@@ -7,7 +7,7 @@ use ligament_output::results::outputs::{OutputKind, kind_of};
 use super::PictureError;
 use super::curve::{CurveRequest, draw_curves};
 use super::fields::draw_fields;
-use super::request::{FieldRequest, Magnification};
+use super::request::{FieldRequest, Magnification, SolidRequest};
 use super::select::Choice;
 use super::target::Target;
 use crate::stored_loading::resolved_case;
@@ -46,6 +46,7 @@ pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
         range: None,
         map: None,
         columns: None,
+        solid: SolidRequest::default(),
         target: target.clone(),
     })?];
     let breaks = resolved_case(folder)?.contains_key("fracture");

@@ -10,6 +10,7 @@ use super::field::Field;
 use super::joined::Joined;
 use super::levels::{Levels, Rule, has_both_signs};
 use super::lines::Lines;
+use super::solid::{Scene, View};
 use super::svg::{Document, Paint, PathData};
 
 /// Colour of a body without a field, and of what has no value.
@@ -42,6 +43,19 @@ pub(super) struct Panel {
     pub(super) broken: Vec<(String, Vec<[[f64; 2]; 2]>)>,
     /// Lines over the body.
     pub(super) lines: Vec<Lines>,
+    /// What is drawn of a solid in place of the body's cells.
+    pub(super) solid: Option<Seen>,
+}
+
+/// A solid as it is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Seen {
+    /// What is drawn.
+    pub(super) scene: Scene,
+    /// The side that it is seen from.
+    pub(super) view: View,
+    /// Factor on the displacements.
+    pub(super) factor: f64,
 }
 
 /// The colours of a field.
@@ -93,7 +107,8 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    fn to_pixels(self, [x, y]: [f64; 2]) -> [f64; 2] {
+    /// A place in pixels.
+    pub(super) fn to_pixels(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.at[0] + (x - self.low[0]) * self.scale,
             self.at[1] + (self.high[1] - y) * self.scale,
@@ -107,7 +122,8 @@ impl Frame {
         })
     }
 
-    fn add(&self, path: &mut PathData, outline: &[[f64; 2]]) {
+    /// Adds the outline of a polygon that reaches into the frame.
+    pub(super) fn add(&self, path: &mut PathData, outline: &[[f64; 2]]) {
         if self.meets(outline) && outline.iter().flatten().all(|it| it.is_finite()) {
             path.outline(outline.iter().map(|&point| self.to_pixels(point)));
         }
@@ -118,6 +134,10 @@ impl Panel {
     /// Draws it into a frame of a document.
     pub(super) fn draw(&self, document: &mut Document, frame: Frame, scale: Option<&Scale>) {
         let field = self.field.as_ref().zip(scale);
+        if let Some(solid) = &self.solid {
+            (solid.scene).draw(document, (frame, scale), solid.view, solid.factor);
+            return;
+        }
         match field {
             Some((field, scale)) if field.location == FieldLocation::Cell => {
                 self.draw_cells(document, frame, Some((field, scale)));

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::Target;
 use super::colour_map::ColourMap;
 use super::select::Choice;
+use super::solid::{Section, View};
 
 /// Width of a column and of a page of a paper, mm.
 pub(super) const WIDTHS: [f64; 2] = [90.0, 180.0];
@@ -31,6 +32,30 @@ impl FieldRequest {
     /// Whether lines are drawn over the body, which then is undeformed.
     pub(super) fn has_lines(&self) -> bool {
         self.crack == Some(CrackDrawing::Lines) || !self.lines.is_empty()
+    }
+}
+
+/// What is drawn of solids, and from where.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SolidRequest {
+    /// The side from which they are seen; None: obliquely, a section from its normal.
+    pub view: Option<View>,
+    /// A plane, of which the section is drawn.
+    pub section: Option<Section>,
+    /// A value of the field; where it has it is drawn.
+    pub level: Option<f64>,
+}
+
+impl SolidRequest {
+    /// The side from which solids are seen.
+    pub(super) fn seen_from(&self) -> View {
+        let of_section = || self.section.map(|it| View::along(it.normal));
+        self.view.or_else(of_section).unwrap_or(View::OBLIQUE)
+    }
+
+    /// Whether something is asked for that only solids have.
+    pub(super) fn is_asked(&self) -> bool {
+        *self != Self::default()
     }
 }
 
@@ -62,6 +87,8 @@ pub struct FieldRequest {
     pub map: Option<ColourMap>,
     /// Bodies in a row.
     pub columns: Option<usize>,
+    /// What is drawn of solids.
+    pub solid: SolidRequest,
     /// Size and file.
     pub target: Target,
 }

@@ -3,22 +3,25 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use ligament_output::FieldLocation;
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::four_digits;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::outputs::{OutputKind, Outputs};
+use ligament_output::results::solid_body::is_solid;
+use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
 use ligament_output::vtu::read::VtuFile;
 
 use super::body::{Body, MODE_SHARE};
 use super::crack::{self, Crack};
 use super::field::{Field, NONE, relate_to_largest};
 use super::lines::Lines;
-use super::panel::Panel;
-use super::request::{CrackDrawing, FieldRequest, Magnification};
+use super::panel::{Panel, Seen};
+use super::request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
 use super::select::{Choice, Chosen, Moment, chosen, moments};
 use super::strip::Entry;
 use super::units::Shown;
-use super::{PictureError, labels_of};
+use super::{PictureError, labels_of, solid};
 use crate::stored_loading::stored_loading;
 
 /// What titles and legends call a step in which bonds were still failing.
@@ -36,6 +39,12 @@ pub(super) struct Source {
     lines: Vec<Lines>,
     /// Cracks that are drawn as lines.
     cracks: Option<StoredCracks>,
+    /// Cracks of a solid that are drawn.
+    solid_cracks: Option<SolidCracks>,
+    /// How cracks are drawn.
+    drawing: Option<CrackDrawing>,
+    /// What is drawn of solids.
+    solid: SolidRequest,
     /// Whether broken bonds are drawn. A pre-crack in a mesh, whose cells hide it, is drawn in any case.
     shows_broken: bool,
     /// Frequencies of modes by number, Hz.
@@ -97,7 +106,9 @@ impl Subject {
         {
             return Err(PictureError::MovedLines(factor));
         }
+        let has_surface = sources.iter().any(|it| it.solid_cracks.is_some());
         let default = match request.crack {
+            Some(CrackDrawing::Lines) if has_surface => "opening",
             Some(CrackDrawing::Lines) => NONE,
             _ => default_field(&sources),
         };
@@ -139,6 +150,9 @@ impl Source {
             crack: None,
             lines: Vec::new(),
             cracks: None,
+            solid_cracks: None,
+            drawing: request.crack,
+            solid: request.solid,
             shows_broken: request.crack == Some(CrackDrawing::Bonds),
             frequencies: BTreeMap::new(),
         };
@@ -167,6 +181,10 @@ impl Source {
                 Shown::new(it.units.force, largest(|it| it.reaction)),
             ]
         });
+        if request.crack.is_some() && has_solid(folder)? {
+            source.solid_cracks = Some(SolidCracks::open(folder)?);
+            return Ok(source);
+        }
         let follows_path = loading.is_some_and(|it| it.follows_path);
         source.crack = Some(Crack::read(folder, follows_path, source.shows_broken)?);
         if request.crack == Some(CrackDrawing::Lines) {
@@ -253,6 +271,12 @@ impl Output<'_> {
     /// The undeformed body with a field.
     pub(super) fn panel(&self, field: &str) -> Result<Panel, PictureError> {
         let file = VtuFile::open(&self.chosen.path)?;
+        if is_solid(&file)? {
+            return self.solid_panel(&file, field);
+        }
+        if self.source.solid.is_asked() {
+            return Err(PictureError::Plane(self.source.outputs.folder.clone()));
+        }
         let is_drawn = field != NONE;
         let mut field = is_drawn.then(|| Field::read(&file, field)).transpose()?;
         if self.source.outputs.kind == OutputKind::Modes {
@@ -265,6 +289,37 @@ impl Output<'_> {
             field,
             broken: Vec::new(),
             lines: self.lines(),
+            solid: None,
+        })
+    }
+
+    /// The undeformed solid with a field, as seen.
+    fn solid_panel(&self, file: &VtuFile, field: &str) -> Result<Panel, PictureError> {
+        let source = self.source;
+        if !source.lines.is_empty() {
+            return Err(PictureError::LinesOfSolid);
+        }
+        let cracks = source.solid_cracks.as_ref();
+        let cracks = cracks.map(|it| (it, self.chosen.number));
+        let drawn = (&source.solid, source.drawing);
+        let (scene, mut field) = solid::read(file, field, drawn, cracks)?;
+        if source.outputs.kind == OutputKind::Modes {
+            field.iter_mut().for_each(relate_to_largest);
+        }
+        let view = source.solid.seen_from();
+        let [reference, displacement] = scene.seen(view);
+        Ok(Panel {
+            title: self.title(),
+            positions: Vec::new(),
+            body: Body::new(reference, displacement, Vec::new(), FieldLocation::Cell),
+            field,
+            broken: Vec::new(),
+            lines: Vec::new(),
+            solid: Some(Seen {
+                scene,
+                view,
+                factor: 0.0,
+            }),
         })
     }
 
@@ -279,6 +334,9 @@ impl Output<'_> {
     pub(super) fn deformed(&self, mut panel: Panel, magnification: Option<f64>) -> Panel {
         let factor = magnification.unwrap_or_else(|| panel.body.scale_for_share(MODE_SHARE));
         let positions = panel.body.deformed(factor);
+        if let Some(solid) = &mut panel.solid {
+            solid.factor = factor;
+        }
         let line = |ends: [i64; 2]| {
             let [a, b] = ends.map(|tag| panel.body.place(tag, &positions));
             Some([a?, b?])

@@ -84,7 +84,7 @@ impl<'a> Style<'a> {
             columns: self.request.columns,
             title: self.title.clone(),
             room,
-            has_axes: self.request.has_lines(),
+            has_axes: self.request.has_lines() && panels.iter().all(|it| it.solid.is_none()),
             panels,
         };
         strip.to_svg(self.request.target.width.unwrap_or(width) * PIXELS_PER_MM)

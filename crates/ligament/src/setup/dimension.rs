@@ -70,7 +70,7 @@ pub trait Dimension<const D: usize>: 'static {
     /// The points of a system.
     fn cloud(system: &Self::System) -> &PointCloud<D>;
 
-    /// Bonds through a [section](super::Reading::Section), and whether their first end lies before it.
+    /// Bonds through a [section](super::Reading::Section), and whether their first end lies on its left or, in space, behind it.
     fn crossing(system: &Self::System, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
 
     /// Directions of length one across a direction of length one.

@@ -34,7 +34,8 @@ pub enum Reading<const D: usize = 2> {
     },
     /// The force that the bonds carry through a line of the plane, or through a plane of space.
     Section {
-        /// Ends of the line, m; in space a point of the plane and one before it along its normal.
+        /// Ends of the line, m: what is on its right pulls at what is on its left; in space a point of the plane and one before it along
+        /// its normal: what is before the plane pulls at what is behind it.
         line: [[f64; D]; 2],
         /// Component read, N.
         component: Axis,

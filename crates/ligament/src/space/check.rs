@@ -5,6 +5,7 @@ use ligament_analysis::probe::PointField;
 use ligament_model::Elasticity;
 use ligament_model::law::rotational::RotationalScale;
 
+use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Law, Reading, Setup, Surface};
 
@@ -30,8 +31,10 @@ impl Setup<3> {
                 "faces that close are known in the plane alone so far: leave `closing` out";
             return contradiction(Field::whole("closing"), reason);
         }
-        if let Surface::Patch(_) = self.correction.surface {
-            let reason = "the patch correction is one of the plane so far: take `Surface::Domain`, `Surface::Volume` or `Surface::None`";
+        let is_patch = matches!(self.correction.surface, Surface::Patch(_));
+        if is_patch && matches!(self.body.origin(), Origin::SolidLattice(_)) {
+            let reason = "the patch correction of solids takes the cells of a mesh, and not yet those of a lattice: take a mesh, or \
+                          `Surface::Domain`, `Surface::Volume` or `Surface::None`";
             return contradiction(Field::whole("correction").part("surface"), reason);
         }
         Ok(())

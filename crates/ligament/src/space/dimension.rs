@@ -80,7 +80,7 @@ impl Dimension<3> for Dim {
         bonds
             .filter_map(|(bond, ends)| {
                 let [first, second] = ends.map(is_before);
-                (first != second).then_some((bond as u32, first))
+                (first != second).then_some((bond as u32, second))
             })
             .collect()
     }

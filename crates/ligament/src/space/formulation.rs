@@ -4,6 +4,7 @@ use ligament_model::bonds::BondSet;
 use ligament_model::correction::{Correction, length};
 use ligament_model::failure::Criteria;
 use ligament_model::law::rotational::{self, RotationalScale};
+use ligament_model::space::correction::patch::{self, SolidCellForces};
 use ligament_model::space::correction::{
     SolidStrainMode, axes, energy_ratios, partial_volume, surface,
 };
@@ -14,6 +15,7 @@ use ligament_model::{
     BondStiffness, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, PointCloud,
 };
 
+use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Alpha, Calibration, CorrectionDomain, Law, Setup, Surface};
 
@@ -23,6 +25,7 @@ pub(super) struct SolidFormulation<'a> {
     setup: &'a Setup<3>,
     cloud: &'a PointCloud<3>,
     horizons: &'a Horizons,
+    material_of_cell: &'a [u32],
     /// Elastic constants that the law makes of those of each material, shape (n_materials).
     constants: Vec<Isotropic>,
 }
@@ -45,7 +48,7 @@ pub(super) fn shear_form(law: &Law) -> Option<ShearForm> {
 }
 
 /// Elastic constants that the law makes of those of each material, shape (n_materials).
-fn constants(setup: &Setup<3>) -> Vec<Isotropic> {
+pub(super) fn constants(setup: &Setup<3>) -> Vec<Isotropic> {
     let given = setup.materials.iter();
     let given = given.filter_map(|it| it.material.elasticity.isotropic());
     given
@@ -61,11 +64,13 @@ impl<'a> SolidFormulation<'a> {
         setup: &'a Setup<3>,
         cloud: &'a PointCloud<3>,
         horizons: &'a Horizons,
+        material_of_cell: &'a [u32],
     ) -> Self {
         Self {
             setup,
             cloud,
             horizons,
+            material_of_cell,
             constants: constants(setup),
         }
     }
@@ -125,7 +130,13 @@ impl<'a> SolidFormulation<'a> {
                 let factors = surface::surface_factors(bonds, self.cloud, self.horizons, &alpha);
                 Correction::fixed(alpha, factors)
             }
-            Surface::None | Surface::Patch(_) => Correction::fixed(alpha, vec![1.0; bonds.len()]),
+            Surface::Patch(settings) => {
+                let forces = cell_forces(self.setup, self.cloud, self.material_of_cell);
+                let points = (self.cloud, &forces);
+                let element = element(&self.setup.law);
+                patch::correct(bonds, points, element, stiffness, alpha, &settings)
+            }
+            Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
         }
     }
 
@@ -140,6 +151,20 @@ impl<'a> SolidFormulation<'a> {
         let named = SolidStrainMode::ALL.into_iter().zip(ratios);
         named.map(|(strain, ratios)| strain.named(ratios)).collect()
     }
+}
+
+/// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the constants that the law makes of
+/// those of each cell's material (n_cells).
+pub(super) fn cell_forces(
+    setup: &Setup<3>,
+    cloud: &PointCloud<3>,
+    material_of_cell: &[u32],
+) -> SolidCellForces {
+    let cells = match setup.body.origin() {
+        Origin::SolidMesh(mesh) => mesh.cells.as_slice(),
+        _ => &[],
+    };
+    patch::of_solid_mesh(cells, cloud, material_of_cell, &constants(setup))
 }
 
 /// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.

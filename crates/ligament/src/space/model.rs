@@ -54,7 +54,7 @@ impl Model<3> {
             energy_ratios,
         } = stage(watcher, "correction", || {
             correct(
-                &SolidFormulation::new(&setup, &cloud, &horizons),
+                &SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell),
                 bonds,
                 &is_cut,
             )
@@ -173,11 +173,10 @@ fn of_bonds(formulation: &SolidFormulation<'_>, bonds: BondSet<3>) -> Corrected 
     let alpha = formulation.alpha(&bonds);
     let stiffness = formulation.stiffness(&bonds, &alpha);
     let correction = formulation.correction(&bonds, &stiffness, alpha);
-    let stiffness = stiffness.with_shear(&correction.shear_ratio);
     let energy_ratios = formulation.energy_ratios(&bonds, &stiffness, &correction);
     Corrected {
         bonds,
-        stiffness,
+        stiffness: stiffness.with_shear(&correction.shear_ratio),
         correction,
         energy_ratios,
     }

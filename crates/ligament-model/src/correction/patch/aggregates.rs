@@ -29,7 +29,7 @@ const SHARE: f64 = 1e-3;
 /// Points that are nearer to one of some points far from each other than to the others.
 ///
 /// Distances and the numbers of the points decide, not the axes: a turned body has the same aggregates.
-pub(super) struct Aggregates {
+pub(crate) struct Aggregates {
     /// Place of the first number of the aggregate of each rank.
     first: Vec<u32>,
     count: usize,
@@ -39,7 +39,7 @@ pub(super) struct Aggregates {
 
 impl Aggregates {
     /// Aggregates of the points of a cloud, with some numbers each.
-    pub(super) fn new(cloud: &PointCloud, width: usize) -> Self {
+    pub(crate) fn new<const D: usize>(cloud: &PointCloud<D>, width: usize) -> Self {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];

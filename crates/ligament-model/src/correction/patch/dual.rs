@@ -63,11 +63,11 @@ pub struct Report {
 }
 
 /// Factors of the bonds, and what they leave of the equations.
-pub(super) struct Factors {
+pub(crate) struct Factors {
     /// First and second factors, each of shape (n_bonds).
-    pub(super) axial: Vec<f64>,
-    pub(super) shear: Vec<f64>,
-    pub(super) report: Report,
+    pub(crate) axial: Vec<f64>,
+    pub(crate) shear: Vec<f64>,
+    pub(crate) report: Report,
 }
 
 struct Dual<'a, E> {
@@ -90,9 +90,10 @@ struct Place<const N: usize> {
     unbalanced: Multipliers<N>,
 }
 
-/// The factors that meet the equations as far as they can.
-pub(super) fn minimise<const N: usize, E: Equations<N>>(
+/// The factors that meet the equations as far as they can, with aggregates that have a number for each equation of forces.
+pub(crate) fn minimise<const N: usize, E: Equations<N>>(
     equations: &E,
+    aggregates: Aggregates,
     settings: &Settings,
 ) -> Factors {
     let dual = Dual {
@@ -100,7 +101,7 @@ pub(super) fn minimise<const N: usize, E: Equations<N>>(
         lowest: settings.lowest,
         span: settings.highest - settings.lowest,
         offset: ((1.0 - settings.lowest) / (settings.highest - 1.0)).ln(),
-        aggregates: Aggregates::new(equations.pairs().cloud, E::FORCES),
+        aggregates,
     };
     let mut place = dual.start();
     let (mut steps, mut products) = (0, 0);

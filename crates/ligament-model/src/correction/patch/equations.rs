@@ -3,10 +3,10 @@
 use super::pairs::Pairs;
 
 /// A number for each equation, by rank.
-pub(super) type Multipliers<const N: usize> = Vec<[f64; N]>;
+pub(crate) type Multipliers<const N: usize> = Vec<[f64; N]>;
 
 /// Linear equations G q = f in two factors a bond, N a point. Points go by their ranks, bonds by pairs.
-pub(super) trait Equations<const N: usize>: Sync {
+pub(crate) trait Equations<const N: usize>: Sync {
     /// Number of the equations of forces, in which the ends of a bond have opposite terms; those behind them, of moments, have the
     /// same terms at both ends.
     const FORCES: usize;

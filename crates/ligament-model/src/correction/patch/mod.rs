@@ -26,13 +26,13 @@
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
 //! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
 
-mod aggregates;
-mod dual;
-mod equations;
+pub(crate) mod aggregates;
+pub(crate) mod dual;
+pub(crate) mod equations;
 mod forces;
 mod lattice_forces;
 mod newton;
-mod pairs;
+pub(crate) mod pairs;
 mod plane;
 mod settings;
 
@@ -43,7 +43,11 @@ pub use settings::Settings;
 
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
+use aggregates::Aggregates;
+use dual::Factors;
+use equations::Equations;
 use plane::PlaneEquations;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
@@ -58,17 +62,33 @@ pub fn correct(
     let weight = settings.moment_weight;
     let factors = if points.turn {
         let equations = PlaneEquations::<8>::new(bonds, points, stiffness, &alpha, weight);
-        dual::minimise(&equations, settings)
+        minimise(&equations, points.cloud, settings)
     } else {
         let equations = PlaneEquations::<6>::new(bonds, points, stiffness, &alpha, weight);
-        dual::minimise(&equations, settings)
+        minimise(&equations, points.cloud, settings)
     };
-    let omega = factors.axial.iter().zip(&alpha);
-    let ratio = factors.shear.iter().zip(&factors.axial);
-    Correction {
-        domain_factor: omega.map(|(factor, alpha)| factor / alpha).collect(),
-        shear_ratio: ratio.map(|(shear, axial)| shear / axial).collect(),
-        length_factor: alpha,
-        report: Some(CorrectionReport::Patch(factors.report)),
+    factors.correction(alpha)
+}
+
+fn minimise<const N: usize>(
+    equations: &PlaneEquations<'_, N>,
+    cloud: &PointCloud,
+    settings: &Settings,
+) -> Factors {
+    let aggregates = Aggregates::new(cloud, PlaneEquations::<N>::FORCES);
+    dual::minimise(equations, aggregates, settings)
+}
+
+impl Factors {
+    /// The correction of bonds with uncorrected factors alpha (n_bonds).
+    pub(crate) fn correction(self, alpha: Vec<f64>) -> Correction {
+        let omega = self.axial.iter().zip(&alpha);
+        let ratio = self.shear.iter().zip(&self.axial);
+        Correction {
+            domain_factor: omega.map(|(factor, alpha)| factor / alpha).collect(),
+            shear_ratio: ratio.map(|(shear, axial)| shear / axial).collect(),
+            length_factor: alpha,
+            report: Some(CorrectionReport::Patch(self.report)),
+        }
     }
 }

@@ -6,32 +6,33 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-pub(super) use crate::correction::members::BLOCK;
+pub(crate) use crate::correction::members::BLOCK;
 
 /// The bonds seen from their points: once where both ends are in a block, from the one that comes first on the curve, and twice, from
 /// either end, where they are not. `rank` is the place of a point on the curve.
-pub(super) struct Pairs<'a> {
-    bonds: &'a BondSet,
-    pub(super) cloud: &'a PointCloud,
+pub(crate) struct Pairs<'a> {
+    /// The points in the order of the curve.
+    curve: &'a [u32],
+    n_bonds: usize,
     /// First pair of each rank with its other end in the block and with its other end outside, and behind the last rank the number
     /// of all pairs.
     starts: Vec<[usize; 2]>,
     /// Rank of the other end of each pair.
-    pub(super) other: Vec<u32>,
+    pub(crate) other: Vec<u32>,
     /// Bond of each pair.
     bond: Vec<u32>,
 }
 
 impl<'a> Pairs<'a> {
     /// The pairs of all bonds.
-    pub(super) fn new(bonds: &'a BondSet, cloud: &'a PointCloud) -> Self {
+    pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
         let mut ranks = vec![0; cloud.len()];
         for (rank, &point) in cloud.curve.iter().enumerate() {
             ranks[point as usize] = rank as u32;
         }
         let mut pairs = Self {
-            bonds,
-            cloud,
+            curve: &cloud.curve,
+            n_bonds: bonds.len(),
             starts: Vec::with_capacity(cloud.len() + 1),
             other: Vec::with_capacity(bonds.len()),
             bond: Vec::with_capacity(bonds.len()),
@@ -61,12 +62,12 @@ impl<'a> Pairs<'a> {
     }
 
     /// Number of pairs.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.other.len()
     }
 
     /// Number of points.
-    pub(super) fn n_points(&self) -> usize {
+    pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
 
@@ -76,27 +77,27 @@ impl<'a> Pairs<'a> {
     }
 
     /// Ranks of a block.
-    pub(super) fn ranks(&self, block: usize) -> Range<usize> {
+    pub(crate) fn ranks(&self, block: usize) -> Range<usize> {
         block * BLOCK..((block + 1) * BLOCK).min(self.n_points())
     }
 
     /// Pairs of a rank whose other end is in the block too.
     #[inline(always)]
-    pub(super) fn inner(&self, rank: usize) -> Range<usize> {
+    pub(crate) fn inner(&self, rank: usize) -> Range<usize> {
         let [inner, outer] = self.starts[rank];
         inner..outer
     }
 
     /// Pairs of a rank whose other end is in another block.
     #[inline(always)]
-    pub(super) fn outer(&self, rank: usize) -> Range<usize> {
+    pub(crate) fn outer(&self, rank: usize) -> Range<usize> {
         self.starts[rank][1]..self.starts[rank + 1][0]
     }
 
     /// A value of each pair, from its point and its bond.
-    pub(super) fn values<T: Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
+    pub(crate) fn values<T: Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
         let of_rank = |rank: usize| {
-            let (point, value) = (self.cloud.curve[rank], &value);
+            let (point, value) = (self.curve[rank], &value);
             let pairs = self.starts[rank][0]..self.starts[rank + 1][0];
             self.bond[pairs].iter().map(move |&bond| value(point, bond))
         };
@@ -105,7 +106,7 @@ impl<'a> Pairs<'a> {
     }
 
     /// An array over the pairs, cut into those of the points of each block.
-    pub(super) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
+    pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let of_block = |block| {
             let ranks = self.ranks(block);
             let size = self.starts[ranks.end][0] - self.starts[ranks.start][0];
@@ -115,13 +116,13 @@ impl<'a> Pairs<'a> {
     }
 
     /// First pair of a block.
-    pub(super) fn first(&self, block: usize) -> usize {
+    pub(crate) fn first(&self, block: usize) -> usize {
         self.starts[block * BLOCK][0]
     }
 
     /// The value of each bond from those of the pairs, which are the same from either end, shape (n_bonds).
-    pub(super) fn of_bonds(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
-        let mut of_bonds = vec![0.0; self.bonds.len()];
+    pub(crate) fn of_bonds(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut of_bonds = vec![0.0; self.n_bonds];
         for (&bond, value) in self.bond.iter().zip(values) {
             of_bonds[bond as usize] = value;
         }
@@ -129,9 +130,9 @@ impl<'a> Pairs<'a> {
     }
 
     /// The value of each point from those by rank, shape (n_points).
-    pub(super) fn of_points(&self, values: &[f64]) -> Vec<f64> {
+    pub(crate) fn of_points(&self, values: &[f64]) -> Vec<f64> {
         let mut of_points = vec![0.0; values.len()];
-        for (&point, &value) in self.cloud.curve.iter().zip(values) {
+        for (&point, &value) in self.curve.iter().zip(values) {
             of_points[point as usize] = value;
         }
         of_points

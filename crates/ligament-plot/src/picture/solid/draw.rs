@@ -1,0 +1,227 @@
+//! A scene as paths of a picture.
+
+use super::outline::unit_normal;
+use super::visible::DepthBuffer;
+use super::{Scene, View};
+use crate::picture::panel::{Frame, Scale};
+use crate::picture::svg::{Anchor, Document, Paint, PathData};
+
+/// Direction of the light: to the right, up, to the eye.
+const LIGHT: [f64; 3] = [-0.35, 0.55, 0.76];
+
+/// Brightness of what the light does not meet.
+const SHADE: f64 = 0.62;
+
+/// Steps of brightness.
+const STEPS: f64 = 24.0;
+
+/// Colour of what has no field or no value.
+const BARE: [u8; 3] = [205, 210, 216];
+
+/// Colour and widths (pixels) of edges, and of edges seen through the body.
+const EDGE: (&str, f64) = ("#303030", 0.55);
+const FAINT: (&str, f64) = ("#9a9a9a", 0.4);
+
+/// Width of the rim of each piece in its own colour, pixels: no seam is left between two.
+const SEAM: f64 = 0.25;
+
+/// Length of the arrows that show the axes, pixels.
+const ARROW: f64 = 15.0;
+
+impl Scene {
+    /// Draws it into a frame, seen from a side with displacements larger by a factor.
+    pub(crate) fn draw(
+        &self,
+        document: &mut Document,
+        (frame, scale): (Frame, Option<&Scale>),
+        view: View,
+        factor: f64,
+    ) {
+        let seen = self.deformed(view, factor);
+        let window = [frame.low, frame.high];
+        let buffer = DepthBuffer::new(&seen, &self.triangles, window, frame.scale);
+        if self.shows_all_edges {
+            let all = self
+                .edges
+                .iter()
+                .map(|it| it.map(|end| flat(seen[end as usize])));
+            lines(document, frame, all, FAINT);
+        }
+        self.paint(document, (frame, scale), &seen, &buffer);
+        let pieces = self
+            .edges
+            .iter()
+            .flat_map(|ends| buffer.seen_pieces(ends.map(|end| seen[end as usize])));
+        lines(
+            document,
+            frame,
+            pieces,
+            if self.shows_all_edges { FAINT } else { EDGE },
+        );
+        axes(document, frame, view);
+    }
+
+    /// Paints the triangles that are seen, the farthest first; those of one colour that follow each other together.
+    fn paint(
+        &self,
+        document: &mut Document,
+        (frame, scale): (Frame, Option<&Scale>),
+        seen: &[[f64; 3]],
+        buffer: &DepthBuffer,
+    ) {
+        let visible = buffer.visible(seen, &self.triangles);
+        let depth = |number: usize| -> f64 {
+            self.triangles[number]
+                .iter()
+                .map(|it| seen[*it as usize][2])
+                .sum()
+        };
+        let mut order: Vec<usize> = (0..visible.len()).filter(|it| visible[*it]).collect();
+        order.sort_by(|one, other| depth(*one).total_cmp(&depth(*other)).then(one.cmp(other)));
+        let mut path = PathData::default();
+        let mut colour = String::new();
+        for number in order {
+            let triangle = self.triangles[number];
+            let corners = triangle.map(|it| seen[it as usize]);
+            let light = brightness(corners);
+            for (base, polygon) in self.bands(triangle, corners, scale) {
+                let painted = hex(base.map(|it| (f64::from(it) * light).round() as u8));
+                if painted != colour {
+                    fill(document, &path, &colour);
+                    (path, colour) = (PathData::default(), painted);
+                }
+                frame.add(&mut path, &polygon);
+            }
+        }
+        fill(document, &path, &colour);
+    }
+
+    /// A triangle in pieces of one band each, with the colour of the band.
+    fn bands(
+        &self,
+        triangle: [u32; 3],
+        corners: [[f64; 3]; 3],
+        scale: Option<&Scale>,
+    ) -> Vec<([u8; 3], Vec<[f64; 2]>)> {
+        let whole: Vec<[f64; 2]> = corners.map(flat).to_vec();
+        let Some(scale) = scale.filter(|_| !self.values.is_empty()) else {
+            return vec![(BARE, whole)];
+        };
+        let values = triangle.map(|it| self.values[it as usize]);
+        if values.iter().any(|it| !it.is_finite()) {
+            return vec![(BARE, whole)];
+        }
+        let bands = values.map(|it| scale.levels.band(it));
+        let [first, last] =
+            [bands.iter().min(), bands.iter().max()].map(|it| it.copied().unwrap_or(0));
+        let with_values: Vec<([f64; 2], f64)> = whole.into_iter().zip(values).collect();
+        let pieces = (first..=last).map(|band| {
+            let mut piece = with_values.clone();
+            if band > first {
+                piece = cut(&piece, scale.levels.bounds[band], 1.0);
+            }
+            if band < last {
+                piece = cut(&piece, scale.levels.bounds[band + 1], -1.0);
+            }
+            (
+                rgb(&scale.colours[band]),
+                piece.into_iter().map(|it| it.0).collect(),
+            )
+        });
+        pieces.collect()
+    }
+}
+
+/// The part of a polygon whose values, times a sign, are not below a level times it.
+fn cut(polygon: &[([f64; 2], f64)], level: f64, sign: f64) -> Vec<([f64; 2], f64)> {
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (place, &(from, start)) in polygon.iter().enumerate() {
+        let (to, end) = polygon[(place + 1) % polygon.len()];
+        let [here, there] = [start, end].map(|it| sign * (it - level) >= 0.0);
+        if here {
+            kept.push((from, start));
+        }
+        if here != there {
+            let share = (level - start) / (end - start);
+            let at = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+            kept.push((at, level));
+        }
+    }
+    kept
+}
+
+fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
+    [x, y]
+}
+
+/// Brightness of a triangle as seen, whichever side is seen of it.
+fn brightness(corners: [[f64; 3]; 3]) -> f64 {
+    let normal = unit_normal(corners);
+    let to_eye = if normal[2] < 0.0 { -1.0 } else { 1.0 };
+    let met: f64 = (0..3).map(|axis| to_eye * normal[axis] * LIGHT[axis]).sum();
+    let light = SHADE + (1.0 - SHADE) * met.clamp(0.0, 1.0) / 0.9;
+    (light.min(1.0) * STEPS).round() / STEPS
+}
+
+fn fill(document: &mut Document, path: &PathData, colour: &str) {
+    document.path(
+        path,
+        Paint {
+            fill: Some(colour),
+            stroke: Some((colour, SEAM)),
+        },
+    );
+}
+
+fn lines(
+    document: &mut Document,
+    frame: Frame,
+    all: impl Iterator<Item = [[f64; 2]; 2]>,
+    stroke: (&str, f64),
+) {
+    let mut path = PathData::default();
+    for ends in all {
+        path.segment(ends.map(|end| frame.to_pixels(end)));
+    }
+    document.path(
+        &path,
+        Paint {
+            fill: None,
+            stroke: Some(stroke),
+        },
+    );
+}
+
+/// Draws the axes as seen below the left of the frame.
+fn axes(document: &mut Document, frame: Frame, view: View) {
+    let [x, y] = frame.to_pixels(frame.low);
+    let axes = view.axes();
+    // The arrows that point away from the eye lie below the others.
+    let seen = |axis: usize| axes.map(|it| it[axis]);
+    let arrows = [0, 1, 2].map(|axis| (["x", "y", "z"][axis], seen(axis)));
+    let reach = |place: usize| arrows.iter().map(|it| it.1[place]).fold(0.0, f64::min);
+    let at = [x + 7.0 - ARROW * reach(0), y - 7.0 + ARROW * reach(1)];
+    for (name, [right, up, _]) in arrows {
+        if right.hypot(up) < 0.05 {
+            continue;
+        }
+        let end = [at[0] + ARROW * right, at[1] - ARROW * up];
+        document.line(at, end, "#404040", 0.7);
+        let label = [end[0] + 4.5 * right, end[1] - 4.5 * up + 2.5];
+        document.text(label, Anchor::Middle, 7.5, name);
+    }
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The channels of `#rrggbb`.
+fn rgb(colour: &str) -> [u8; 3] {
+    let channel = |at: usize| {
+        colour
+            .get(at..at + 2)
+            .and_then(|it| u8::from_str_radix(it, 16).ok())
+    };
+    [1, 3, 5].map(|at| channel(at).unwrap_or(0))
+}

@@ -1,0 +1,108 @@
+//! The side from which a solid is seen.
+
+use std::str::FromStr;
+
+/// The side that the eye is on, far away: lengths are seen the same everywhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Angle of the eye about z from the x axis, degrees.
+    pub azimuth: f64,
+    /// Angle of the eye above the plane of x and y, degrees.
+    pub elevation: f64,
+}
+
+impl View {
+    /// From the front, the right and above.
+    pub const OBLIQUE: Self = Self {
+        azimuth: -60.0,
+        elevation: 28.0,
+    };
+
+    /// Unit vectors to the right, up and to the eye.
+    pub(super) fn axes(self) -> [[f64; 3]; 3] {
+        let (sin_a, cos_a) = sin_cos(self.azimuth);
+        let (sin_e, cos_e) = sin_cos(self.elevation);
+        [
+            [-sin_a, cos_a, 0.0],
+            [-sin_e * cos_a, -sin_e * sin_a, cos_e],
+            [cos_e * cos_a, cos_e * sin_a, sin_e],
+        ]
+    }
+
+    /// A place as seen: to the right, up and towards the eye, m.
+    pub(super) fn seen(self, place: [f64; 3]) -> [f64; 3] {
+        let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * place[k]).sum();
+        self.axes().map(along)
+    }
+
+    /// The view along a normal, from where it points to; with z upwards, or y where it looks along z.
+    pub(in crate::picture) fn along([x, y, z]: [f64; 3]) -> Self {
+        let flat = libm::hypot(x, y);
+        let is_upright = flat < 1e-9 * z.abs();
+        Self {
+            azimuth: if is_upright {
+                -90.0
+            } else {
+                libm::atan2(y, x).to_degrees()
+            },
+            elevation: libm::atan2(z, flat).to_degrees(),
+        }
+    }
+}
+
+/// Sine and cosine of degrees, the same on every machine, and exact along the axes.
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        angle => libm::sincos(angle.to_radians()),
+    }
+}
+
+impl FromStr for View {
+    type Err = String;
+
+    /// Reads `x`, `y`, `z`, `iso` or an azimuth and an elevation.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let of = |azimuth, elevation| Ok(Self { azimuth, elevation });
+        match text.trim() {
+            "x" => return of(0.0, 0.0),
+            "y" => return of(-90.0, 0.0),
+            "z" => return of(-90.0, 90.0),
+            "iso" => return Ok(Self::OBLIQUE),
+            _ => {}
+        }
+        let numbers: Option<Vec<f64>> = text.split(',').map(|it| it.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[azimuth, elevation]) if azimuth.is_finite() && elevation.abs() <= 90.0 => {
+                of(azimuth, elevation)
+            }
+            _ => Err("expected x, y, z, iso, or AZIMUTH,ELEVATION in degrees with an elevation from -90 to 90".to_owned()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn views_along_the_axes_show_two_of_them() {
+        let seen = |view: &str| view.parse::<View>().unwrap().seen([1.0, 2.0, 3.0]);
+        assert_eq!(seen("x"), [2.0, 3.0, 1.0]);
+        assert_eq!(seen("y"), [1.0, 3.0, -2.0]);
+        assert_eq!(seen("z"), [1.0, 2.0, 3.0]);
+        assert_eq!(
+            "10, -20".parse(),
+            Ok(View {
+                azimuth: 10.0,
+                elevation: -20.0
+            })
+        );
+        assert!("1,91".parse::<View>().is_err() && "top".parse::<View>().is_err());
+        assert_eq!(View::along([0.0, -2.0, 0.0]), "y".parse().unwrap());
+        assert_eq!(View::along([0.0, 0.0, 1.0]), "z".parse().unwrap());
+    }
+}
