@@ -119,10 +119,7 @@ fn both_solvers_break_the_same_bonds() {
         let out = folder.path().join(method);
         let method = format!("solver.method={method}");
         split(&[&SHORT[..], &[&method]].concat(), &out);
-        (
-            broken(&out),
-            column_of(&out, "breaks.csv", "load_factor"),
-        )
+        (broken(&out), column_of(&out, "breaks.csv", "load_factor"))
     });
     let [(bonds, loads), (others, other_loads)] = runs;
     assert_eq!(bonds, others);
