@@ -9,6 +9,7 @@ use crate::breakage::Breakage;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
+use crate::solver::SolverChoice;
 
 /// Solves the problem at load factor one, or at the end of each part of its programme; no bond breaks. The history has the unloaded
 /// body as step 0.
@@ -17,13 +18,19 @@ pub fn run(
     energy_tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, _) = Path::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
+    let (mut path, at_one) = Path::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
     let nothing = Breakage::default();
     let mut termination = Termination::StepsDone;
     let ends = ends(problem);
+    // An iteration begins at what it has found already; a factor finds it again to the bit.
+    let iterates = matches!(path.equilibrium.choice(), SolverChoice::Iterative(_));
+    let found = at_one.filter(|_| iterates && problem.loads.course().is_none());
     for (step, &(part, load_factor)) in ends.iter().enumerate() {
         path.begin_part(part);
         path.state.load_factor = load_factor;
+        if let Some(found) = found.as_ref().filter(|it| it.load_factor == load_factor) {
+            path.state.displacement.clone_from(&found.displacement);
+        }
         path.enter(step, 0)?;
         let balanced = match path.balance(step, &nothing)? {
             Attempt::Balanced(balanced) => balanced,
