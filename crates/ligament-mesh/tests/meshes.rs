@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ligament_mesh::{Mesh, gmsh};
+use ligament_mesh::{AnyMesh, Mesh, gmsh};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
@@ -56,6 +56,28 @@ fn the_table_tells_the_counts_of_every_mesh() {
         .filter(|name| name.ends_with(".msh"))
         .collect();
     assert_eq!(listed, present);
+}
+
+#[test]
+fn the_table_tells_the_counts_of_every_solid_mesh() {
+    let folder = folder().join("solids");
+    let table = fs::read_to_string(folder.join("README.md")).unwrap();
+    let present = fs::read_dir(&folder).unwrap();
+    let mut present: Vec<PathBuf> = present.map(|entry| entry.unwrap().path()).collect();
+    present.retain(|path| path.extension().is_some_and(|it| it == "msh"));
+    assert!(!present.is_empty());
+    for path in present {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let mesh = match gmsh::parse_any(&fs::read(&path).unwrap()) {
+            Ok(AnyMesh::Solid(mesh)) => mesh,
+            other => panic!("{name}: {other:?}"),
+        };
+        let (nodes, cells) = (mesh.positions.len(), mesh.cells.len());
+        let counts = format!(" | {nodes} | {cells} |");
+        let row = (table.lines()).find(|line| line.starts_with(&format!("| `{name}` |")));
+        assert!(row.unwrap().ends_with(&counts), "{name}:{counts}");
+        assert_eq!(mesh.remarks, [], "{name}");
+    }
 }
 
 #[test]

@@ -242,7 +242,8 @@ pub enum Fault {
     ZeroProfile,
     /// A force per length on points without a length.
     #[error(
-        "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: this group has no length"
+        "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: this group has no length; a \
+         surface of a solid takes a force per area"
     )]
     NoLength,
     /// A force per area on points without an area.
@@ -252,8 +253,8 @@ pub enum Fault {
     NoArea,
     /// A pressure on points without an outline.
     #[error(
-        "a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: this group has no \
-         part of the outline"
+        "a pressure needs a physical curve on the outline of a mesh, a physical surface of a solid, or cells of a lattice at a side or a \
+         hole: this group has no part of the outline"
     )]
     NoOutline,
     /// A pressure on an edge inside of the body.
