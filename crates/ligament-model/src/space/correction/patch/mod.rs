@@ -56,3 +56,6 @@ fn minimise<const N: usize>(
     let aggregates = Aggregates::new(cloud, SolidEquations::<N>::FORCES);
     dual::minimise(equations, aggregates, settings)
 }
+
+#[cfg(test)]
+mod tests;
