@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use ligament::body::{
-    Body, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody,
-};
+use ligament::body::{Body, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody};
 use ligament::setup::{Dim, Dimension, Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_mesh::AnyMesh;
@@ -30,7 +28,9 @@ impl CaseFile {
                 };
                 Arc::new(SolidMeshBody::from(mesh))
             }
-            (None, Some(section)) => Arc::new(stage(watcher, "lattice", || self.solid_lattice(section))?),
+            (None, Some(section)) => {
+                Arc::new(stage(watcher, "lattice", || self.solid_lattice(section))?)
+            }
             (None, None) => anyhow::bail!("the case has no body"),
         };
         let setup = self.case.in_space(body);

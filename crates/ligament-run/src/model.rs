@@ -2,6 +2,7 @@
 
 pub use ligament::Model;
 use ligament::Setup;
+use ligament::model::Discretises;
 use ligament::setup::{Dim, Dimension};
 use ligament::stage::{Finding, StageWatcher};
 
@@ -85,7 +86,7 @@ fn build<const D: usize>(
     read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup<D>>,
 ) -> anyhow::Result<Model<D>>
 where
-    Dim: Dimension<D>,
+    Dim: Dimension<D> + Discretises<D>,
 {
     let mut preparation = Preparation { stages, progress };
     let setup = read(case, &mut preparation)?;

@@ -9,6 +9,7 @@ use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
 use crate::body::OffOutline;
+use crate::coordinates::coordinates;
 use crate::suggestion::hint;
 
 /// Why a computation could not begin. How it went is in its outcome.
@@ -332,12 +333,6 @@ pub struct Torn {
 fn direction(cosines: &[f64]) -> String {
     let cosines = cosines.iter().map(|it| format!("{it:.2}"));
     cosines.collect::<Vec<_>>().join(", ")
-}
-
-/// Coordinates as errors show them.
-pub(crate) fn coordinates(position: &[f64]) -> String {
-    let coordinates = position.iter().map(|it| format!("{it:.6}"));
-    coordinates.collect::<Vec<_>>().join(", ")
 }
 
 impl Field {

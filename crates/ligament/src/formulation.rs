@@ -167,18 +167,12 @@ pub fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) 
 
 /// Elasticity of a material with the constants that a law makes of its own.
 pub fn effective_elasticity(material: &Material, law: &Law, plane: Plane) -> Elasticity {
-    constants(material, law, plane).map_or(material.elasticity, Elasticity::Isotropic)
+    law.effective_elasticity(material, plane)
 }
 
-/// Elastic constants that a law makes of a material: Young's modulus with the Poisson's ratio of central forces where the law
-/// knows no other. None for a material with axes.
+/// Elastic constants that a law makes of a material, see [`Law::constants`].
 pub fn constants(material: &Material, law: &Law, plane: Plane) -> Option<Isotropic> {
-    let given = material.elasticity.isotropic()?;
-    Some(if law.fixes_poisson() {
-        bbpd::central(&given, plane)
-    } else {
-        given
-    })
+    law.constants(material, plane)
 }
 
 /// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.

@@ -43,6 +43,7 @@
 )]
 
 pub mod body;
+mod coordinates;
 pub mod crack_energy;
 pub mod direction;
 pub mod error;

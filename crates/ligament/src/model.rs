@@ -55,17 +55,36 @@ where
     /// # Errors
     ///
     /// If a field of the setup is wrong.
-    pub fn build(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    pub fn build(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError>
+    where
+        Dim: Discretises<D>,
+    {
         Dim::model(setup, watcher)
+    }
+}
+
+/// What makes models in D dimensions.
+pub trait Discretises<const D: usize>
+where
+    Dim: Dimension<D>,
+{
+    /// Builds the model of a setup.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong.
+    fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>;
+}
+
+impl Discretises<2> for Dim {
+    fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
+        Model::in_plane(setup, watcher)
     }
 }
 
 impl Model {
     /// Builds the model of a setup in the plane.
-    pub(crate) fn in_plane(
-        setup: Setup,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Self, SetupError> {
+    fn in_plane(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
@@ -113,10 +132,9 @@ impl Model {
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
-        let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
+        let report = correction.report.as_ref();
         Ok(Self {
-            warnings,
+            warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
             correction_range: correction.domain_factor_range(),
             correction: correction.report,
             setup,

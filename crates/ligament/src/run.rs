@@ -12,7 +12,7 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::error::{Error, Fault, Field};
 use crate::loading::{Loading, Vibration};
-use crate::model::Model;
+use crate::model::{Discretises, Model};
 use crate::setup::{Analysis, Dim, Dimension, Setup};
 
 /// What a setup of loads comes to.
@@ -31,7 +31,7 @@ where
 
 impl<const D: usize> Setup<D>
 where
-    Dim: Dimension<D>,
+    Dim: Dimension<D> + Discretises<D>,
 {
     /// Builds the model and follows the loads on the threads of the setup: the elastic solution, or the breaking of bonds up to the
     /// end of the loading or of the body.

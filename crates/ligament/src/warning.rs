@@ -19,6 +19,9 @@ const ENERGY_TOLERANCE: f64 = 1e-4;
 /// What the patch correction may leave of its equations, as a root mean square: above it uniform strains are off by percents.
 const LARGEST_LEFT: f64 = 5e-3;
 
+/// Horizon over the distance of points that most cases take.
+const USUAL_FACTOR: f64 = 3.0;
+
 /// A body larger than this, m, was drawn in millimetres in all likelihood.
 pub const SUSPICIOUSLY_LARGE: f64 = 20.0;
 
@@ -387,7 +390,21 @@ where
         ElementKind::Spring => false,
         ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => return None,
     };
-    (poisson > limit).then(|| Dim::negative_shear(setup, poisson, turns))
+    let horizon_factor = match setup.horizon {
+        Horizon::Factor(factor) => factor,
+        // A horizon of one length has no factor: it is taken for the usual one.
+        Horizon::Length(_) => USUAL_FACTOR,
+    };
+    (poisson > limit).then(
+        || match Dim::negative_shear(&setup.law, poisson, horizon_factor) {
+            Some(in_space) => Warning::NegativeShearInSpace(in_space),
+            None => Warning::NegativeShear {
+                poisson,
+                limit,
+                turns,
+            },
+        },
+    )
 }
 
 fn poisson_and_limit<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> (f64, f64)

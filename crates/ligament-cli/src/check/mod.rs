@@ -10,6 +10,7 @@ mod modal;
 mod model;
 mod patch_test;
 mod restraints;
+mod sections;
 mod solid_patch_test;
 mod told;
 

@@ -60,25 +60,7 @@ where
         } else {
             &material.name
         };
-        let constants = match material.elasticity {
-            Elasticity::Isotropic(it) => {
-                format!("E = {}, nu = {}", quantity(it.young, "Pa"), it.poisson)
-            }
-            Elasticity::Orthotropic(it) => {
-                let [young_1, young_2, shear] =
-                    [it.young[0], it.young[1], it.shear_modulus].map(|it| quantity(it, "Pa"));
-                format!(
-                    "E_1 = {young_1}, E_2 = {young_2}, nu_12 = {}, G = {shear}, axis 1 at {} rad",
-                    it.poisson, it.angle
-                )
-            }
-            Elasticity::Anisotropic(it) => {
-                let c = it.stiffness;
-                let of_rows = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-                let values = of_rows.map(|place| quantity(c[place], "Pa"));
-                format!("c11, c12, c16, c22, c26, c66 = {}", values.join(", "))
-            }
-        };
+        let constants = constants(&material.elasticity);
         write!(
             out,
             "  {name}: {constants}, volume {}",
@@ -107,6 +89,29 @@ where
         }
     }
     Ok(())
+}
+
+/// Elastic constants in words.
+fn constants(elasticity: &Elasticity) -> String {
+    match *elasticity {
+        Elasticity::Isotropic(it) => {
+            format!("E = {}, nu = {}", quantity(it.young, "Pa"), it.poisson)
+        }
+        Elasticity::Orthotropic(it) => {
+            let [young_1, young_2, shear] =
+                [it.young[0], it.young[1], it.shear_modulus].map(|it| quantity(it, "Pa"));
+            format!(
+                "E_1 = {young_1}, E_2 = {young_2}, nu_12 = {}, G = {shear}, axis 1 at {} rad",
+                it.poisson, it.angle
+            )
+        }
+        Elasticity::Anisotropic(it) => {
+            let c = it.stiffness;
+            let of_rows = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+            let values = of_rows.map(|place| quantity(c[place], "Pa"));
+            format!("c11, c12, c16, c22, c26, c66 = {}", values.join(", "))
+        }
+    }
 }
 
 fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>

@@ -85,7 +85,7 @@ impl CrackArgs {
     }
 }
 
-/// Parts of a surface that are told one by one.
+/// Parts of a surface that are listed one by one.
 const TOLD: usize = 10;
 
 impl CrackArgs {

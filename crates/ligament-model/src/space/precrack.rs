@@ -47,7 +47,7 @@ impl SolidPreCrack {
     ///
     /// If the normal has no direction or the radius is not positive.
     pub fn disk(centre: [f64; 3], normal: [f64; 3], radius: f64) -> Result<Self, UnfitCrack> {
-        Disk::new(centre, normal, radius).map(|it| Self::of(Surface::Disk(it)))
+        Disk::new(centre, normal, radius).map(|it| Self::without_rim(Surface::Disk(it)))
     }
 
     /// The parallelogram between a corner and the corners beside it (coordinates of the case, m); its front is the side from which the
@@ -68,7 +68,7 @@ impl SolidPreCrack {
     ///
     /// If the corners do not lie in a plane (to 1e-6 of its size), lie on a line, or the polygon crosses itself.
     pub fn polygon(corners: &[[f64; 3]]) -> Result<Self, UnfitCrack> {
-        Sheet::polygon(corners).map(|it| Self::of(Surface::Sheet(it)))
+        Sheet::polygon(corners).map(|it| Self::without_rim(Surface::Sheet(it)))
     }
 
     /// A surface of triangles by the numbers of their corners among `points` (coordinates of the case, m). Neighbours are turned so that
@@ -78,10 +78,11 @@ impl SolidPreCrack {
     ///
     /// If there is no triangle, one names a point that there is not, or one has no area.
     pub fn triangles(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, UnfitCrack> {
-        Sheet::new(points.to_vec(), triangles.to_vec()).map(|it| Self::of(Surface::Sheet(it)))
+        Sheet::new(points.to_vec(), triangles.to_vec())
+            .map(|it| Self::without_rim(Surface::Sheet(it)))
     }
 
-    /// The same surface with its rim: every bond that has a point in common with it is cut.
+    /// Surface with its rim: every bond that has a point in common with it is cut.
     pub fn with_rim(self) -> Self {
         Self {
             ends: Ends::Included,
@@ -89,7 +90,7 @@ impl SolidPreCrack {
         }
     }
 
-    fn of(surface: Surface) -> Self {
+    fn without_rim(surface: Surface) -> Self {
         Self {
             surface,
             ends: Ends::Excluded,

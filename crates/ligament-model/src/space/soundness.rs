@@ -17,7 +17,7 @@ const DISTINCT: f64 = 1e-5;
 pub struct NearPoints {
     /// The points, the first of all that have another so near first.
     pub points: [u32; 2],
-    /// Their distance, m.
+    /// Distance of the points, m.
     pub distance: f64,
     /// Size of the first, the cube root of its volume, m.
     pub size: f64,
@@ -32,7 +32,7 @@ pub struct Torn {
     pub of_mesh: usize,
     /// Ends of the edge between two parts that is longest for the horizons of its ends.
     pub ends: [u32; 2],
-    /// Its length, m.
+    /// Length of the edge, m.
     pub length: f64,
     /// The larger horizon of its ends, m.
     pub horizon: f64,

@@ -22,7 +22,7 @@ pub struct Tetrahedra {
 pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
 impl Tetrahedra {
-    /// Those that have an edge between two points for which this holds, with the same nodes.
+    /// Tetrahedra that have an edge between two points for which this holds, with the same nodes.
     pub fn with_edges(&self, is_meant: impl Fn([u32; 2]) -> bool) -> Self {
         let mut held = self.held.clone();
         let mut chosen = Self {

@@ -7,7 +7,7 @@ use ligament_model::space::lattice::SolidLattice;
 use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
 
-use crate::error::coordinates;
+use crate::coordinates::coordinates;
 
 /// An edge of a group, of a solid a face, that is none of the outline of the body, on which a pressure could act.
 #[derive(Debug, Clone, PartialEq, Error)]

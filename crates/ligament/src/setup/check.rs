@@ -16,6 +16,19 @@ use crate::error::{Fault, Field, SetupError};
 
 pub(super) type Checked = Result<(), SetupError>;
 
+/// What a setup is checked for in D dimensions alone.
+pub trait Checks<const D: usize>
+where
+    Dim: Dimension<D>,
+{
+    /// Checks what a setup has in these dimensions alone.
+    ///
+    /// # Errors
+    ///
+    /// If a field is out of range, missing, or does not go with another.
+    fn check(setup: &Setup<D>) -> Result<(), SetupError>;
+}
+
 impl<const D: usize> Setup<D>
 where
     Dim: Dimension<D>,
@@ -25,7 +38,10 @@ where
     /// # Errors
     ///
     /// If a field is out of range, missing, or does not go with another.
-    pub fn check(&self) -> Checked {
+    pub fn check(&self) -> Checked
+    where
+        Dim: Checks<D>,
+    {
         match self.horizon {
             Horizon::Factor(factor) => require(
                 factor >= 1.0 && factor.is_finite(),
@@ -339,9 +355,7 @@ where
     let action = field.part("action");
     match load.action {
         Action::Displacement(it) if it.components().next().is_none() => {
-            let names = Dim::COMPONENTS.iter().map(|it| format!("`{}`", it.name()));
-            let names: Vec<String> = names.collect();
-            return contradiction(action, format!("needs one of {} or more", names.join(", ")));
+            return contradiction(action, no_component::<D>());
         }
         Action::Force(vector)
         | Action::ForcePerLength(vector)
@@ -387,6 +401,18 @@ where
         ),
         _ => Ok(()),
     }
+}
+
+/// What is wrong with a displacement without a component.
+fn no_component<const D: usize>() -> String
+where
+    Dim: Dimension<D>,
+{
+    let names = Dim::COMPONENTS.iter().map(|it| format!("`{}`", it.name()));
+    format!(
+        "needs one of {} or more",
+        names.collect::<Vec<_>>().join(", ")
+    )
 }
 
 pub(super) fn require(

@@ -3,13 +3,19 @@
 use ligament_analysis::Component;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 
-use super::check::{Checked, contradiction, positive, require};
-use super::{Action, Analysis, Displacement, Form, Law, Setup, Strains};
+use super::check::{Checked, Checks, contradiction, positive, require};
+use super::{Action, Analysis, Dim, Displacement, Form, Law, Setup, Strains};
 use crate::body::Origin;
 use crate::error::Field;
 
+impl Checks<2> for Dim {
+    fn check(setup: &Setup) -> Checked {
+        setup.check_in_plane()
+    }
+}
+
 impl Setup {
-    pub(super) fn check_in_plane(&self) -> Checked {
+    fn check_in_plane(&self) -> Checked {
         positive(
             Field::whole("section").part("thickness"),
             Some(self.thickness()),

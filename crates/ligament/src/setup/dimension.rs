@@ -4,15 +4,12 @@ use std::fmt::Debug;
 
 use ligament_analysis::Component;
 use ligament_model::bonds::precrack::{self, PreCrack};
+use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::thermal::FreeStrains;
 use ligament_model::{BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, PointCloud};
 
-use super::{Section, Setup};
-use crate::error::SetupError;
-use crate::formulation::effective_elasticity;
-use crate::model::Model;
-use crate::stage::StageWatcher;
-use crate::warning::Warning;
+use super::law::Law;
+use super::section::Section;
 
 /// The plane and space: `Dim` is a [`Dimension<2>`](Dimension) and a [`Dimension<3>`](Dimension).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,36 +38,19 @@ pub trait Dimension<const D: usize>: 'static {
     /// Poisson's ratio of bonds that only resist stretch.
     fn central_poisson(section: &Self::Section) -> f64;
 
-    /// The warning of a Poisson's ratio above that of central forces; `turns` tells whether points turn.
-    fn negative_shear(setup: &Setup<D>, poisson: f64, turns: bool) -> Warning
-    where
-        Dim: Dimension<D>;
+    /// What a Poisson's ratio above that of central forces means in space, with the horizon over the distance of the points; None in the
+    /// plane.
+    fn negative_shear(_law: &Law, _poisson: f64, _horizon_factor: f64) -> Option<NegativeShear> {
+        None
+    }
 
     /// Whether a temperature widens the section by what it does across it.
     fn widens(section: &Self::Section) -> bool;
 
-    /// Checks what a setup has in these dimensions alone.
-    ///
-    /// # Errors
-    ///
-    /// If a field is out of range, missing, or does not go with another.
-    fn check(setup: &Setup<D>) -> Result<(), SetupError>
-    where
-        Dim: Dimension<D>;
-
-    /// Builds the model of a setup.
-    ///
-    /// # Errors
-    ///
-    /// If a field of the setup is wrong.
-    fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>
-    where
-        Dim: Dimension<D>;
-
     /// The points of a system.
     fn cloud(system: &Self::System) -> &PointCloud<D>;
 
-    /// Bonds through a [section](super::Reading::Section), and whether their first end lies on its left or, in space, behind it.
+    /// Bonds through a section of a probe, and whether their first end lies on its left or, in space, behind it.
     fn crossing(system: &Self::System, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
 
     /// Directions of length one across a direction of length one.
@@ -78,9 +58,7 @@ pub trait Dimension<const D: usize>: 'static {
 
     /// Components of the strain of a material for one kelvin without stress, with the constants that the law makes of it; none without a
     /// coefficient.
-    fn free_strain(setup: &Setup<D>, material: &Material) -> Option<Vec<f64>>
-    where
-        Dim: Dimension<D>;
+    fn free_strain(section: &Self::Section, law: &Law, material: &Material) -> Option<Vec<f64>>;
 
     /// Strains of the points (n_points) from their components, of which there are three in the plane.
     fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains;
@@ -110,24 +88,8 @@ impl Dimension<2> for Dim {
         Isotropic::central_force_poisson(*state)
     }
 
-    fn negative_shear(setup: &Setup, poisson: f64, turns: bool) -> Warning {
-        Warning::NegativeShear {
-            poisson,
-            limit: <Dim as Dimension<2>>::central_poisson(&setup.section),
-            turns,
-        }
-    }
-
     fn widens(Section::Plane { state, .. }: &Section) -> bool {
         *state == Plane::Strain
-    }
-
-    fn check(setup: &Setup) -> Result<(), SetupError> {
-        setup.check_in_plane()
-    }
-
-    fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
-        Model::in_plane(setup, watcher)
     }
 
     fn cloud(system: &BondSystem) -> &PointCloud {
@@ -146,10 +108,18 @@ impl Dimension<2> for Dim {
         vec![[-y, x]]
     }
 
-    fn free_strain(setup: &Setup, material: &Material) -> Option<Vec<f64>> {
-        let plane = setup.plane();
-        let elasticity = effective_elasticity(material, &setup.law, plane);
-        Some(material.expansion?.free_strain(&elasticity, plane).to_vec())
+    fn free_strain(
+        Section::Plane { state, .. }: &Section,
+        law: &Law,
+        material: &Material,
+    ) -> Option<Vec<f64>> {
+        let elasticity = law.effective_elasticity(material, *state);
+        Some(
+            material
+                .expansion?
+                .free_strain(&elasticity, *state)
+                .to_vec(),
+        )
     }
 
     fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains {

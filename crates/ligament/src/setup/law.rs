@@ -1,7 +1,8 @@
 //! The bond law, with what each law leaves open.
 
-use ligament_model::ElementKind;
+use ligament_model::law::bbpd;
 use ligament_model::law::rotational::{Profile, RotationalStiffness};
+use ligament_model::{Elasticity, ElementKind, Isotropic, Material, Plane};
 
 /// A bond law with its open choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -222,6 +223,23 @@ impl Law {
     /// Whether Poisson's ratio follows from the law, whatever the materials have.
     pub fn fixes_poisson(&self) -> bool {
         matches!(self, Self::Bbpd { .. } | Self::BbpdConical { .. })
+    }
+
+    /// Elastic constants that the law makes of a material in the plane: Young's modulus with the Poisson's ratio of central forces where the
+    /// law knows no other. None for a material with axes.
+    pub fn constants(&self, material: &Material, plane: Plane) -> Option<Isotropic> {
+        let given = material.elasticity.isotropic()?;
+        Some(if self.fixes_poisson() {
+            bbpd::central(&given, plane)
+        } else {
+            given
+        })
+    }
+
+    /// Elasticity of a material in the plane with the constants that the law makes of its own.
+    pub fn effective_elasticity(&self, material: &Material, plane: Plane) -> Elasticity {
+        let constants = self.constants(material, plane);
+        constants.map_or(material.elasticity, Elasticity::Isotropic)
     }
 
     /// Kinematics of its bonds.

@@ -14,6 +14,7 @@ mod probe;
 mod restraint;
 mod rotation;
 mod scatter;
+mod section;
 pub mod stage;
 mod temperature;
 
@@ -27,6 +28,7 @@ use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 use crate::body::Body;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
+pub use check::Checks;
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support,
 };
@@ -34,6 +36,7 @@ pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use dimension::{Dim, Dimension};
 pub use law::{Calibration, Form, Law, Open, Strains};
 pub use probe::{Probe, Reading};
+pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 
@@ -92,18 +95,6 @@ where
     pub solver: SolverSettings,
     /// Number of threads; without it the threads of the caller.
     pub threads: Option<usize>,
-}
-
-/// Section of the body: what a point of the plane stands for across it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Section {
-    /// A plate or a slice of a long body.
-    Plane {
-        /// Plane stress or plane strain.
-        state: Plane,
-        /// Thickness, m.
-        thickness: f64,
-    },
 }
 
 /// A material and the part of the body that it fills.

@@ -7,12 +7,18 @@ use ligament_model::law::rotational::RotationalScale;
 
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Law, Reading, Setup, Surface};
+use crate::setup::{Action, Checks, Dim, Law, Reading, Setup, Surface};
 
 type Checked = Result<(), SetupError>;
 
+impl Checks<3> for Dim {
+    fn check(setup: &Setup<3>) -> Checked {
+        setup.check_in_space()
+    }
+}
+
 impl Setup<3> {
-    pub(super) fn check_in_space(&self) -> Checked {
+    fn check_in_space(&self) -> Checked {
         self.check_law()?;
         self.check_motions()?;
         for (index, region) in self.materials.iter().enumerate() {

@@ -9,14 +9,7 @@ use ligament_model::{Bonds, LumpedMass, Material, PointCloud};
 
 use super::formulation::shear_form;
 use super::precrack::SolidCrack;
-use crate::error::SetupError;
-use crate::model::Model;
-use crate::setup::{Dim, Dimension, Horizon, Setup};
-use crate::stage::StageWatcher;
-use crate::warning::Warning;
-
-/// Horizon over the distance of points that most cases take.
-const USUAL_FACTOR: f64 = 3.0;
+use crate::setup::{Dim, Dimension, Law};
 
 impl Dimension<3> for Dim {
     type PreCrack = SolidCrack;
@@ -37,29 +30,12 @@ impl Dimension<3> for Dim {
         bbpd::POISSON
     }
 
-    fn negative_shear(setup: &Setup<3>, poisson: f64, _: bool) -> Warning {
-        let horizon_factor = match setup.horizon {
-            Horizon::Factor(factor) => factor,
-            // A horizon of one length has no factor: it is taken for the usual one.
-            Horizon::Length(_) => USUAL_FACTOR,
-        };
-        Warning::NegativeShearInSpace(NegativeShear::new(
-            poisson,
-            shear_form(&setup.law),
-            horizon_factor,
-        ))
+    fn negative_shear(law: &Law, poisson: f64, horizon_factor: f64) -> Option<NegativeShear> {
+        Some(NegativeShear::new(poisson, shear_form(law), horizon_factor))
     }
 
     fn widens((): &()) -> bool {
         false
-    }
-
-    fn check(setup: &Setup<3>) -> Result<(), SetupError> {
-        setup.check_in_space()
-    }
-
-    fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
-        Model::in_space(setup, watcher)
     }
 
     fn cloud(system: &SolidSystem) -> &PointCloud<3> {
@@ -97,7 +73,7 @@ impl Dimension<3> for Dim {
     }
 
     /// Isotropic materials widen alike along all axes.
-    fn free_strain(_: &Setup<3>, material: &Material) -> Option<Vec<f64>> {
+    fn free_strain((): &(), _: &Law, material: &Material) -> Option<Vec<f64>> {
         let [along, _] = material.expansion?.in_plane;
         Some(vec![along, along, along, 0.0, 0.0, 0.0])
     }

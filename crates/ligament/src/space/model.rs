@@ -17,17 +17,20 @@ use super::soundness::{require_connected, require_distinct, require_numbers};
 use crate::body::Origin;
 use crate::error::SetupError;
 use crate::loading;
-use crate::model::{Model, absent_bonds, precrack_share, with_cut};
-use crate::setup::Setup;
+use crate::model::{Discretises, Model, absent_bonds, precrack_share, with_cut};
+use crate::setup::{Dim, Setup};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning;
 
+impl Discretises<3> for Dim {
+    fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
+        Model::in_space(setup, watcher)
+    }
+}
+
 impl Model<3> {
     /// Builds the model of a setup in space.
-    pub(super) fn in_space(
-        setup: Setup<3>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Self, SetupError> {
+    fn in_space(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
@@ -41,11 +44,8 @@ impl Model<3> {
             bonds: bonds.len(),
             across_voids: absent.len(),
         });
-        let surfaces = surfaces(&setup)?;
-        let (is_cut, touched) = stage(watcher, "pre-cracks", || {
-            precracked(&surfaces, &bonds, &cloud)
-        });
-        let precrack_share = precrack_share(&bonds, &is_cut);
+        let (is_cut, touched, precrack_share) =
+            stage(watcher, "pre-cracks", || precracked(&setup, &bonds, &cloud))?;
         let absent = with_cut(absent, &bonds, &is_cut);
         let Corrected {
             bonds,
@@ -53,11 +53,8 @@ impl Model<3> {
             correction,
             energy_ratios,
         } = stage(watcher, "correction", || {
-            correct(
-                &SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell),
-                bonds,
-                &is_cut,
-            )
+            let formulation = SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell);
+            correct(&formulation, bonds, &is_cut)
         });
         watcher.found(&Finding::Correction(
             &setup.correction,
@@ -75,17 +72,13 @@ impl Model<3> {
             absent,
         };
         let system = stage(watcher, "rigidities", || {
-            let element = formulation::element(&setup.law);
-            let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
-            SolidSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega)
-        });
-        require_numbers(&*setup.body, &system)?;
+            bond_system(&setup, cloud, bonds, stiffness, &correction)
+        })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let (report, spacing) = (correction.report.as_ref(), &system.cloud.spacing);
-        let warnings = warning::of_model(&setup, spacing, report, &fixed, touched);
+        let report = correction.report.as_ref();
         Ok(Self {
-            warnings,
+            warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
             correction_range: correction.domain_factor_range(),
             correction: correction.report,
             setup,
@@ -131,15 +124,33 @@ fn inside_body(
     (bonds.retained(&keep), absent)
 }
 
-/// For each bond, whether a pre-crack cuts it (n_bonds), and how many only touch one.
+/// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch one, and the share of its bonds that each point loses
+/// (n_points).
 fn precracked(
-    surfaces: &[SolidPreCrack],
+    setup: &Setup<3>,
     bonds: &BondSet<3>,
     cloud: &PointCloud<3>,
-) -> (Vec<bool>, usize) {
-    let is_cut = cut_bonds(surfaces, bonds, cloud);
-    let touched = count_touched_bonds(surfaces, bonds, cloud, &is_cut);
-    (is_cut, touched)
+) -> Result<(Vec<bool>, usize, Vec<f64>), SetupError> {
+    let surfaces: Vec<SolidPreCrack> = surfaces(setup)?;
+    let is_cut = cut_bonds(&surfaces, bonds, cloud);
+    let touched = count_touched_bonds(&surfaces, bonds, cloud, &is_cut);
+    let share = precrack_share(bonds, &is_cut);
+    Ok((is_cut, touched, share))
+}
+
+/// Points and corrected bonds with their rigidities.
+fn bond_system(
+    setup: &Setup<3>,
+    cloud: PointCloud<3>,
+    bonds: BondSet<3>,
+    stiffness: BondStiffness,
+    correction: &Correction,
+) -> Result<SolidSystem, SetupError> {
+    let element = formulation::element(&setup.law);
+    let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
+    let system = SolidSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
+    require_numbers(&*setup.body, &system)?;
+    Ok(system)
 }
 
 /// Bonds that pre-cracks leave, with their stiffness and correction.

@@ -19,7 +19,7 @@ pub(super) struct Surface<'a> {
     triangles: RTree<GeomWithData<Rectangle<[f64; 3]>, [u32; 3]>>,
     /// Tetrahedra at nodes of the outline, of positive volume.
     tetrahedra: Vec<[u32; 4]>,
-    /// Those at each node of the outline; none at the others.
+    /// Numbers of the tetrahedra at each node of the outline; none at the others.
     tetrahedra_at: Incidence,
 }
 

@@ -26,7 +26,7 @@ pub enum UnfitCrack {
     NotPlane {
         /// Number of the corner, from 0.
         corner: usize,
-        /// Its distance from the plane, m.
+        /// Distance of the corner from the plane, m.
         distance: f64,
     },
     /// A polygon that crosses itself.

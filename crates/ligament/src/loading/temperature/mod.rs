@@ -194,7 +194,7 @@ where
 {
     let (setup, cloud) = (places.setup, places.cloud);
     let per_kelvin: Vec<Option<Vec<f64>>> = (setup.materials.iter())
-        .map(|it| Dim::free_strain(setup, &it.material))
+        .map(|it| Dim::free_strain(&setup.section, &setup.law, &it.material))
         .collect();
     let at_point = |(point, &change): (usize, &f64)| {
         let mut strain = [0.0; 6];

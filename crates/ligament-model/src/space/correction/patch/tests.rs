@@ -16,16 +16,27 @@ fn mesh(n: u32) -> SolidMesh {
     let node = |[x, y, z]: [u32; 3]| (z * n + y) * n + x;
     let mut seed = 1_u64;
     let mut shift = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         0.2 * ((seed >> 33) as f64 / f64::from(1_u32 << 31) - 0.5)
     };
     let nodes = (0..n.pow(3)).map(|k| [k % n, k / n % n, k / (n * n)]);
-    let positions = nodes.map(|place| place.map(|it| f64::from(it) + shift())).collect();
+    let positions = nodes
+        .map(|place| place.map(|it| f64::from(it) + shift()))
+        .collect();
     let mut cells = Vec::new();
     for k in 0..(n - 1).pow(3) {
         let m = n - 1;
         let corner = [k % m, k / m % m, k / (m * m)];
-        for [a, b, c] in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]] {
+        for [a, b, c] in [
+            [0, 1, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [1, 0, 2],
+            [0, 2, 1],
+            [2, 1, 0],
+        ] {
             let mut place = corner;
             let mut corners = [node(place); 4];
             for (next, axis) in [a, b, c].into_iter().enumerate() {
@@ -143,7 +154,12 @@ fn uniform_strains_become_equilibria() {
     assert!(ratio(0) < 0.02, "forces {}", ratio(0));
     assert!(ratio(1) < 0.8, "moments {}", ratio(1));
     // What the report has, by hand.
-    let report = case.correction.report.as_ref().and_then(|it| it.patch()).unwrap();
+    let report = case
+        .correction
+        .report
+        .as_ref()
+        .and_then(|it| it.patch())
+        .unwrap();
     let lame = forces::lame(&MATERIAL);
     let volume: f64 = case.cloud.volumes.iter().sum();
     let of_bond = |bond: usize| {
@@ -165,9 +181,15 @@ fn uniform_strains_become_equilibria() {
     }
     let weight = Settings::DEFAULT.moment_weight;
     let scaled = left.iter().zip(&squares);
-    let total: f64 = scaled.map(|(it, by)| it[0] / by[0] + weight * weight * it[1] / by[1]).sum();
+    let total: f64 = scaled
+        .map(|(it, by)| it[0] / by[0] + weight * weight * it[1] / by[1])
+        .sum();
     let expected = (total / (18 * case.cloud.len()) as f64).sqrt();
-    assert!((report.left / expected - 1.0).abs() < 1e-8, "{} {expected}", report.left);
+    assert!(
+        (report.left / expected - 1.0).abs() < 1e-8,
+        "{} {expected}",
+        report.left
+    );
 }
 
 #[test]
@@ -183,7 +205,10 @@ fn a_turned_body_has_the_same_factors() {
     assert_eq!(straight.bonds.ends, turned.bonds.ends);
     for bond in 0..straight.bonds.len() {
         for (one, other) in straight.factors(bond).into_iter().zip(turned.factors(bond)) {
-            assert!((one / other - 1.0).abs() < 1e-6, "bond {bond}: {one} {other}");
+            assert!(
+                (one / other - 1.0).abs() < 1e-6,
+                "bond {bond}: {one} {other}"
+            );
         }
     }
 }
@@ -192,7 +217,10 @@ fn a_turned_body_has_the_same_factors() {
 fn threads_change_no_bit() {
     let mesh = mesh(11);
     let [one, two] = [1, 2].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| corrected(&mesh, 1.9, SolidElement::Spring).correction)
     });
     assert_eq!(one, two);
@@ -203,7 +231,10 @@ fn threads_change_no_bit() {
 #[test]
 fn cells_give_tractions() {
     let mut mesh = mesh(5);
-    mesh.positions.iter_mut().flatten().for_each(|it| *it = it.round());
+    mesh.positions
+        .iter_mut()
+        .flatten()
+        .for_each(|it| *it = it.round());
     let of_cells = vec![0; mesh.cells.len()];
     let cloud = PointCloud::from_solid_mesh(&mesh, &of_cells, 1);
     let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, &[MATERIAL]);
