@@ -96,7 +96,7 @@ mod tests {
         }
     }
 
-    fn sides(named: &[([u32; 2], Link)]) -> [u8; 4] {
+    fn sides_with(named: &[([u32; 2], Link)]) -> [u8; 4] {
         let mut links = Links::default();
         for (pair, link) in named {
             links.name(*pair, *link);
@@ -107,19 +107,19 @@ mod tests {
     #[test]
     fn corners_are_on_one_side_where_edges_connect_them() {
         use Link::{Open, PreCrack, Unbonded};
-        assert_eq!(sides(&[]), [0; 4]);
-        assert_eq!(sides(&[([0, 1], Open)]), [0; 4], "round about over 2");
+        assert_eq!(sides_with(&[]), [0; 4]);
+        assert_eq!(sides_with(&[([0, 1], Open)]), [0; 4], "round about over 2");
         let around_two = [([2, 0], Open), ([1, 2], PreCrack), ([2, 3], Open)];
-        assert_eq!(sides(&around_two), [0, 0, 1, 0]);
+        assert_eq!(sides_with(&around_two), [0, 0, 1, 0]);
         let all: Vec<_> = EDGES.map(|[a, b]| ([a as u32, b as u32], Open)).to_vec();
-        assert_eq!(sides(&all), [0, 1, 2, 3]);
+        assert_eq!(sides_with(&all), [0, 1, 2, 3]);
         // Without a bond of 2 and 3: it connects nothing that bonds connected, and 3 to 2 where nothing else ever did.
         assert_eq!(
-            sides(&[([0, 2], Open), ([1, 2], Open), ([2, 3], Unbonded)]),
+            sides_with(&[([0, 2], Open), ([1, 2], Open), ([2, 3], Unbonded)]),
             [0, 0, 1, 0]
         );
         let far = [([0, 3], Unbonded), ([1, 3], Unbonded), ([2, 3], Unbonded)];
         let cut = [([0, 1], Open), ([0, 2], Open)];
-        assert_eq!(sides(&[&far[..], &cut[..]].concat()), [0; 4]);
+        assert_eq!(sides_with(&[&far[..], &cut[..]].concat()), [0; 4]);
     }
 }
