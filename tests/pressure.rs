@@ -349,8 +349,8 @@ load = [{ group = "top", pressure = 8.0 }]
         ),
         (
             "corner",
-            "load.0.group: a pressure needs a physical curve on the outline of a mesh, or cells of a lattice at a side or a hole: \
-             this group has no part of the outline",
+            "load.0.group: a pressure needs a physical curve on the outline of a mesh, a physical surface of a solid, or cells of a \
+             lattice at a side or a hole: this group has no part of the outline",
         ),
     ] {
         let error = fault(&bench, text, &[&format!("load.0.group={name}")]);

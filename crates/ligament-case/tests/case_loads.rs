@@ -54,7 +54,7 @@ fn profiles_and_couples_are_checked() {
     for (load, message) in [
         (
             "force = { x = 1.0 }\nprofile = { along = \"z\", zero = 0.0, one = 0.1 }",
-            "34:21: load.0.profile.along: unknown value \"z\"; valid values: \"x\", \"y\"",
+            "34:11: load.0.profile: a body in the plane has no z: give \"x\" or \"y\"",
         ),
         (
             "force = { x = 1.0 }\nprofile = { along = \"y\", zero = 0.1, one = 0.1 }",
@@ -75,7 +75,7 @@ fn profiles_and_couples_are_checked() {
         ),
         (
             "moment = { x = 1.0 }",
-            "33:10: load.0.moment: expected a number, found a table",
+            "33:10: load.0.moment: a couple in the plane turns about z: give a number",
         ),
         (
             "moment = 1.0\nbody_couple = 1.0",

@@ -101,7 +101,7 @@ fn faults_name_the_key() {
         (
             "center = [0, 0]",
             "20:1: precrack.0.center: unknown key `center` in [[precrack]]; did you mean `centre`? valid keys: `points`, \
-             `centre`, `length`, `angle`, `ends`",
+             `centre`, `length`, `angle`, `normal`, `radius`, `group`, `ends`",
         ),
     ] {
         let error = with(keys, &[]).unwrap_err();

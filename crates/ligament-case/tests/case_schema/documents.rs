@@ -6,6 +6,39 @@ use serde_json::{Map, Value};
 
 use super::{SCHEMA, document};
 
+const SOLID: &str = r#"
+title = "On a box of cells"
+material = { young = 1e9, poisson = 0.2 }
+model = { law = "nhpd", horizon_factor = 3 }
+[solid_lattice]
+cells = [4, 4, 4]
+spacing = [0.1, 0.1, 0.1]
+remove = [
+    { name = "void", sphere = { centre = [0.2, 0.2, 0.2], radius = 0.05 } },
+    { cylinder = { ends = [[0, 0, 0], [0, 0, 0.1]], radius = 0.01 } },
+    { outside_sphere = { centre = [0.2, 0.2, 0.2], radius = 1 } },
+    { outside_cylinder = { ends = [[0.2, 0.2, 0], [0.2, 0.2, 1]], radius = 1 } },
+]
+[solid_lattice.set]
+left = { left = 1 }
+right = { right = 1 }
+ball = { sphere = { centre = [0.2, 0.2, 0.2], radius = 0.2 } }
+axis = { cylinder = { ends = [[0.2, 0.2, 0], [0.2, 0.2, 0.4]], radius = 0.2 } }
+[[support]]
+group = "left"
+displacement = { x = 0.0, y = 0.0, z = 0.0 }
+[[load]]
+group = "right"
+force_per_area = { z = 1 }
+[[load]]
+name = "turned"
+group = "right"
+moment = { z = 1 }
+[[load]]
+name = "twisted"
+body_couple = { z = 1 }
+"#;
+
 const MESH: &str = r#"
 title = "On a mesh"
 mesh = { file = "disk.msh" }
@@ -159,7 +192,7 @@ pub(super) fn documents() -> Vec<Value> {
     );
     // Keys of one correction stand in another document than those of the other.
     let patch = ORTHOTROPIC.replace("\"domain\"", "\"patch\"");
-    [mesh.as_str(), LATTICE, MODAL, ORTHOTROPIC, &patch]
+    [mesh.as_str(), LATTICE, SOLID, MODAL, ORTHOTROPIC, &patch]
         .map(document)
         .to_vec()
 }

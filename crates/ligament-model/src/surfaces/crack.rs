@@ -74,12 +74,12 @@ impl Finder<'_> {
             let places: Vec<u32> = (polygon.iter())
                 .map(|of| self.place(corners, of, sides))
                 .collect();
-            let triangles = match places.as_slice() {
-                &[a, b, c, d] if self.length([b, d]) < self.length([a, c]) => {
+            let triangles = match *places.as_slice() {
+                [a, b, c, d] if self.length([b, d]) < self.length([a, c]) => {
                     vec![[a, b, d], [b, c, d]]
                 }
-                &[a, b, c, d] => vec![[a, b, c], [a, c, d]],
-                &[a, b, c] => vec![[a, b, c]],
+                [a, b, c, d] => vec![[a, b, c], [a, c, d]],
+                [a, b, c] => vec![[a, b, c]],
                 _ => Vec::new(),
             };
             self.surface

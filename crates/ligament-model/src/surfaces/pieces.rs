@@ -103,6 +103,7 @@ fn oriented(cell: SolidCell, positions: &[[f64; 3]]) -> SolidCell {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 

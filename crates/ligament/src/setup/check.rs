@@ -368,7 +368,10 @@ where
         }
         Action::Moment(Couple { about }) | Action::BodyCouple(Couple { about }) => {
             let expected = "other than 0, or the load does nothing";
-            require(about != [0.0; 3], action, expected, about)?;
+            match D {
+                2 => require(about[2] != 0.0, action, expected, about[2])?,
+                _ => require(about != [0.0; 3], action, expected, about)?,
+            }
         }
         Action::Pressure(value) => {
             let expected = "other than 0, or the load does nothing";

@@ -4,9 +4,12 @@ use ligament_analysis::Component;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 
 use super::check::{Checked, Checks, contradiction, positive, require};
-use super::{Action, Analysis, Dim, Displacement, Form, Law, Setup, Strains};
+use super::{Action, Analysis, Axis, Dim, Displacement, Form, Law, Probe, Reading, Setup, Strains};
 use crate::body::Origin;
 use crate::error::Field;
+
+/// What is wrong with a z axis in the plane.
+const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
 impl Checks<2> for Dim {
     fn check(setup: &Setup) -> Checked {
@@ -24,7 +27,22 @@ impl Setup {
         self.check_rotational_scale()?;
         self.check_precracks()?;
         self.check_closing()?;
+        self.check_sections()?;
         self.check_components()
+    }
+
+    /// Sections carry forces along x and y.
+    fn check_sections(&self) -> Checked {
+        let is_along_z = |it: &Probe| {
+            let Reading::Section { component, .. } = it.reading else {
+                return false;
+            };
+            component == Axis::Z
+        };
+        match self.probes.iter().position(is_along_z) {
+            None => Ok(()),
+            Some(index) => contradiction(Field::element("probes", index).part("component"), NO_Z),
+        }
     }
 
     /// Points of the plane move along x and y and turn about z.
@@ -49,6 +67,9 @@ impl Setup {
             }
         }
         for (index, load) in self.loads.iter().enumerate() {
+            if load.profile.is_some_and(|it| it.along == Axis::Z) {
+                return contradiction(Field::element("loads", index).part("profile"), NO_Z);
+            }
             let action = Field::element("loads", index).part("action");
             match load.action {
                 Action::Displacement(it) if leaves(&it) => return contradiction(action, reason),

@@ -83,8 +83,11 @@ impl PointBlocks {
     }
 }
 
+/// A term beside at a point that it acts on: the point, its weight and its entries by degree of freedom.
+type Beside<'a> = (u32, f64, &'a [(usize, f64)]);
+
 /// Terms beside, by the points that they act on: few.
-fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<(u32, f64, &'a [(usize, f64)])> {
+fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<Beside<'a>> {
     let layout = operator.unknowns.layout();
     let mut of_points = Vec::new();
     for (weight, entries) in operator.beside {
@@ -101,7 +104,7 @@ fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<(u32, f64, &'a [(usiz
 fn invert(
     operator: &Operator<'_>,
     point: u32,
-    beside: &[(u32, f64, &[(usize, f64)])],
+    beside: &[Beside<'_>],
     inverse: &mut [f64],
     diagonal: &mut [f64],
 ) -> Vec<usize> {

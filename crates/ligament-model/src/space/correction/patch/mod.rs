@@ -58,4 +58,5 @@ fn minimise<const N: usize>(
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests;
