@@ -438,8 +438,8 @@ fn heat_makes_a_free_body_grow() {
             .zip(&system.cloud.positions)
             .map(|(point, p)| (p[axis], layout.value(point, component, &state.displacement)));
         moved.fold([0.0_f64; 2], |[low, high], (place, u)| match place {
-            x if x == -1.5 => [u, high],
-            x if x == 1.5 => [low, u],
+            -1.5 => [u, high],
+            1.5 => [low, u],
             _ => [low, high],
         })
     };

@@ -124,7 +124,8 @@ impl Support {
         key: &KeyPath,
     ) -> Result<setup::Support<D>, KeyFault> {
         let given = self.displacement.unwrap_or_default().setup();
-        for (component, value) in given.components().filter(|(_, value)| *value != 0.0) {
+        let moved = given.components().find(|(_, value)| *value != 0.0);
+        if let Some((component, value)) = moved {
             let reason = format!(
                 "a support holds at 0, found {value:?}: put prescribed displacements in a [[load]]"
             );

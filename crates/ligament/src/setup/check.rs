@@ -366,12 +366,8 @@ where
         {
             return contradiction(action, Dim::IDLE_VECTOR);
         }
-        Action::Moment(Couple { about }) | Action::BodyCouple(Couple { about }) => {
-            let expected = "other than 0, or the load does nothing";
-            match D {
-                2 => require(about[2] != 0.0, action, expected, about[2])?,
-                _ => require(about != [0.0; 3], action, expected, about)?,
-            }
+        Action::Moment(couple) | Action::BodyCouple(couple) => {
+            require_couple::<D>(action, couple)?;
         }
         Action::Pressure(value) => {
             let expected = "other than 0, or the load does nothing";
@@ -403,6 +399,15 @@ where
             "acts on the outline of a `group`, so the load needs one",
         ),
         _ => Ok(()),
+    }
+}
+
+/// A couple turns something: in the plane about z.
+fn require_couple<const D: usize>(action: Field, Couple { about }: Couple) -> Checked {
+    let expected = "other than 0, or the load does nothing";
+    match D {
+        2 => require(about[2] != 0.0, action, expected, about[2]),
+        _ => require(about != [0.0; 3], action, expected, about),
     }
 }
 
