@@ -339,6 +339,9 @@ fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {
     contradiction(field.part("elasticity"), reason)
 }
 
+/// What the size of a load must be.
+const NOT_IDLE: &str = "other than 0, or the load does nothing";
+
 /// A load does something, along a curve where it is spread along one.
 fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked
 where
@@ -369,10 +372,7 @@ where
         Action::Moment(couple) | Action::BodyCouple(couple) => {
             require_couple::<D>(action, couple)?;
         }
-        Action::Pressure(value) => {
-            let expected = "other than 0, or the load does nothing";
-            require(value != 0.0, action, expected, value)?;
-        }
+        Action::Pressure(value) => require(value != 0.0, action, NOT_IDLE, value)?,
         _ => {}
     }
     match (load.action, &load.place) {
@@ -404,10 +404,9 @@ where
 
 /// A couple turns something: in the plane about z.
 fn require_couple<const D: usize>(action: Field, Couple { about }: Couple) -> Checked {
-    let expected = "other than 0, or the load does nothing";
     match D {
-        2 => require(about[2] != 0.0, action, expected, about[2]),
-        _ => require(about != [0.0; 3], action, expected, about),
+        2 => require(about[2] != 0.0, action, NOT_IDLE, about[2]),
+        _ => require(about != [0.0; 3], action, NOT_IDLE, about),
     }
 }
 
