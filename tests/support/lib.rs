@@ -8,6 +8,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 pub mod bench;
+pub mod cylinders;
 pub mod meshes;
 pub mod modal;
 pub mod numbers;
