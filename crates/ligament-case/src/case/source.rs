@@ -19,6 +19,17 @@ pub struct Source {
     pub overrides: Vec<String>,
     /// All of it, parsed.
     pub document: Node,
+    /// The kind of a body in memory, which stands in the place of the one in the file that the document names.
+    pub body: Option<BodyKind>,
+}
+
+/// A body in the plane, or a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// In the plane of x and y.
+    Plane,
+    /// In space.
+    Solid,
 }
 
 impl Source {
@@ -49,6 +60,7 @@ impl Source {
             text: String::new(),
             overrides: Vec::new(),
             document,
+            body: None,
         };
         source.with_overrides(overrides)
     }
