@@ -91,7 +91,7 @@ impl CaseFile {
         let case = check_ranges(document).and_then(|()| Case::read(document, folder, source.body));
         let case = case.map_err(|fault| source.error(fault))?;
         let file = Self { source, case };
-        file.check_kind()?;
+        file.case.check_kind(&file.source)?;
         Ok(file)
     }
 

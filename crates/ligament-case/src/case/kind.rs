@@ -1,58 +1,58 @@
 //! Whether a case fits its body, one in the plane or a solid, before the body is made.
 
 use super::fault::{CaseError, Fault, KeyFault};
-use super::file::CaseFile;
 use super::key_path::KeyPath;
 use super::mesh_section::MeshSection;
+use super::sections::Case;
+use super::source::Source;
 use crate::mesh_file::{MeshFileError, read_any_mesh};
 
-impl CaseFile {
+impl Case {
     /// Checks the case on a stand-in for its body. Of a case that would fit a body of the other kind the error tells what the mesh is, or
     /// that it cannot be read.
-    pub(super) fn check_kind(&self) -> Result<(), CaseError> {
-        let is_solid = self.case.is_solid();
-        let Err(error) = self.check_as(is_solid) else {
+    pub(super) fn check_kind(&self, source: &Source) -> Result<(), CaseError> {
+        let is_solid = self.is_solid();
+        let Err(error) = self.check_as(source, is_solid) else {
             return Ok(());
         };
-        let Some(mesh) = &self.case.mesh else {
+        let Some(mesh) = &self.mesh else {
             return Err(error);
         };
-        if self.source.body.is_some() || self.check_as(!is_solid).is_err() {
+        if source.body.is_some() || self.check_as(source, !is_solid).is_err() {
             return Err(error);
         }
         Err(match (&mesh.unread, read_any_mesh(&mesh.file)) {
             (Some(reason), _) => {
                 let reason = format!("{reason}; a path is from the folder of the case file");
-                self.of_mesh("read", mesh, &reason)
+                of_mesh(source, "read", mesh, &reason)
             }
-            (None, Err(MeshFileError::Parse { source, .. })) => {
-                self.of_mesh("use", mesh, &source.to_string())
+            (None, Err(MeshFileError::Parse { source: reason, .. })) => {
+                of_mesh(source, "use", mesh, &reason.to_string())
             }
             (None, _) => of_other_kind(error, mesh),
         })
     }
 
     /// Checks the case as one of a solid, or as one in the plane.
-    fn check_as(&self, is_solid: bool) -> Result<(), CaseError> {
-        let case = &self.case;
+    fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
         let checked = if is_solid {
-            let setup = case.solid_stand_in().and_then(|body| case.in_space(body));
+            let setup = self.solid_stand_in().and_then(|body| self.in_space(body));
             setup.map(|setup| setup.check())
         } else {
-            let setup = case.stand_in().and_then(|body| case.in_plane(body));
+            let setup = self.stand_in().and_then(|body| self.in_plane(body));
             setup.map(|setup| setup.check())
         };
-        let checked = checked.map_err(|fault| self.source.error(fault))?;
-        checked.map_err(|error| self.located(error))
+        let checked = checked.map_err(|fault| source.error(fault))?;
+        checked.map_err(|error| self.located(source, error))
     }
+}
 
-    /// The error of a mesh that is none, and without which nobody knows what the case is of.
-    fn of_mesh(&self, what: &str, mesh: &MeshSection, reason: &str) -> CaseError {
-        let file = mesh.file.display();
-        let reason = format!("cannot {what} the mesh {file}: {reason}");
-        let key = KeyPath::default().child("mesh").child("file");
-        self.source.error(KeyFault::new(key, reason))
-    }
+/// The error of a mesh that is none, and without which nobody knows what the case is of.
+fn of_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> CaseError {
+    let file = mesh.file.display();
+    let reason = format!("cannot {what} the mesh {file}: {reason}");
+    let key = KeyPath::default().child("mesh").child("file");
+    source.error(KeyFault::new(key, reason))
 }
 
 /// The error of a case that fits the other kind of body, with what its mesh is.

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ligament_mesh::Group;
 use ligament_output::columns::WIDEST;
 
-use super::NAMES;
+use super::words::NAMES;
 use crate::lines::entry;
 
 /// Writes a line a group, with what `kind_and_size` tells of it.

@@ -3,16 +3,12 @@
 mod groups;
 mod plane;
 mod solid;
+mod words;
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
-use ligament_mesh::{AnyMesh, NodeField, Remark};
-use ligament_output::quantity::{between, quantity};
-
-/// Letters of the longest name of an entry.
-const NAMES: usize = 13;
+use ligament_mesh::AnyMesh;
 
 /// Writes a summary of a mesh; `path` heads it.
 ///
@@ -25,71 +21,4 @@ pub fn write_summary(out: &mut dyn Write, path: &Path, mesh: &AnyMesh) -> io::Re
         AnyMesh::Plane(mesh) => plane::write(out, mesh),
         AnyMesh::Solid(mesh) => solid::write(out, mesh),
     }
-}
-
-/// The shortest and the longest edge in words.
-fn edges_in_words(lengths: impl Iterator<Item = f64>) -> String {
-    let start = (f64::INFINITY, 0.0);
-    let (shortest, longest) = lengths.fold(start, |(shortest, longest), length| {
-        (f64::min(shortest, length), f64::max(longest, length))
-    });
-    let ratio = longest / shortest;
-    format!(
-        "shortest {}, longest {}, ratio {ratio:.2}",
-        quantity(shortest, "m"),
-        quantity(longest, "m")
-    )
-}
-
-fn edge_length<const D: usize>(positions: &[[f64; D]], [from, to]: [u32; 2]) -> f64 {
-    let [from, to] = [from, to].map(|node| positions[node as usize]);
-    match (from.as_slice(), to.as_slice()) {
-        ([ax, ay], [bx, by]) => (bx - ax).hypot(by - ay),
-        _ => {
-            let squares = from.iter().zip(&to).map(|(a, b)| (b - a).powi(2));
-            squares.sum::<f64>().sqrt()
-        }
-    }
-}
-
-/// The ends of a box along each axis in words.
-fn box_in_words<const D: usize>([low, high]: [[f64; D]; 2]) -> String {
-    let along = |axis: usize| {
-        let name = ["x", "y", "z"][axis];
-        format!("{name} {}", between([low[axis], high[axis]], "m"))
-    };
-    (0..D).map(along).collect::<Vec<_>>().join(", ")
-}
-
-fn write_fields(out: &mut dyn Write, fields: &[NodeField]) -> io::Result<()> {
-    for field in fields {
-        let values = field.components;
-        let plural = if values == 1 { "" } else { "s" };
-        let (name, step) = (&field.name, field.time_step);
-        writeln!(
-            out,
-            "  field         {name}, time step {step}, {values} value{plural} a node"
-        )?;
-    }
-    Ok(())
-}
-
-fn write_remarks(out: &mut dyn Write, remarks: &[Remark]) -> io::Result<()> {
-    for remark in remarks {
-        writeln!(out, "  note: {remark}")?;
-    }
-    Ok(())
-}
-
-/// Writes a note where a body is as large as those are whose millimetres are taken for metres.
-fn write_size_note<const D: usize>(
-    out: &mut dyn Write,
-    [low, high]: [[f64; D]; 2],
-) -> io::Result<()> {
-    let sides = (0..D).map(|axis| high[axis] - low[axis]);
-    let length = sides.fold(0.0, f64::max);
-    if length > SUSPICIOUSLY_LARGE {
-        writeln!(out, "  note: {}", Warning::LargeBody { length })?;
-    }
-    Ok(())
 }

@@ -7,9 +7,9 @@ use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_output::quantity::quantity;
 
-use super::{
-    NAMES, box_in_words, edge_length, edges_in_words, groups, write_fields, write_remarks,
-    write_size_note,
+use super::groups;
+use super::words::{
+    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_remarks, write_size_note,
 };
 use crate::lines::entry;
 

@@ -6,9 +6,9 @@ use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Faces, Group, SolidCell, SolidMesh};
 use ligament_output::quantity::{between, place, quantity};
 
-use super::{
-    NAMES, box_in_words, edge_length, edges_in_words, groups, write_fields, write_remarks,
-    write_size_note,
+use super::groups;
+use super::words::{
+    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_remarks, write_size_note,
 };
 use crate::lines::entry;
 

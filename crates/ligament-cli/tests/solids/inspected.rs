@@ -20,7 +20,8 @@ fn sizes_groups_and_quality_are_told() {
     let said = inspected(&Block::new(1.0));
     let r = 1.0 / (2.0 + 2.0 * 2.0_f64.sqrt());
     let ratio = 3.0 * r / (0.5 * 3.0_f64.sqrt());
-    let quality = format!("radius ratio of the tetrahedra {ratio:.2} at worst, {ratio:.2} in the mean");
+    let quality =
+        format!("radius ratio of the tetrahedra {ratio:.2} at worst, {ratio:.2} in the mean");
     for line in [
         "  nodes         112\n",
         "  cells         324 (324 tetrahedra)\n",
@@ -50,7 +51,10 @@ fn units_and_missing_volume_groups_are_told() {
     let mut block = Block::new(1.0);
     block.group = 0;
     let said = inspected(&block);
-    assert!(said.contains("there is no volume group, and none is needed"), "{said}");
+    assert!(
+        said.contains("there is no volume group, and none is needed"),
+        "{said}"
+    );
 }
 
 /// Slivers are counted, with the place of the worst; surfaces with cells on both sides are told from the outline.
@@ -65,7 +69,10 @@ fn slivers_and_inner_surfaces_are_told() {
     let inner = block.tetrahedra[100];
     block.triangles.push((7, [inner[0], inner[1], inner[2]]));
     let said = inspected(&block);
-    assert!(said.contains("tetrahedra are slivers (radius ratio below 0.1; the worst"), "{said}");
+    assert!(
+        said.contains("tetrahedra are slivers (radius ratio below 0.1; the worst"),
+        "{said}"
+    );
     assert!(said.contains("-optimize_netgen"), "{said}");
     assert!(said.contains("m^2, inside of the body"), "{said}");
 }
@@ -80,7 +87,10 @@ fn meshes_of_the_repository_are_inspected() {
             let output = ligament(["inspect".as_ref(), path.as_os_str()]);
             assert_success(&output);
             let said = stdout(&output);
-            assert!(said.contains("  volume  ") && said.contains("quality"), "{said}");
+            assert!(
+                said.contains("  volume  ") && said.contains("quality"),
+                "{said}"
+            );
             count += 1;
         }
     }

@@ -52,9 +52,13 @@ fn meshes_of_the_repository_have_cases_that_check() {
         assert_eq!(moved.iter().flatten().count(), 1, "{mesh}: {moved:?}");
     }
     // One of them with everything: the pre-crack cuts bonds, probes and output are known.
-    let starter = of_mesh(&meshes().join("thick-disk.msh"), folder.path(), Law::Pds {
-        calibration: Default::default(),
-    });
+    let starter = of_mesh(
+        &meshes().join("thick-disk.msh"),
+        folder.path(),
+        Law::Pds {
+            calibration: Default::default(),
+        },
+    );
     let report = checked(&case(
         &with_all_settings(&starter.unwrap().text),
         folder.path(),
@@ -70,9 +74,19 @@ fn without_groups_boxes_are_taken_and_the_case_runs() {
     let folder = folder_with(&block);
     assert_success(&ligament_in(folder.path(), &["new", "block.msh"]));
     let text = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
-    assert!(text.contains("# two corners, m: the points in this box"), "{text}");
+    assert!(
+        text.contains("# two corners, m: the points in this box"),
+        "{text}"
+    );
     assert!(!text.contains("thickness"), "{text}");
-    let run = ["run", "case.toml", "--out", "results", "--set", "fracture.steps=10"];
+    let run = [
+        "run",
+        "case.toml",
+        "--out",
+        "results",
+        "--set",
+        "fracture.steps=10",
+    ];
     assert_success(&ligament_in(folder.path(), &run));
     let breaks = std::fs::read_to_string(folder.path().join("results/breaks.csv")).unwrap();
     assert!(breaks.lines().count() > 10, "{breaks}");
@@ -103,6 +117,9 @@ fn lattices_take_the_laws_of_solids() {
     }
     assert_eq!(count, 5);
     let folder = tempfile::tempdir().unwrap();
-    let made = ligament_in(folder.path(), &["new", "--lattice", "6,6,12,0.01", "--law", "pds"]);
+    let made = ligament_in(
+        folder.path(),
+        &["new", "--lattice", "6,6,12,0.01", "--law", "pds"],
+    );
     assert_success(&made);
 }

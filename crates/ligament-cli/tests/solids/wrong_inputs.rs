@@ -8,7 +8,10 @@ fn refused(block: &Block, case: &str) -> String {
     let folder = folder_with(block);
     let (is_good, said) = with_case(folder.path(), case, &["check", "--model-only", "case.toml"]);
     assert!(!is_good, "{case}\n{said}");
-    assert!(said.contains("error: ") && !said.contains("panicked"), "{said}");
+    assert!(
+        said.contains("error: ") && !said.contains("panicked"),
+        "{said}"
+    );
     said
 }
 
@@ -26,7 +29,11 @@ fn a_surface_is_no_solid() {
     let said = refused(&block, &case(SOLID));
     assert_contains(
         &said,
-        &["mesh.file", "has no solid cells and is not planar", "mesh the volume (`gmsh -3`)"],
+        &[
+            "mesh.file",
+            "has no solid cells and is not planar",
+            "mesh the volume (`gmsh -3`)",
+        ],
     );
     // A flat surface is a mesh of the plane: the keys of a solid do not fit it.
     for node in &mut block.nodes {
@@ -36,7 +43,12 @@ fn a_surface_is_no_solid() {
     let said = refused(&block, &case(SOLID));
     assert_contains(
         &said,
-        &["support.0.displacement", "a body in the plane", "block.msh has no solid cells", "`gmsh -3`"],
+        &[
+            "support.0.displacement",
+            "a body in the plane",
+            "block.msh has no solid cells",
+            "`gmsh -3`",
+        ],
     );
 }
 
@@ -45,10 +57,19 @@ fn a_surface_is_no_solid() {
 fn plane_cells_beside_solid_ones_are_refused() {
     let mut block = Block::new(1.0);
     let n = block.nodes.len();
-    block.nodes.extend([[3.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, 0.0, 1.0]]);
+    block
+        .nodes
+        .extend([[3.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, 0.0, 1.0]]);
     block.triangles.push((5, [n, n + 1, n + 2]));
     let said = refused(&block, &case(SOLID));
-    assert_contains(&said, &["of the surface \"5\"", "is a face of no solid cell", "mesh surface and volume together"]);
+    assert_contains(
+        &said,
+        &[
+            "of the surface \"5\"",
+            "is a face of no solid cell",
+            "mesh surface and volume together",
+        ],
+    );
 }
 
 /// Cells that are inside out are turned round; one that is turned over by a node moved through its face overlaps others.
@@ -59,13 +80,23 @@ fn inverted_tetrahedra_are_turned_or_refused() {
         cell.swap(0, 1);
     }
     let folder = folder_with(&block);
-    let (is_good, said) = with_case(folder.path(), &case(SOLID), &["check", "--model-only", "case.toml"]);
+    let (is_good, said) = with_case(
+        folder.path(),
+        &case(SOLID),
+        &["check", "--model-only", "case.toml"],
+    );
     assert!(is_good, "{said}");
     assert_contains(&said, &["volume                2.000 m^3"]);
     let mut block = Block::new(1.0);
-    let middle = block.nodes.iter().position(|it| *it == [1.0, 1.0 / 3.0, 1.0 / 3.0]);
+    let middle = block
+        .nodes
+        .iter()
+        .position(|it| *it == [1.0, 1.0 / 3.0, 1.0 / 3.0]);
     block.nodes[middle.unwrap()][0] += 0.7;
-    assert_contains(&refused(&block, &case(SOLID)), &["overlaps", "mesh the geometry again"]);
+    assert_contains(
+        &refused(&block, &case(SOLID)),
+        &["overlaps", "mesh the geometry again"],
+    );
 }
 
 #[test]
@@ -74,7 +105,10 @@ fn flat_tetrahedra_are_refused() {
     for node in &mut block.nodes {
         node[2] *= 1e-9;
     }
-    assert_contains(&refused(&block, &case(SOLID)), &["is flat", "gmsh -3 -optimize"]);
+    assert_contains(
+        &refused(&block, &case(SOLID)),
+        &["is flat", "gmsh -3 -optimize"],
+    );
 }
 
 /// Without volume groups one material fills the body; one for each of several groups is asked for.
@@ -83,7 +117,11 @@ fn solids_without_volume_groups_have_one_material() {
     let mut block = Block::new(1.0);
     block.group = 0;
     let folder = folder_with(&block);
-    let (is_good, said) = with_case(folder.path(), &case(SOLID), &["check", "--model-only", "case.toml"]);
+    let (is_good, said) = with_case(
+        folder.path(),
+        &case(SOLID),
+        &["check", "--model-only", "case.toml"],
+    );
     assert!(is_good, "{said}");
     let parts = case(SOLID).replace("[material]", "[material.rock]\ngroup = \"body\"");
     assert_contains(&refused(&block, &parts), &["material.rock.group", "`body`"]);
@@ -94,9 +132,16 @@ fn solids_without_volume_groups_have_one_material() {
 #[test]
 fn millimetres_are_warned_of() {
     let folder = folder_with(&Block::new(1000.0));
-    let (is_good, said) = with_case(folder.path(), &case(SOLID), &["check", "--model-only", "case.toml"]);
+    let (is_good, said) = with_case(
+        folder.path(),
+        &case(SOLID),
+        &["check", "--model-only", "case.toml"],
+    );
     assert!(is_good, "{said}");
-    assert_contains(&said, &["warning: the body is 2000.0 m across", "scaled by 0.001"]);
+    assert_contains(
+        &said,
+        &["warning: the body is 2000.0 m across", "scaled by 0.001"],
+    );
 }
 
 /// A path that leads nowhere, or to no mesh, is named before anything that is right for a solid.
@@ -106,10 +151,17 @@ fn a_mesh_that_cannot_be_read_is_named_first() {
     let nowhere = case(SOLID).replace("block.msh", "nowhere.msh");
     assert_contains(
         &refused(&block, &nowhere),
-        &["case.toml:2:8: mesh.file: cannot read the mesh", "nowhere.msh", "from the folder of the case file"],
+        &[
+            "case.toml:2:8: mesh.file: cannot read the mesh",
+            "nowhere.msh",
+            "from the folder of the case file",
+        ],
     );
     let itself = case(SOLID).replace("block.msh", "case.toml");
-    assert_contains(&refused(&block, &itself), &["mesh.file: cannot use the mesh", "not a Gmsh mesh file"]);
+    assert_contains(
+        &refused(&block, &itself),
+        &["mesh.file: cannot use the mesh", "not a Gmsh mesh file"],
+    );
     // What is wrong whatever the mesh is comes first.
     let misspelt = nowhere.replace("young", "yong");
     assert_contains(&refused(&block, &misspelt), &["did you mean `young`"]);
@@ -131,23 +183,53 @@ fn keys_of_the_plane_are_refused() {
     let turn_at = probe("at = [0, 0, 0]\nfield = \"rotation\"");
     let section = probe("section = [[1, 0], [1, 1]]\ncomponent = \"x\"");
     for (parts, words) in [
-        ([&*thick, support, load, ""], ["mesh.thickness", "solid cells"]),
+        (
+            [&*thick, support, load, ""],
+            ["mesh.thickness", "solid cells"],
+        ),
         ([&*plane, support, load, ""], ["mesh.plane", "solid cells"]),
-        ([head, support, box_in_plane, ""], ["load.0.box.0", "three coordinates"]),
-        ([head, support, turned, ""], ["load.0.displacement", "rotation_x"]),
-        ([head, support, per_length, ""], ["load.0.group", "force per area"]),
+        (
+            [head, support, box_in_plane, ""],
+            ["load.0.box.0", "three coordinates"],
+        ),
+        (
+            [head, support, turned, ""],
+            ["load.0.displacement", "rotation_x"],
+        ),
+        (
+            [head, support, per_length, ""],
+            ["load.0.group", "force per area"],
+        ),
         ([head, support, load, line], ["precrack.0.length", "lines"]),
-        ([head, support, load, corners], ["precrack.0.points.0", "three coordinates"]),
-        ([head, support, load, &*turn], ["probe.0.component", "rotation_x"]),
-        ([head, support, load, &*turn_at], ["probe.0.field", "rotation_x"]),
-        ([head, support, load, &*section], ["probe.0.section.0", "three coordinates"]),
+        (
+            [head, support, load, corners],
+            ["precrack.0.points.0", "three coordinates"],
+        ),
+        (
+            [head, support, load, &*turn],
+            ["probe.0.component", "rotation_x"],
+        ),
+        (
+            [head, support, load, &*turn_at],
+            ["probe.0.field", "rotation_x"],
+        ),
+        (
+            [head, support, load, &*section],
+            ["probe.0.section.0", "three coordinates"],
+        ),
     ] {
         assert_contains(&refused(&Block::new(1.0), &case(parts)), &words);
     }
     let law = case(SOLID).replace("\"nhpd\"", "\"bbpd-conical\"");
-    assert_contains(&refused(&Block::new(1.0), &law), &["model.law", "is a law of the plane"]);
+    assert_contains(
+        &refused(&Block::new(1.0), &law),
+        &["model.law", "is a law of the plane"],
+    );
     let closing = case(SOLID).replace("[model]", "[model]\nclosing = true");
-    assert_contains(&refused(&Block::new(1.0), &closing), &["model.closing", "plane alone"]);
+    assert_contains(
+        &refused(&Block::new(1.0), &closing),
+        &["model.closing", "plane alone"],
+    );
 }
 
 /// Keys of solids in a case of the plane.
@@ -162,10 +244,22 @@ fn keys_of_solids_are_refused_in_the_plane() {
     let disk = "[[precrack]]\ncentre = [0.04, 0.02]\nnormal = [1.0, 0.0]\nradius = 0.01";
     let probe = "[[probe]]\nname = \"a\"\nbetween = [[0, 0], [1, 0]]\ncomponent = \"z\"";
     for (parts, words) in [
-        ([plate, held_along_z, pulled, ""], ["support.0.displacement", "body in the plane"]),
-        ([plate, held, per_area, ""], ["load.0.force_per_area", "force per length"]),
-        ([plate, held, box_in_space, ""], ["load.0.box.0", "two coordinates"]),
-        ([plate, held, pulled, disk], ["precrack.0.normal", "surfaces"]),
+        (
+            [plate, held_along_z, pulled, ""],
+            ["support.0.displacement", "body in the plane"],
+        ),
+        (
+            [plate, held, per_area, ""],
+            ["load.0.force_per_area", "force per length"],
+        ),
+        (
+            [plate, held, box_in_space, ""],
+            ["load.0.box.0", "two coordinates"],
+        ),
+        (
+            [plate, held, pulled, disk],
+            ["precrack.0.normal", "surfaces"],
+        ),
         ([plate, held, pulled, probe], ["probe.0.component", "plane"]),
     ] {
         assert_contains(&refused(&Block::new(1.0), &case(parts)), &words);

@@ -50,12 +50,23 @@ fn area(mesh: &SolidMesh, group: &str) -> f64 {
 
 /// The block as `solids.py` describes it: 4 hexahedra, 8 prisms, 20 pyramids and 32 tetrahedra that fill 4 x 2 x 2.
 fn assert_is_block(mesh: &SolidMesh, file: &str) {
-    let counts = ["hexahedron", "prism", "pyramid", "tetrahedron"]
-        .map(|shape| mesh.cells.iter().filter(|it| it.shape_name() == shape).count());
+    let counts = ["hexahedron", "prism", "pyramid", "tetrahedron"].map(|shape| {
+        mesh.cells
+            .iter()
+            .filter(|it| it.shape_name() == shape)
+            .count()
+    });
     assert_eq!(counts, [4, 8, 20, 32], "{file}");
     assert_eq!(mesh.positions.len(), 49, "{file}");
-    assert!((mesh.volume() - 16.0).abs() < 1e-12, "{file}: {}", mesh.volume());
-    assert!(mesh.cells.iter().all(|it| it.volume(&mesh.positions) > 0.0), "{file}");
+    assert!(
+        (mesh.volume() - 16.0).abs() < 1e-12,
+        "{file}: {}",
+        mesh.volume()
+    );
+    assert!(
+        mesh.cells.iter().all(|it| it.volume(&mesh.positions) > 0.0),
+        "{file}"
+    );
 }
 
 const NAMED: [(&str, u8, usize, usize); 6] = [
@@ -72,11 +83,20 @@ const NAMED: [(&str, u8, usize, usize); 6] = [
 #[ignore = "needs LIGAMENT_PYTHON; run by tools/test"]
 fn gmsh_files_by_meshio_are_read() {
     let folder = fixtures();
-    for file in ["ascii-2.2.msh", "binary-2.2.msh", "ascii-4.1.msh", "binary-4.1.msh"] {
+    for file in [
+        "ascii-2.2.msh",
+        "binary-2.2.msh",
+        "ascii-4.1.msh",
+        "binary-4.1.msh",
+    ] {
         let mesh = read(&folder.path().join(file));
         assert_is_block(&mesh, file);
         assert_eq!(groups(&mesh), NAMED, "{file}");
-        assert_eq!([area(&mesh, "left"), area(&mesh, "right")], [4.0, 4.0], "{file}");
+        assert_eq!(
+            [area(&mesh, "left"), area(&mesh, "right")],
+            [4.0, 4.0],
+            "{file}"
+        );
         assert!(mesh.remarks.is_empty(), "{file}: {:?}", mesh.remarks);
     }
 }
@@ -111,9 +131,17 @@ fn solids_of_other_programs_are_kept() {
         ("block.e", &of_exodus),
     ] {
         let output = convert(folder.path(), file, "out.msh");
-        assert_eq!(output.status.code(), Some(0), "{file}: {}", text(&output.stderr));
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{file}: {}",
+            text(&output.stderr)
+        );
         let said = text(&output.stdout);
-        assert!(said.contains("64 (32 tetrahedra, 4 hexahedra, 8 prisms, 20 pyramids)"), "{said}");
+        assert!(
+            said.contains("64 (32 tetrahedra, 4 hexahedra, 8 prisms, 20 pyramids)"),
+            "{said}"
+        );
         let mesh = read(&folder.path().join("out.msh"));
         assert_is_block(&mesh, file);
         assert_eq!(groups(&mesh), expected, "{file}");
@@ -136,5 +164,8 @@ fn unfit_solids_are_refused_or_told_of() {
     }
     let output = convert(folder.path(), "mixed.vtu", "out.msh");
     let said = text(&output.stdout);
-    assert!(said.contains("1 member of the group `part-9` (surface) on no corner of a cell dropped"), "{said}");
+    assert!(
+        said.contains("1 member of the group `part-9` (surface) on no corner of a cell dropped"),
+        "{said}"
+    );
 }

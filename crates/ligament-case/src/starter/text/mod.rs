@@ -1,45 +1,21 @@
 //! The text of a starter case.
 
+mod body;
 mod numbers;
 mod precrack;
 mod section;
 
 use std::fmt::Write;
 
-use ligament_mesh::Group;
 use toml_edit::{Key, Value};
 
 use super::groups::{Ends, Spot};
+use body::size;
+pub(super) use body::{Body, Section};
 use ligament::setup::Law;
 use numbers::{coordinates, digits, exact, quoted};
 use precrack::precrack;
 use section::section;
-
-/// What the case is about.
-pub(super) struct Body<const D: usize> {
-    /// Name of the body, for the title.
-    pub(super) name: String,
-    /// Where it comes from.
-    pub(super) section: Section<D>,
-    /// Groups with a material each; none where one material fills the body.
-    pub(super) parts: Vec<String>,
-    /// The lowest and the highest corner of the box around it, m.
-    pub(super) extent: [[f64; D]; 2],
-    /// Where it is in the middle, m.
-    pub(super) middle: [f64; D],
-    /// Two places on it whose distance along the load is an opening, m.
-    pub(super) opening: [[f64; D]; 2],
-    /// Distance of the points, m.
-    pub(super) spacing: f64,
-}
-
-/// Where a body comes from.
-pub(super) enum Section<const D: usize> {
-    /// From a mesh file.
-    Mesh { file: String, groups: Vec<Group> },
-    /// From a lattice; so many rows or layers are held, and so many are moved.
-    Lattice { cells: [u32; D], rows: u32 },
-}
 
 /// The example material: a concrete-like one.
 const YOUNG: f64 = 30e9;
@@ -282,7 +258,7 @@ limit = {} # stretch, EXAMPLE
         Law::MbbPd { .. } => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
         _ if D > 2 => "\
 # When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, compression, critical-stretch,
-# bond-energy. With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with the `fracture_energy` of the material.
+# bond-energy. With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with `fracture_energy` of the material.
 [[fracture.criterion]]
 kind = \"tension\"
 "
@@ -350,8 +326,4 @@ fn spot<const D: usize>(spot: &Spot<D>, body: &Body<D>) -> String {
             format!("box = [{low}, {high}] # two corners, m: the points in this {shape}\n")
         }
     }
-}
-
-fn size<const D: usize>(body: &Body<D>, axis: usize) -> f64 {
-    body.extent[1][axis] - body.extent[0][axis]
 }

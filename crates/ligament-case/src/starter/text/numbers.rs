@@ -2,7 +2,7 @@
 
 use toml_edit::Value;
 
-use super::Body;
+use super::body::Body;
 
 /// A TOML string.
 pub(super) fn quoted(text: &str) -> String {

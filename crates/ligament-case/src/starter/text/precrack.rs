@@ -1,7 +1,7 @@
 //! An example of a crack that is there from the start, as a comment.
 
+use super::body::{Body, size};
 use super::numbers::{coordinates, exact, quantum};
-use super::{Body, size};
 use crate::starter::groups::Ends;
 
 /// `[[precrack]]`: across the load, in the middle of the body.

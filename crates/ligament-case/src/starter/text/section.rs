@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use ligament_mesh::Group;
 
+use super::body::{Body, Section, size};
 use super::numbers::{exact, quantum, quoted, short};
-use super::{Body, Section, size};
 
 /// `[mesh]` or the section of a lattice.
 pub(super) fn section<const D: usize>(body: &Body<D>) -> String {
