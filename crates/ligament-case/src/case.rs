@@ -5,6 +5,7 @@
 //! and checks one; every fault is reported with its line, column and key path.
 
 mod analysis;
+mod body_kind;
 mod conditions;
 mod coordinates;
 mod correction;
@@ -42,6 +43,7 @@ pub mod values;
 mod word;
 
 pub use analysis::{Analysis, MOST_MODES, Modal};
+pub use body_kind::BodyKind;
 pub use conditions::{Displacement, SpringStiffness, Support, Vector};
 pub use coordinates::Coordinates;
 pub use correction::Correction;
@@ -65,7 +67,6 @@ pub use schema::schema;
 pub use sections::Case;
 pub use solid_lattice_section::SolidLatticeSection;
 pub use solver::{MOST_THREADS, Solver};
-pub use source::BodyKind;
 pub use temperature::Temperature;
 pub use values::Point;
 pub use word::{Word, Worded};

@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, Modal};
+use super::body_kind::BodyKind;
 use super::conditions::Support;
 use super::correction::Correction;
 use super::decode::decode;
@@ -29,7 +30,6 @@ use super::probe::Probe;
 use super::region::Region;
 use super::solid_lattice_section::SolidLatticeSection;
 use super::solver::{self, Solver};
-use super::source::BodyKind;
 use super::stage::Stage;
 use super::temperature::Temperature;
 use super::values::{exactly_one, refuse};

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::body_kind::BodyKind;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
@@ -21,15 +22,6 @@ pub struct Source {
     pub document: Node,
     /// The kind of a body in memory, which stands in the place of the one in the file that the document names.
     pub body: Option<BodyKind>,
-}
-
-/// A body in the plane, or a solid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BodyKind {
-    /// In the plane of x and y.
-    Plane,
-    /// In space.
-    Solid,
 }
 
 impl Source {

@@ -81,8 +81,7 @@ mod tests {
         let mut out = Vec::new();
         write(&mut out, &mesh).unwrap();
         let text = String::from_utf8(out).unwrap();
-        let expected = "\
-  nodes         4
+        let expected = "  nodes         4
   cells         2 (2 triangles, 0 quadrangles)
   area          1.000 m^2
   bounding box  x 0 to 1.000 m, y 0 to 1.000 m

@@ -32,7 +32,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &SolidMesh) -> io::Result<()> {
     line("bounding box", box_in_words(corners))?;
     line("edges", edges_in_words(lengths))?;
     line("spacing", spacing_in_words(mesh, &edges))?;
-    let quality = Quality::of(mesh);
+    let quality = Quality::of_tetrahedra(mesh);
     if let Some(quality) = &quality {
         line("quality", quality.in_words())?;
     }
@@ -105,7 +105,7 @@ struct Quality {
 
 impl Quality {
     /// None where there are no tetrahedra.
-    fn of(mesh: &SolidMesh) -> Option<Self> {
+    fn of_tetrahedra(mesh: &SolidMesh) -> Option<Self> {
         let ratio = |cell: &SolidCell| Some((cell.radius_ratio(&mesh.positions)?, *cell));
         let ratios: Vec<(f64, SolidCell)> = mesh.cells.iter().filter_map(ratio).collect();
         let (worst, cell) = ratios.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;

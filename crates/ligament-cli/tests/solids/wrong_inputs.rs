@@ -243,6 +243,7 @@ fn keys_of_solids_are_refused_in_the_plane() {
     let box_in_space = "box = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]\ndisplacement = { x = 1e-6 }";
     let disk = "[[precrack]]\ncentre = [0.04, 0.02]\nnormal = [1.0, 0.0]\nradius = 0.01";
     let probe = "[[probe]]\nname = \"a\"\nbetween = [[0, 0], [1, 0]]\ncomponent = \"z\"";
+    let turn = "[[probe]]\nname = \"a\"\nat = [0, 0]\nfield = \"rotation_x\"";
     for (parts, words) in [
         (
             [plate, held_along_z, pulled, ""],
@@ -261,6 +262,7 @@ fn keys_of_solids_are_refused_in_the_plane() {
             ["precrack.0.normal", "surfaces"],
         ),
         ([plate, held, pulled, probe], ["probe.0.component", "plane"]),
+        ([plate, held, pulled, turn], ["probe.0.field", "`rotation`"]),
     ] {
         assert_contains(&refused(&Block::new(1.0), &case(parts)), &words);
     }

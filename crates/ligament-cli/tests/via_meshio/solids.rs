@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use ligament_mesh::{AnyMesh, SolidMesh, gmsh};
+use ligament_mesh::{AnyMesh, Group, SolidMesh, gmsh};
 
 use super::{convert, python, text};
 
@@ -25,19 +25,16 @@ fn read(path: &Path) -> SolidMesh {
     }
 }
 
-/// Names and dimensions of groups, with the number of nodes of each and of its edges, faces or cells.
-fn groups(mesh: &SolidMesh) -> Vec<(&str, u8, usize, usize)> {
-    let of_group = |it| {
-        let ligament_mesh::Group {
-            name,
-            dimension,
-            nodes,
-            ..
-        } = it;
-        let members = it.edges.len() + it.faces.len() + it.cells.len();
-        (name.as_str(), *dimension, nodes.len(), members)
-    };
-    let mut groups: Vec<_> = mesh.groups.iter().map(of_group).collect();
+/// Name and dimension of a group, with the number of its nodes and of its edges, faces or cells.
+type Counts<'a> = (&'a str, u8, usize, usize);
+
+fn counts(it: &Group) -> Counts<'_> {
+    let members = it.edges.len() + it.faces.len() + it.cells.len();
+    (it.name.as_str(), it.dimension, it.nodes.len(), members)
+}
+
+fn groups(mesh: &SolidMesh) -> Vec<Counts<'_>> {
+    let mut groups: Vec<_> = mesh.groups.iter().map(counts).collect();
     groups.sort_unstable();
     groups
 }
@@ -69,7 +66,7 @@ fn assert_is_block(mesh: &SolidMesh, file: &str) {
     );
 }
 
-const NAMED: [(&str, u8, usize, usize); 6] = [
+const NAMED: [Counts<'_>; 6] = [
     ("corner", 0, 1, 0),
     ("edge", 1, 5, 4),
     ("first", 3, 27, 12),
