@@ -14,7 +14,6 @@
 //! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
 //! | bonds across holes, and out of a mesh | [`hole`], [`outline`] |
 //! | pre-cracks | [`precrack`] |
-//! | whether points and bonds are fit | [`soundness`] |
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
 //! | failure criteria with their limits | [`criteria`] |
@@ -37,7 +36,6 @@ mod predicates;
 mod product;
 mod rigid_motions;
 pub mod shape;
-pub mod soundness;
 pub mod stress;
 mod sweep;
 pub mod system;
