@@ -32,6 +32,29 @@ pub struct Sweeps {
     pub limit: usize,
 }
 
+impl Sweeps {
+    /// Sweeps over the families of so many bonds, each of which tells the sum over the bonds of |change of Omega|. The report has no
+    /// residual yet.
+    pub(crate) fn repeat(self, n_bonds: usize, mut sweep: impl FnMut() -> f64) -> DomainReport {
+        let tolerance = match self.stop {
+            StopRule::Sum(tolerance) => tolerance,
+            StopRule::Mean(tolerance) => tolerance * n_bonds as f64,
+        };
+        let mut last_change = f64::INFINITY;
+        let mut done = 0;
+        while last_change >= tolerance && done < self.limit {
+            last_change = sweep();
+            done += 1;
+        }
+        DomainReport {
+            sweeps: done,
+            converged: last_change < tolerance,
+            last_change,
+            largest_residual: f64::NAN,
+        }
+    }
+}
+
 /// The continuum whose strain energies the bonds are to have.
 #[derive(Debug, Clone, Copy)]
 pub struct Continuum<'a> {
@@ -55,25 +78,14 @@ pub fn iterate(
     continuum: Continuum<'_>,
     sweeps: Sweeps,
 ) -> Correction {
-    let tolerance = match sweeps.stop {
-        StopRule::Sum(tolerance) => tolerance,
-        StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
-    };
     let density = |mode, bond| energy_density(mode, bond, bonds, stiffness, &length_factor);
     let targets = [StrainMode::UniaxialX, StrainMode::UniaxialY]
         .map(|mode| target_energies(mode, cloud, continuum));
     let mut families = Families::new(bonds, cloud, density, &targets);
-    let mut last_change = f64::INFINITY;
-    let mut done = 0;
-    while last_change >= tolerance && done < sweeps.limit {
-        last_change = families.sweep();
-        done += 1;
-    }
+    let repeated = sweeps.repeat(bonds.len(), || families.sweep());
     let report = DomainReport {
-        sweeps: done,
-        converged: last_change < tolerance,
-        last_change,
         largest_residual: families.largest_residual(),
+        ..repeated
     };
     Correction {
         report: Some(CorrectionReport::Domain(report)),

@@ -12,7 +12,7 @@
 //! | stage | module |
 //! |---|---|
 //! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
-//! | bonds across holes, and out of a mesh | [`hole`], [`outline`] |
+//! | bonds out of a mesh | [`outline`] |
 //! | pre-cracks | [`precrack`] |
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
@@ -26,7 +26,6 @@ pub mod cloud;
 pub mod correction;
 pub mod criteria;
 pub mod element;
-pub mod hole;
 pub mod lattice;
 pub mod law;
 mod mass;

@@ -7,7 +7,7 @@ use super::families::Families;
 use super::strain_mode::SolidStrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::correction::domain::{StopRule, Sweeps};
+use crate::correction::domain::Sweeps;
 use crate::correction::{Correction, CorrectionReport, DomainReport};
 use crate::law::BondStiffness;
 use crate::material::Isotropic;
@@ -29,10 +29,6 @@ pub fn iterate(
     materials: &[Isotropic],
     sweeps: Sweeps,
 ) -> Correction {
-    let tolerance = match sweeps.stop {
-        StopRule::Sum(tolerance) => tolerance,
-        StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
-    };
     let densities = |bond: usize| {
         let factor = length_factor[bond] * bonds.length[bond];
         [
@@ -42,17 +38,10 @@ pub fn iterate(
     };
     let targets = target_energies(SolidStrainMode::UniaxialX, cloud, materials);
     let mut families = Families::new(bonds, cloud, densities, &targets);
-    let mut last_change = f64::INFINITY;
-    let mut done = 0;
-    while last_change >= tolerance && done < sweeps.limit {
-        last_change = families.sweep();
-        done += 1;
-    }
+    let repeated = sweeps.repeat(bonds.len(), || families.sweep());
     let report = DomainReport {
-        sweeps: done,
-        converged: last_change < tolerance,
-        last_change,
         largest_residual: families.largest_residual(),
+        ..repeated
     };
     Correction {
         report: Some(CorrectionReport::Domain(report)),
