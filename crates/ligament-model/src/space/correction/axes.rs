@@ -7,8 +7,7 @@ use super::families::Families;
 use super::strain_mode::SolidStrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::correction::domain::Sweeps;
-use crate::correction::{Correction, CorrectionReport, DomainReport};
+use crate::correction::{Correction, Sweeps};
 use crate::law::BondStiffness;
 use crate::material::Isotropic;
 
@@ -37,16 +36,8 @@ pub fn iterate(
         ]
     };
     let targets = target_energies(SolidStrainMode::UniaxialX, cloud, materials);
-    let mut families = Families::new(bonds, cloud, densities, &targets);
-    let repeated = sweeps.repeat(bonds.len(), || families.sweep());
-    let report = DomainReport {
-        largest_residual: families.largest_residual(),
-        ..repeated
-    };
-    Correction {
-        report: Some(CorrectionReport::Domain(report)),
-        ..Correction::fixed(length_factor, families.into_domain_factors())
-    }
+    let families = Families::new(bonds, cloud, densities, &targets);
+    sweeps.correct(families, length_factor)
 }
 
 /// Strain energy density of every point over the continuum's, for each of [`SolidStrainMode::ALL`], shape (7, n_points).

@@ -1,4 +1,5 @@
 use super::*;
+use crate::correction::{CorrectionReport, StopRule};
 use crate::correction::length::length_factors;
 use crate::horizon::Horizons;
 use crate::space::correction::surface::surface_factors;
