@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`page`] | the page: what is asked for, and the file that is written |
 //! | `run` | a folder of results as the page has it |
+//! | `solid` | pictures of a solid over the steps |
 //! | `body` | points, cells and the order of the points |
 //! | `fields` | fields over the steps |
 //! | `bonds` | bonds, their limits and what became of them |
@@ -23,6 +24,7 @@ mod fields;
 mod history;
 pub mod page;
 mod run;
+mod solid;
 mod summary;
 
 pub use page::{Contents, ReportError, Request, Written, write_report};
