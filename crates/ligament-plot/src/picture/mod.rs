@@ -108,7 +108,9 @@ pub enum PictureError {
         n_results: usize,
     },
     /// A solid in a kind of picture that shows bodies in the plane.
-    #[error("{0} shows bodies in the plane, and this one is a solid; draw it, or a section of it, by `ligament plot`")]
+    #[error(
+        "{0} shows bodies in the plane, and this one is a solid; draw it, or a section of it, by `ligament plot`"
+    )]
     Solid(&'static str),
     /// A view, section or level for a body in the plane.
     #[error("{0} has a body in the plane; --view, --section and --iso are for solids")]
