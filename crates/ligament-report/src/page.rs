@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use ligament_output::{Error, replace_file};
-use ligament_plot::picture::PictureError;
+use ligament_output::replace_file;
 use serde_json::{Value, json};
-use thiserror::Error as ThisError;
 
-use crate::run::{Choice, PageRun, Texts};
+use crate::error::ReportError;
+use crate::parts::{Choice, Texts};
+use crate::run::PageRun;
 use crate::summary::escaped;
 
 /// The page with places for its parts, and the parts of its program in the order in which they are joined.
@@ -71,25 +71,6 @@ pub struct Contents {
     pub steps: usize,
     /// Names of fields and properties of bonds for which there was no room.
     pub left_out: Vec<String>,
-}
-
-/// Why there is no page.
-#[derive(Debug, ThisError)]
-pub enum ReportError {
-    /// Results cannot be read, or the page cannot be written.
-    #[error(transparent)]
-    Results(#[from] Error),
-    /// A solid cannot be drawn.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// There are as many labels as results, or none.
-    #[error("{n_labels} labels for {n_results} results; give one for each, in their order")]
-    Labels {
-        /// Labels given.
-        n_labels: usize,
-        /// Results given.
-        n_results: usize,
-    },
 }
 
 /// Writes a page of the results.

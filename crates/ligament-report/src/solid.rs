@@ -18,8 +18,8 @@ use miniz_oxide::deflate::compress_to_vec;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::page::ReportError;
-use crate::run::{Budget, Choice, Drawn, Stored, Texts};
+use crate::error::ReportError;
+use crate::parts::{Budget, Choice, Drawn, Stored, Texts};
 
 /// Fields of the points that a crack surface has of its own.
 const OF_CRACK: [&str; 2] = ["opening", "sliding"];
