@@ -98,7 +98,6 @@ fn what_is_of_the_plane_alone_says_so() {
             &["yield", "--case", "case.toml"],
             "case.toml:2:8: mesh.file: the body is a solid",
         ),
-        (&["report", "results"], "the body is a solid"),
         (
             &[
                 "profile", "results", "--from", "0,0", "--to", "1,0", "--field", "damage",
