@@ -32,12 +32,12 @@ impl Setup {
         self.check_rotational_scale()?;
         self.check_precracks()?;
         self.check_closing()?;
-        self.check_probes()?;
+        self.check_readings()?;
         self.check_components()
     }
 
     /// Probes read forces along x and y, and motions that points of the plane have.
-    fn check_probes(&self) -> Checked {
+    fn check_readings(&self) -> Checked {
         for (index, probe) in self.probes.iter().enumerate() {
             let probed = Field::element("probes", index);
             match probe.reading {
