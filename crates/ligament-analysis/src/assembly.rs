@@ -12,28 +12,40 @@ use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
 
+/// Points whose columns are one task.
+const TASK: usize = 1024;
+
 /// The pattern of the matrix (upper triangle) for some unknowns, with all bonds: breakages only take couplings away.
 pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
     let coupled = system.coupled_points();
-    let mut column_starts = vec![0];
-    let mut rows = Vec::new();
-    for point in 0..system.n_points() {
-        let lower = unknowns
-            .restraints()
-            .lower_points(unknowns.layout(), coupled, point);
-        let lower_rows: Vec<usize> = (lower.into_iter())
-            .flat_map(|other| unknowns.of_point(other as usize).map(|(row, _)| row))
-            .collect();
-        for (column, _) in unknowns.of_point(point) {
-            rows.extend_from_slice(&lower_rows);
-            rows.extend(
-                unknowns
-                    .of_point(point)
-                    .map(|(row, _)| row)
-                    .filter(|&row| row <= column),
-            );
-            column_starts.push(rows.len());
+    let n_points = system.n_points();
+    let of_points = |first: usize| {
+        let (mut ends, mut rows) = (Vec::new(), Vec::new());
+        for point in first..(first + TASK).min(n_points) {
+            let (layout, restraints) = (unknowns.layout(), unknowns.restraints());
+            let lower = restraints.lower_points(layout, coupled, point);
+            let lower_rows: Vec<usize> = (lower.into_iter())
+                .flat_map(|other| unknowns.of_point(other as usize).map(|(row, _)| row))
+                .collect();
+            for (column, _) in unknowns.of_point(point) {
+                rows.extend_from_slice(&lower_rows);
+                let own = unknowns.of_point(point).map(|(row, _)| row);
+                rows.extend(own.filter(|&row| row <= column));
+                ends.push(rows.len());
+            }
         }
+        (ends, rows)
+    };
+    let parts: Vec<(Vec<usize>, Vec<usize>)> = (0..n_points.div_ceil(TASK))
+        .into_par_iter()
+        .map(|task| of_points(TASK * task))
+        .collect();
+    let mut column_starts = vec![0];
+    let mut rows = Vec::with_capacity(parts.iter().map(|(_, rows)| rows.len()).sum());
+    for (ends, of_part) in parts {
+        let first = rows.len();
+        column_starts.extend(ends.into_iter().map(|end| first + end));
+        rows.extend(of_part);
     }
     Pattern::new(column_starts, rows)
 }

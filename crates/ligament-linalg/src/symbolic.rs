@@ -54,27 +54,34 @@ impl Symbolic {
         };
         let analyse = |ordering| {
             factorize_symbolic_cholesky(symbolic_view(&pattern), Side::Upper, ordering, parameters)
+                .map_err(|error| match error {
+                    FaerError::IndexOverflow => FactorError::IndexOverflow,
+                    _ => FactorError::OutOfMemory {
+                        bytes: size_of::<usize>() * pattern.n_entries(),
+                    },
+                })
         };
-        let cholesky = match elimination {
-            Elimination::MinimumDegree => analyse(SymmetricOrdering::Amd),
+        let (cholesky, sources) = match elimination {
+            Elimination::MinimumDegree => {
+                let cholesky = analyse(SymmetricOrdering::Amd)?;
+                let sources = Sources::new(&pattern, permutation(&cholesky).1)?;
+                (cholesky, sources)
+            }
             Elimination::Given(order) => {
                 let places = inverse(&order);
-                let permutation =
-                    Perm::new_checked(order.into(), places.into(), pattern.dimension());
-                analyse(SymmetricOrdering::Custom(permutation.as_ref()))
+                let checked =
+                    Perm::new_checked(order.into(), places.clone().into(), pattern.dimension());
+                let ordering = SymmetricOrdering::Custom(checked.as_ref());
+                let (cholesky, sources) =
+                    rayon::join(|| analyse(ordering), || Sources::new(&pattern, &places));
+                (cholesky?, sources?)
             }
-        }
-        .map_err(|error| match error {
-            FaerError::IndexOverflow => FactorError::IndexOverflow,
-            _ => FactorError::OutOfMemory {
-                bytes: size_of::<usize>() * pattern.n_entries(),
-            },
-        })?;
+        };
         let supernodes = Supernodes::from_analysis(&cholesky);
         Ok(Self {
             branch: Branch::of_factor(supernodes),
-            sources: Sources::new(&pattern, permutation(&cholesky).1)?,
             reaching: Reaching::new(supernodes),
+            sources,
             pattern,
             cholesky,
         })
