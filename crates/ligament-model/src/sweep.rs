@@ -124,14 +124,18 @@ impl BondSweep {
             let sizes = places.flat_map(|place| sums.iter().map(move |forces| forces.size[place]));
             sizes.fold(0.0, f64::max)
         };
+        let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
+            let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
+            of_points.into_flattened()
+        };
         Self {
             internal: InternalForces {
                 force_scale: largest(false),
                 moment_scale: largest(true),
-                values: sums.iter().flat_map(|forces| forces.sum).collect(),
+                values: collected(|forces| forces.sum),
                 thermal: parts.iter().map(|part| part.thermal).sum(),
             },
-            sizes: sums.iter().flat_map(|forces| forces.size).collect(),
+            sizes: collected(|forces| forces.size),
             stored_energy: parts.iter().map(|part| part.energy).sum(),
             expansion_energy: parts.iter().map(|part| part.expansion_energy).sum(),
             deformations,
