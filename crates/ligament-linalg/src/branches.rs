@@ -1,6 +1,6 @@
 //! Parts of the factor that do not wait for each other: the elimination tree, cut into branches.
 //!
-//! A supernode needs those of its own subtree alone (Liu 1990, "The role of elimination trees in sparse factorization"), so subtrees
+//! A supernode needs those of its own subtree alone (Liu 1990), so subtrees
 //! are tasks of their own. Supernodes keep their numbers: a subtree here is a range of them, which takes in what an awkward order puts
 //! between two descendants. Nothing of this depends on the number of threads.
 

@@ -108,7 +108,7 @@ impl LeftLooking<'_> {
             }
         }
         let supernodes = self.symbolic.supernodes();
-        for &reaching in self.symbolic.reaching().of(supernode) {
+        for &reaching in self.symbolic.reaching().supernodes(supernode) {
             let reaching = reaching as usize;
             let panel = supernodes.panel(reaching);
             let source = Source {

@@ -1,7 +1,5 @@
 //! What a factor is made of, in the order of elimination: entries of the matrix, and supernodes that reach each other.
 
-use std::ops::Range;
-
 use crate::factor_error::FactorError;
 use crate::matrix::Pattern;
 use crate::supernodes::Supernodes;
@@ -95,8 +93,7 @@ impl Reaching {
     }
 
     /// The supernodes that reach one, ascending.
-    pub(crate) fn of(&self, supernode: usize) -> &[u32] {
-        let Range { start, end } = self.starts[supernode]..self.starts[supernode + 1];
-        &self.supernodes[start..end]
+    pub(crate) fn supernodes(&self, reached: usize) -> &[u32] {
+        &self.supernodes[self.starts[reached]..self.starts[reached + 1]]
     }
 }
