@@ -19,7 +19,7 @@ pub struct IsosurfaceRequest {
     pub folder: PathBuf,
     /// Field with its component, as pictures know it.
     pub field: String,
-    /// Its value, SI units.
+    /// Value of the field on the surface, SI units.
     pub level: f64,
     /// The steps, or modes: of one `iso.vtu` is written, of all `iso_NNNN.vtu` and `iso.pvd`.
     pub step: StepChoice,
@@ -30,7 +30,7 @@ pub struct IsosurfaceRequest {
 pub struct Isosurface {
     /// The step.
     pub step: usize,
-    /// Its area in the body without load, m^2.
+    /// Area in the body without load, m^2.
     pub area: f64,
     /// Triangles; without any there is no file.
     pub triangles: usize,

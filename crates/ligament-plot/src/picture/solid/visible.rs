@@ -99,12 +99,14 @@ impl DepthBuffer {
             let whole = columns.start as f64..columns.end as f64 - 1.0;
             let inside = within(whole, starts, slopes);
             let depth = (0..3).map(|it| starts[it] * depths[it]).sum::<f64>();
-            let dots = &mut self.nearest[row * self.size[0]..];
-            for column in inside.start.ceil() as usize..(inside.end.floor() + 1.0).max(0.0) as usize
-            {
+            let first = inside.start.ceil() as usize;
+            let end = (inside.end.floor() + 1.0).max(0.0) as usize;
+            let start = row * self.size[0];
+            let dots = self.nearest.get_mut(start + first..start + end);
+            for (column, nearest) in (first..).zip(dots.unwrap_or_default()) {
                 let depth = depth + along * column as f64;
-                if depth > dots[column].0 {
-                    dots[column] = (depth, number);
+                if depth > nearest.0 {
+                    *nearest = (depth, number);
                 }
             }
         }
