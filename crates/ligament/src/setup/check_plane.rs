@@ -41,7 +41,9 @@ impl Setup {
         for (index, probe) in self.probes.iter().enumerate() {
             let probed = Field::element("probes", index);
             match probe.reading {
-                Reading::Section { component, .. } if component == Axis::Z => {
+                Reading::Section {
+                    component: Axis::Z, ..
+                } => {
                     return contradiction(probed.part("component"), NO_Z);
                 }
                 Reading::Between { component, .. } if !Component::ALL.contains(&component) => {
