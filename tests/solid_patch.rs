@@ -5,11 +5,13 @@
 use ligament::patch_test::{SolidPatchTest, solid_patch_test};
 use ligament::prelude::*;
 use ligament::setup::{CorrectionDomain, Surface};
-use ligament::{Warning, body::SolidLatticeBody, body::SolidMeshBody};
+use ligament::{Warning, body::SolidMeshBody};
+use ligament_case::case::CaseFile;
 use ligament_mesh::{Group, SolidCell, SolidMesh};
 use ligament_model::Canvas;
 use ligament_model::correction::patch::Settings;
 use verification::numbers::relative_error;
+use verification::repository;
 use verification::solids::block;
 
 const MATERIAL: Isotropic = Isotropic {
@@ -175,8 +177,10 @@ fn equations_that_cannot_be_met_are_told_with_a_remedy() {
 
 #[test]
 fn lattices_and_cracked_bodies_are_refused() {
-    let body = SolidLatticeBody::new([6, 4, 4], [1.0; 3], [0.0; 3], &[], &[].into()).unwrap();
-    let error = patched(body, 2.5).check().unwrap_err();
+    let path = repository().join("cases/lattice-sphere/case.toml");
+    let case = CaseFile::load(&path, &["correction.surface=\"patch\"".to_owned()]).unwrap();
+    let lattice = case.setup_in_space(&mut ()).unwrap();
+    let error = lattice.check().unwrap_err();
     assert!(
         error.to_string().contains("patch correction of solids"),
         "{error}"

@@ -9,10 +9,10 @@ pub enum Component {
     X,
     /// Displacement along y, m.
     Y,
-    /// Displacement along z, m.
-    Z,
     /// Rotation in the plane, counter-clockwise, rad.
     Rotation,
+    /// Displacement along z, m.
+    Z,
     /// Rotation about x, right-handed, rad.
     RotationX,
     /// Rotation about y, right-handed, rad.
